@@ -5,7 +5,6 @@ Runs the process until the command line is imported, which takes a while: Ctrl-C
 
 import os
 import sys
-from typing import NoReturn
 
 INTERRUPTED = 130  # shells' exit status for SIGINT
 
@@ -14,11 +13,12 @@ def main() -> int:
     """Run `lucida` with the process's arguments. Return the exit status (app/cli.py)."""
     # Keeps libraries that start Python, such as glfw, from importing from the current folder.
     os.environ["PYTHONSAFEPATH"] = "1"
+    # The matrices here are small: waking other threads takes longer than multiplying.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
-        from app.window import process, quick_start
+        from app.window import process
 
         process.interrupt_between_imports()
-        quick_start.begin()
         from app.cli import main as run
 
         process.interrupt_after_imports()
@@ -38,14 +38,6 @@ def leave_current_folder() -> None:
         del sys.path[0]
 
 
-def main_to_the_end() -> NoReturn:
-    """Run main(), then end the process at once."""
-    status = main()
-    from app.window import quick_start
-
-    quick_start.end(status)
-
-
 if __name__ == "__main__":
     leave_current_folder()
-    main_to_the_end()
+    sys.exit(main())

@@ -49,6 +49,5 @@ ROOMS: tuple[Room, ...] = (
     Room("app.mistakes", ("mistakes",)),
     Room("app.your_code", ("your-code",)),
     Room("app.poses", ("poses",)),
-    Room("app.detective", ("detective",)),
     Room("app.lecture"),
 )

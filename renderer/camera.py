@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from pyrr import matrix44
 
 from renderer.camera_checks import (
     SMALLEST,
@@ -384,8 +385,6 @@ class Camera:
         It maps near to -1 and far to +1. near, far: distances along -w in units of w; 0 < near <
         far in perspective.
         """
-        from pyrr import matrix44  # imported late: the tracer does not need it
-
         # pyrr uses row vectors, so transpose.
         if self.is_parallel:
             return matrix44.create_orthogonal_projection(*self.viewport, near, far).T

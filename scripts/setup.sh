@@ -15,7 +15,7 @@ cd "$(dirname "$0")/.."
 
 VENV=.venv
 GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri libosmesa6"
-DESK_PACKAGES="xvfb openbox xdotool bubblewrap chromium"
+DESK_PACKAGES="xvfb openbox xdotool chromium"
 LOCALE=en_US.UTF-8
 
 main() {

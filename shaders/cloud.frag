@@ -12,7 +12,7 @@ uniform float hidden;           // light where something is nearer
 out vec4 color;
 
 void main() {
-    float row = upward > 0.0 ? gl_FragCoord.y : 2.0 * half_size.y - gl_FragCoord.y;
+    float row = gl_FragCoord.y;
     vec2 position = vec2(gl_FragCoord.x, row);
     vec4 shown = texelFetch(cloud, ivec2(position), 0);
     if (shown.a == 0.0) {

@@ -7,7 +7,6 @@
 
 uniform vec2 origin;           // the image's upper left corner, in the target
 uniform vec2 texels_per_pixel;
-uniform float rows;            // of the target, if the first is the lowest; else 0
 
 out vec4 color;
 
@@ -32,8 +31,7 @@ vec3 mean_seen(vec2 low, vec2 high, vec2 size) {
 void main() {
     bool has_values = SHOWS_COLOR || SHOWS_DEPTH || SHOWS_NORMAL;
     ivec2 size = has_values ? textureSize(values, 0) : textureSize(numbers, 0);
-    float row = rows > 0.0 ? rows - gl_FragCoord.y : gl_FragCoord.y;
-    vec2 center = vec2(gl_FragCoord.x, row) - origin;
+    vec2 center = gl_FragCoord.xy - origin;
     vec3 value;
     if (AVERAGED) {
         vec2 half_pixel = vec2(0.5);

@@ -20,5 +20,5 @@ void main() {
     plane = plane_under(corner);
     fill_color = color;
     fill_style = style;
-    gl_Position = vec4(vec2(1.0, upward) * (corner - half_size) / half_size, 0.0, 1.0);
+    gl_Position = vec4((corner - half_size) / half_size, 0.0, 1.0);
 }

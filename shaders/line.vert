@@ -3,7 +3,6 @@
 // (SEGMENT in renderer/raster/lines.py); no glLineWidth, which core profiles need not have.
 
 uniform vec2 half_size;  // of the target, in pixels
-uniform float upward;    // see chunks/outside.glsl
 uniform float edge;      // beyond the line's own width, on each side; thin lines have less
 
 in vec2 start;
@@ -31,5 +30,5 @@ void main() {
     line_color = color;
     line_style = style;
     vec2 middle = position - half_size;
-    gl_Position = vec4(vec2(1.0, upward) * middle / half_size, 0.0, 1.0);
+    gl_Position = vec4(middle / half_size, 0.0, 1.0);
 }

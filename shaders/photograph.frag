@@ -13,7 +13,6 @@ uniform vec4 covered;          // of the photograph, likewise
 uniform float opacity;
 uniform vec2 pixels;           // of the image, across and down
 uniform float level;           // of the photograph's smaller versions, from 0
-uniform bool upside_down;      // the target's first row is the lowest
 
 out vec4 color;
 
@@ -31,7 +30,6 @@ bool is_hit(vec2 at) {
 void main() {
     vec3 rgb = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
     vec2 part = gl_FragCoord.xy / extent;
-    if (upside_down) part.y = 1.0 - part.y;
     vec2 at = mix(shown.xy, shown.zw, part);
     if (level == 0.0) at = (floor(at * pixels) + 0.5) / pixels;  // enlarged, pixels stay squares
     vec2 place = (at - covered.xy) / (covered.zw - covered.xy);

@@ -10,5 +10,5 @@ void main() {
     vec2 high = min(plane_box.zw + 2.0, half_size);
     vec2 corner = mix(low, high, vec2(gl_VertexID & 1, gl_VertexID >> 1));
     position = corner + half_size;
-    gl_Position = vec4(vec2(1.0, upward) * corner / half_size, 0.0, 1.0);
+    gl_Position = vec4(corner / half_size, 0.0, 1.0);
 }

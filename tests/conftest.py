@@ -11,7 +11,6 @@ import sys
 import pytest
 from hypothesis import settings
 
-from app.window.quick_start import without_garbage
 from renderer.errors import LucidaError
 from renderer.raster import Rasterizer
 from renderer.scene import BUILTIN_SCENES, load_scene
@@ -35,13 +34,6 @@ def pytest_sessionstart(session):
 def pytest_xdist_auto_num_workers():
     """Two more than there are processors: a window waits for its display and its clock, too."""
     return (os.cpu_count() or 1) + 2
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_collection():
-    """Look for no garbage while thousands of tests are collected, which stay."""
-    with without_garbage():
-        return (yield)
 
 
 LONGEST = ("test_window", "test_desk", "test_isolation", "test_trace_cache")

@@ -9,8 +9,6 @@ out; the next run tries again. Owns these folders. Needs the standard library on
 
 from __future__ import annotations
 
-import json
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -21,9 +19,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 NAMES = ("bench", "conformance", "notebooks")
 CONSTRAINTS = "constraints.txt"
-# Peers that want another NumPy than Lucida does: each lies in a folder of its own, which only its
-# own process has on its path.
-APART = ("bpy",)
 
 
 def folder_of(name: str) -> Path:
@@ -34,32 +29,14 @@ def requirements_of(name: str) -> Path:
     return ROOT / f"requirements-{name}.txt"
 
 
-def packages_of(name: str) -> Path:
-    """Return the list of npm's packages; not every environment has one."""
-    return ROOT / "tests" / name / "package.json"
-
-
-def apart(folder: Path, name: str) -> Path:
-    """Return the folder of one of APART."""
-    return folder / "apart" / name
-
-
-def prepare(folder: Path, requirements: Path, packages: Path | None = None) -> dict[str, str]:
-    """Makes the environment complete. Gives what could not be installed, and why.
-
-    packages: a package.json, for the peers that run under node.
-    """
+def prepare(folder: Path, requirements: Path) -> dict[str, str]:
+    """Complete the environment. Return what could not be installed, and why."""
     made(folder)
     failed = {}
     for line in wanted(requirements.read_text()):
         why = _install(folder, line)
         if why:
             failed[line] = why
-    if packages is not None and packages.exists():
-        for name, version in json.loads(packages.read_text())["dependencies"].items():
-            why = _install_for_node(folder, name, version)
-            if why:
-                failed[f"{name}@{version}"] = why
     return failed
 
 
@@ -102,14 +79,10 @@ def _install(folder: Path, requirement: str) -> str:
     say(f"installing {requirement}")
     command = [str(python_of(folder)), "-m", "pip", "install", "--quiet"]
     command += ["--disable-pip-version-check", "--retries", "1"]
-    if name in APART:
-        shutil.rmtree(apart(folder, name), ignore_errors=True)
-        command += ["--target", str(apart(folder, name)), requirement]
-    else:
-        # Lucida is to be held against with the packages that it runs with, whatever a peer likes.
-        constraints = folder / CONSTRAINTS
-        constraints.write_text("".join(f"{line}\n" for line in _installed()))
-        command += ["--constraint", str(constraints), requirement]
+    # Peers are compared with the packages that Lucida runs with.
+    constraints = folder / CONSTRAINTS
+    constraints.write_text("".join(f"{line}\n" for line in _installed()))
+    command += ["--constraint", str(constraints), requirement]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         lines = [line for line in done.stderr.splitlines() if line.strip()]
@@ -117,22 +90,6 @@ def _install(folder: Path, requirement: str) -> str:
         return (errors or lines or ["pip failed"])[-1].removeprefix("ERROR: ")
     stamp.write_text(requirement)
     return ""
-
-
-def _install_for_node(folder: Path, name: str, version: str) -> str:
-    """Installs one package of node's into the environment; gives why that failed, or ""."""
-    stamp = folder / "node_modules" / name / "package.json"
-    if stamp.exists() and json.loads(stamp.read_text())["version"] == version:
-        return ""
-    npm = shutil.which("npm")
-    if npm is None or shutil.which("node") is None:
-        return "node and npm are not there"
-    say(f"installing {name}@{version}")
-    command = [npm, "install", "--prefix", str(folder), "--no-save", "--no-package-lock"]
-    command += ["--ignore-scripts", "--no-audit", "--no-fund", f"{name}@{version}"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    lines = [line for line in done.stderr.splitlines() if line.strip()]
-    return (lines or ["npm failed"])[-1] if done.returncode else ""
 
 
 def _installed() -> list[str]:
@@ -151,8 +108,7 @@ def ask(folder: Path, code: str) -> str:
 
 def main(name: str) -> int:
     """Always 0: what is run goes on with whatever could be installed."""
-    parts = folder_of(name), requirements_of(name), packages_of(name)
-    for requirement, why in prepare(*parts).items():
+    for requirement, why in prepare(folder_of(name), requirements_of(name)).items():
         say(f"{requirement} is left out: {why}")
     return 0
 

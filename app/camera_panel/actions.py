@@ -6,12 +6,14 @@ and navigation.py, the texts from text.py and reader.py.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
 from imgui_bundle import imgui
 
 from app.cameras.lens_choices import LENS_PRESETS, LensPreset
+from app.cameras.meanings import Meaning, matrix_in, meanings
 from app.cameras.presets import PRESETS, Preset, framed, preset_view
 from app.cameras.reader import read_copied
 from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
@@ -135,18 +137,28 @@ def clipboard_text() -> str:
 
 
 def paste(window: Host) -> None:
-    """Paste the camera from the clipboard. Offer other text to the views; if none takes it, a
-    message says what to do.
-    """
+    """Paste the camera from the clipboard. Ask for the meaning of a matrix without a name."""
     text = clipboard_text()
     try:
         copied = read_copied(text, window.state.view)
     except LucidaError as error:
-        if not window.take(text):
+        matrix, center = matrix_in(text), window.focus.center
+        found = [] if matrix is None else meanings(matrix, window.state.view, center)
+        if not found:
             window.files.message = str(error)
+            return
+        answers: dict[str, Callable[[], None]] = {
+            meaning.words: partial(_take, window, meaning) for meaning in found
+        }
+        window.files.ask("What does the pasted matrix mean? The camera is:", answers)
         return
     window.travel(with_its_basis(window.state.with_view(copied.view)))
     window.files.say(copied.said)
+
+
+def _take(window: Host, meaning: Meaning) -> None:
+    window.travel(with_its_basis(window.state.with_view(meaning.view)))
+    window.files.say(f"The camera is the pasted matrix's: {meaning.words.splitlines()[0]}.")
 
 
 def form_name(form: Form) -> str:

@@ -34,15 +34,11 @@ FORM_NOTES: dict[Form, str] = {
     "OpenGL matrices": "camera_from_world and clip_from_camera as drawn, column by column.",
     "OpenCV": "A calibration file (.yml) with K, R and t, for images of the size that is shown.",
     "NeRF": "A transforms.json with this one frame.",
-    "Blender": "A Python script, to be run in Blender's text editor.",
-    "three.js": "JSON for ObjectLoader.",
-    "glTF": "A .gltf file with the camera alone.",
-    "Mitsuba": "A sensor of Mitsuba 3, for a scene's XML.",
-    "pbrt": "LookAt, Camera and Film of pbrt-v4, for a scene's file.",
+    "glTF": "A .gltf file with the camera alone, for Blender, three.js and engines.",
 }
 PASTE_NOTE = """\
-Reads a camera from the clipboard (Ctrl+V): any of these but Mitsuba and pbrt, whoever wrote it.
-What it was taken for, and by which conventions, is told."""
+Read a camera from the clipboard (Ctrl+V), in any of these forms. A message names the form and the
+conventions."""
 ORIGINS: tuple[tuple[str, PixelOrigin], ...] = (("centres", "center"), ("corners", "corner"))
 ORIGIN_NOTES: dict[PixelOrigin, str] = {
     "center": "The first pixel's centre is (0, 0), as in OpenCV.",

@@ -51,7 +51,7 @@ def read_copied(text: str, now: View) -> TakenCamera:
         if "[camera]" in text:
             return _own(_from_toml(text), "a view file")
         for entry in FORMATS:
-            if entry.reads and entry.module.recognises(_given(text)):
+            if entry.module.recognises(_given(text)):
                 return _from_others(text, entry.name, now)
     except LucidaError as error:
         raise error.in_file(SOURCE) from None

@@ -1,7 +1,7 @@
 """A camera as text to copy: a view file, a command line, Python, OpenGL matrices; and every other
 format of a single text file.
 
-reader.py reads them back, except those that are only written.
+reader.py reads them back.
 """
 
 from __future__ import annotations
@@ -21,19 +21,14 @@ from renderer.scene import view_to_toml
 from renderer.scene.model import View
 
 Form = Literal[
-    "view file", "command line", "Python", "OpenGL matrices", "OpenCV", "NeRF",
-    "Blender", "three.js", "glTF", "Mitsuba", "pbrt",
+    "view file", "command line", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"
 ]  # fmt: skip
 FORMS: tuple[Form, ...] = get_args(Form)
 # Those of other programs, by the format's name.
 FORMATS_OF: dict[Form, str] = {
     "OpenCV": "opencv",
     "NeRF": "nerf",
-    "Blender": "blender",
-    "three.js": "three",
     "glTF": "gltf",
-    "Mitsuba": "mitsuba",
-    "pbrt": "pbrt",
 }
 # What people call the formats, by their names.
 CALLED = {

@@ -19,15 +19,13 @@ class Limits:
     """Limits of a run of the student's code.
 
     seconds: for all calls together, from the program's start.
-    memory_mb: memory of the process.
+    memory_mb: memory of each process, on Linux.
     output: the number of printed characters that are kept.
-    network: True if the code may connect to other machines.
     """
 
     seconds: float = 20.0
     memory_mb: int = 1024
     output: int = 20_000
-    network: bool = False
 
 
 @dataclass(frozen=True)

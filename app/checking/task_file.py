@@ -90,7 +90,6 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
         if not 64 <= file.memory_mb <= 1 << 20:
             raise LucidaError("memory_mb", f"{file.memory_mb} is out of range", "give e.g. 1024")
         limits = replace(limits, memory_mb=file.memory_mb)
-    limits = replace(limits, network=file.network)
     shared = Conventions()
     if file.conventions.camera is not None:
         camera = tuple(_camera("conventions.camera", file.conventions.camera))

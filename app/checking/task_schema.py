@@ -80,7 +80,7 @@ class TaskFile(StrictTable, kw_only=True):
 
     seconds, memory_mb: limits, unless the command line sets them.
     notation: the symbols of the diagnosis and of arguments that have the names of their words.
-    network: the student's program may connect to other machines.
+    network: the student's program may connect to other machines; not enforced.
     """
 
     title: str = ""

@@ -31,9 +31,9 @@ Say what a camera of any format is: eye, basis, viewport, d, fields of view, foc
 principal point, and which conventions it was taken by. With --to or -o: write it in another one."""
 
 EPILOG = """\
-formats: view (Lucida's view file), opencv, colmap, nerf, gltf, opengl, blender, three; to read
-only: calibration, reconstruction; to write only: mitsuba, pbrt. docs/cameras.md says what each
-holds, and has the formulas.
+formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr), colmap, nerf,
+gltf (for Blender, three.js and engines), opengl. docs/cameras.md says what each holds, and has the
+formulas.
 
 A file of several cameras: --frame or --image chooses one, or INPUT#12, INPUT#IMG_7.jpg. Without,
 all are written where the format holds several. Nothing is written where one cannot be held.
@@ -180,15 +180,13 @@ def _target(arguments: argparse.Namespace) -> Format | None:
         raise LucidaError("--json", "is given beside --to or -o", "it says what INPUT is")
     if arguments.to is None:
         ending = Path(output).suffix.lower()
-        names = [entry.name for entry in FORMATS if ending in entry.endings and entry.writes]
+        names = [entry.name for entry in FORMATS if ending in entry.endings]
         if len(names) != 1:
             problem = f"is missing: {_of_ending(ending)} {'several formats' if names else 'none'}"
-            all_names = [entry.name for entry in FORMATS if entry.writes]
+            all_names = [entry.name for entry in FORMATS]
             raise LucidaError("--to", problem, f"give one of {', '.join(names or all_names)}")
         return _format("--to", names[0])
     target = _format("--to", arguments.to)
-    if not target.writes:
-        raise LucidaError("--to", f"{target.name} is only read", "give another format")
     if output is None:
         if not any(target.endings):
             raise LucidaError("-o", "is missing", f"{target.name} is a folder: give its name")

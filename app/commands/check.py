@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from app.checking.calls import Limits, Student
     from app.checking.checked import TaskResult
     from app.checking.reports.pictured import Pictured
-    from app.checking.running.isolation import Access
+    from app.checking.running.account import Account
     from app.checking.tasks import CheckTask
 
 NAME = "check"
@@ -35,8 +35,8 @@ Check what a student wrote: a Python file, a file of rays, or any program; and s
 instead. `lucida tasks` lists what can be asked; docs/checking.md has it all."""
 
 EPILOG = """\
-The code runs in a process of its own, with limits on time and memory, and walled in where the
-system can do that: bubblewrap or Landlock on Linux, and --as.
+The code runs in a process of its own, with limits on time and memory. Without --as, a dishonest
+program could read the right answers, change its results, or end the check.
 exit status: 0 all correct, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
 
@@ -107,7 +107,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="of the process (default: 1024)",
     )
     parser.add_argument(
-        "--as", dest="user", metavar="USER", help="run the code as this user (needs root)"
+        "--as",
+        dest="user",
+        metavar="USER",
+        help="run the code as this user, who has no other processes (needs root on Linux)",
+    )
+    parser.add_argument(
+        "--python", metavar="PATH", help="run a Python file by this interpreter (default: Lucida's)"
     )
     parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; all: of all")
     parser.add_argument("-o", dest="output", metavar="FILE", help="where to write that")
@@ -190,10 +196,8 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
     for path in (arguments.json, arguments.html):
         if path not in (None, "-"):
             check_writable(path)
-    if arguments.user is not None:
-        from app.checking.running.isolation import user_ids
-
-        user_ids(arguments.user)
+    if arguments.python is not None and arguments.command is not None:
+        raise LucidaError("--python", "is for Python files", "name it in --command")
     if arguments.output is not None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
@@ -214,27 +218,30 @@ def _checked(arguments: argparse.Namespace) -> str:
     return str(arguments.command if arguments.file is None else arguments.file)
 
 
-def _access(arguments: argparse.Namespace) -> Access:
-    """Return the access rights of the student's program. Print what a dishonest one could do, if
-    any.
+def _account(arguments: argparse.Namespace) -> Account | None:
+    """Return the user of the student's program, who can reach neither results nor tasks.
+
+    Without one, print what a dishonest program could do.
     """
     from app.checking.courses import task_path
-    from app.checking.running.isolation import Access, remark
+    from app.checking.running.account import account
+    from app.checking.running.program import DISHONEST
 
-    hidden = [Path(path) for path in (arguments.json, arguments.html) if path not in (None, "-")]
-    if arguments.tasks is not None:
-        hidden.append(Path(task_path(arguments.tasks)))
-    access = Access(False, tuple(hidden), arguments.user or "")
-    if text := remark(access):
-        print(f"lucida: {text}", file=sys.stderr)
-    return access
+    if arguments.user is None:
+        print(f"lucida: {DISHONEST}", file=sys.stderr)
+        return None
+    user = account(arguments.user)
+    results = [Path(path) for path in (arguments.json, arguments.html) if path not in (None, "-")]
+    own_tasks = arguments.tasks is not None and Path(arguments.tasks).is_file()
+    user.check_reach([Path(task_path(arguments.tasks))] if own_tasks else [], results)
+    return user
 
 
 def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTask]) -> Student:
     if arguments.command is not None:
         from app.checking.running.command import CommandStudent
 
-        return CommandStudent(arguments.command, limits, _access(arguments))
+        return CommandStudent(arguments.command, limits, _account(arguments))
     path = Path(arguments.file)
     if path.suffix.lower() not in RAYS:
         from app.checking.running.file import FileStudent
@@ -242,13 +249,13 @@ def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTas
         if path.suffix.lower() not in PYTHON:
             problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
             raise LucidaError("", problem, remedy, str(path))
-        return FileStudent(path, limits, _access(arguments))
+        return FileStudent(path, limits, arguments.python or "", _account(arguments))
     from app.checking.running.rays_file import RaysFile
 
     if arguments.view is None and not any(task.views for task in tasks):
         raise LucidaError("--view", "is missing", "give the camera that the rays are of")
     bases = [task.conventions.base for task in tasks]
-    return RaysFile(path, bases[0] if bases else 0, limits.seconds)
+    return RaysFile(path, bases[0] if bases else 0)
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:

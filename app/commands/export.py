@@ -1,4 +1,4 @@
-"""`lucida export`: write a scene and its camera for other renderers."""
+"""`lucida export`: write a scene and its camera as glTF."""
 
 from __future__ import annotations
 
@@ -12,20 +12,13 @@ from renderer.errors import LucidaError, one_line
 NAME = "export"
 
 DESCRIPTION = """\
-Write a scene, its materials, its lights and a camera for another renderer. What could not be
-carried over is listed, and stands in the file."""
+Write a scene, its materials, its lights and a camera as glTF 2.0 (.glb), with KHR_lights_punctual
+and KHR_materials_specular. What could not be carried over is listed, and stands in the file."""
 
 EPILOG = """\
-formats, by OUT's ending:
-  .xml    Mitsuba 3, an rgb variant. Meshes, textures and highlights are files in the
-          folders OUT_meshes, OUT_textures and OUT_highlights next to it
-  .pbrt   pbrt-v4. The same, but for the highlights
-  .glb    glTF 2.0, with KHR_lights_punctual and KHR_materials_specular
-
 examples:
-  lucida export spheres -o spheres.xml
-  lucida export bunny.obj -o bunny.pbrt --view corner.toml --size 640x480
   lucida export still-life -o still-life.glb
+  lucida export bunny.obj -o bunny.glb --view corner.toml --size 640x480
 
 exit status: 0 written, 2 a mistake, or a camera that the format cannot hold; then nothing is
 written"""
@@ -34,7 +27,9 @@ written"""
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the file to write")
+    parser.add_argument(
+        "-o", "--output", metavar="OUT", required=True, help="the .glb file to write"
+    )
     common.add_size_option(parser)
     add_view_option(parser)
     add_camera_options(parser)

@@ -56,6 +56,7 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     """Return all contents as JSON values. mended: the repairs made while reading the scene."""
     import numpy as np
 
+    from renderer.scene.model import triangles_of
     from renderer.scene.views import view_table
     from renderer.scene_checks import oddities
     from renderer.scene_editing.outline import outline
@@ -68,14 +69,13 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     for row in rows:
         for number in row.ids:
             entry = scene.objects[number]
-            part = next((part for part in row.parts if part.number == number), None)
             objects.append(
                 {
                     "id": number,
                     "name": entry.name,
                     "type": row.kind,
                     "file": row.file or None,
-                    "triangles": row.triangles if part is None else part.triangles,
+                    "triangles": triangles_of([entry]),
                     "bounds": bounds[number].tolist(),
                     "hidden": entry.hidden,
                     "material_name": row.material or None,

@@ -12,7 +12,6 @@ from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_
 from app.commands.arguments import SCENE_HELP, size
 from app.commands.given_camera import add_view_option, say_changes, viewed
 from app.storage.code_files import found_code, is_code
-from app.window.quick_start import without_garbage
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -28,7 +27,7 @@ commands:
   lucida compare SCENE           raster against ray: counts, errors, causes
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
   lucida camera FILE             what a camera of any format is; and in other formats
-  lucida export SCENE -o OUT     scene and camera for Mitsuba 3, pbrt-v4 or glTF
+  lucida export SCENE -o OUT     scene and camera as glTF, for other programs
   lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
   lucida check FILE.py           what a student wrote, beside the right answers
   lucida tasks                   what can be asked of it
@@ -96,14 +95,13 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    with without_garbage():
-        from app.commands.arguments import check_is_scene
-        from app.photograph.reading import found_photograph, is_photograph
-        from app.poses.model import PoseSet
-        from app.poses.reading import is_cameras, open_cameras
-        from renderer.camera_formats.given import Options
-        from renderer.images import check_image_path
-        from renderer.scene.model import View
+    from app.commands.arguments import check_is_scene
+    from app.photograph.reading import found_photograph, is_photograph
+    from app.poses.model import PoseSet
+    from app.poses.reading import is_cameras, open_cameras
+    from renderer.camera_formats.given import Options
+    from renderer.images import check_image_path
+    from renderer.scene.model import View
 
     screenshot = None
     if arguments.screenshot is not None:
@@ -131,10 +129,7 @@ def run(arguments: argparse.Namespace) -> int:
     if posed is not None:
         say_changes([posed])
         view = View(posed.camera, posed.fit)
-    with without_garbage():
-        from app.window.launch import (
-            run_viewer,
-        )  # after the quick checks, because it loads the window
+    from app.window.launch import run_viewer  # loads the window: after the quick checks
 
     return run_viewer(
         source,

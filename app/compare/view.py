@@ -21,7 +21,6 @@ from app.compare.differences import draw_differences
 from app.compare.options import CompareOptions
 from app.host.view import Host
 from app.images.placement import Placement
-from app.images.readback import Region
 from app.images.renderers import Renderers, look_of
 from app.images.screen import Screen
 from app.images.shown import Held, Picture, ShownImage, whole
@@ -34,6 +33,7 @@ from renderer.compare import Comparison
 from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
 from renderer.raster import Look
+from renderer.raster.targets import Region
 
 NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key
@@ -137,7 +137,7 @@ class CompareView(ImageView):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
 
     def _picture(
-        self, both: Renderers, state: AppState, placement: Placement, under: bool, name: str
+        self, both: Renderers, state: AppState, placement: Placement, name: str
     ) -> Picture | None:
         """Return the visible part of the picture, or None."""
         textures, composed, shown = both.textures, self._composed, self._shown
@@ -150,7 +150,7 @@ class CompareView(ImageView):
         assert request is not None
         photographed, image = comparing.has_photograph(state), both.ray_image
         look = replace(look, component="rgb") if photographed else look
-        raster = textures.raster_in(whole(both.size), request, look, COMPARED, own_size=True)
+        raster = textures.raster_in(whole(both.size), request, look, COMPARED)
         if raster is None:
             return None
         left, right, divider, muted = raster.held, None, 0, False
@@ -158,9 +158,7 @@ class CompareView(ImageView):
             if photographed:
                 first: Picture | None = raster
                 if comparing.sides(state)[0] == "ray":
-                    first = textures.ray_in(
-                        whole(both.size), request, look, COMPARED, own_size=True
-                    )
+                    first = textures.ray_in(whole(both.size), request, look, COMPARED)
                 if first is None:
                     return None
                 left, right, divider, muted = self._with_photograph(both, state, first)
@@ -178,7 +176,7 @@ class CompareView(ImageView):
                         drawn.textures, drawn.number, image.frame, mapping
                     ).held
             else:
-                ray = textures.ray_in(whole(both.size), request, look, COMPARED, own_size=True)
+                ray = textures.ray_in(whole(both.size), request, look, COMPARED)
                 divider = self._first_of_second(both, state)
                 if ray is not None:
                     right = ray.held
@@ -190,7 +188,7 @@ class CompareView(ImageView):
             enlarged = min(placement.unit) < LARGE_PX
             picture = composed.compose(both.size, left, right, divider, muted, labels, enlarged)
             self._show(shown, picture.held)
-            seen = shown.picture(name, AS_IT_IS, placement, under=under)
+            seen = shown.picture(name, AS_IT_IS, placement)
             self._error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self._error = error

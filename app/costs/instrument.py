@@ -1,16 +1,13 @@
-"""The cost plot, as an instrument of the window."""
+"""The cost plot's view, and the palette's entries for its two plots."""
 
 from __future__ import annotations
 
-from app.costs.panel import AGAINST
+from app.costs.recorded import COSTS
 from app.costs.view import CostsView
 from app.host.instrument import Instrument
 
-SYNONYMS = {
-    "Costs": "performance complexity time plot",
-}
-
-PAGES: dict[str, dict[str, object]] = {
-    f"Costs against {against}": {"against": against} for against in AGAINST
-}
-INSTRUMENT = Instrument(lambda views: [CostsView()], synonyms=SYNONYMS, pages=PAGES)
+INSTRUMENT = Instrument(
+    lambda views: [CostsView()],
+    synonyms={"Costs": "performance complexity time plot"},
+    pages={f"Costs against {unit}": {"against": unit} for unit in COSTS},
+)

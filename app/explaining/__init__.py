@@ -1,3 +1,3 @@
 """Explanations that several instruments share: formatted numbers, the terms of shading, programs in
-Python, Julia and C. Knows no ImGui, no OpenGL, no window.
+Python and Julia. Knows no ImGui, no OpenGL, no window.
 """

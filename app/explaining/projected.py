@@ -1,4 +1,4 @@
-"""The exact extent of an object's projection on the image plane, for spheres and meshes."""
+"""The exact extent of a sphere's projection on the image plane."""
 
 from __future__ import annotations
 
@@ -58,27 +58,6 @@ def sphere_extent(center: Floats, radius: float, camera: Camera) -> Extent:
     return Extent(*sides)
 
 
-def mesh_extent(vertices: Floats, faces: np.ndarray, camera: Camera) -> Extent:
-    """Return the extent of triangles: vertices (n, 3) in world space, and their numbers (m, 3)."""
-    matrix = camera.camera_from_world
-    local = vertices @ matrix[:3, :3].T + matrix[:3, 3]
-    unit = 1.0 if camera.is_parallel else camera.distance
-    t = -local[:, 2] / unit
-    if _is_outside(float(t.min()), float(t.max()), camera):
-        return NOTHING
-    points = local[:, :2]
-    if not camera.is_parallel:
-        least = max(NEAREST * float(np.abs(t).max()), camera.t_range[0])
-        ahead = t > least
-        points = local[ahead, :2] / t[ahead, None]
-        if not ahead.all():
-            points = np.concatenate([points, _cut(local, t, faces, least)])
-    if not len(points):
-        return NOTHING
-    (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
-    return Extent(float(left), float(right), float(bottom), float(top))
-
-
 def pixels_of(extent: Extent, camera: Camera, size: Size) -> tuple[range, range]:
     """Return the rows and columns whose pixel centres are within an extent; see
     Camera.image_point.
@@ -102,16 +81,6 @@ def _is_outside(t_low: float, t_high: float, camera: Camera) -> bool:
     """Return True if ray parameters from t_low to t_high are all behind the eye, or clipped."""
     t_min, t_max = camera.t_range
     return t_high <= t_min or t_low >= t_max
-
-
-def _cut(local: Floats, t: Floats, faces: np.ndarray, least: float) -> Floats:
-    """Return the points where the triangles' sides cross the plane t = least, on the image plane,
-    (n, 2).
-    """
-    sides = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    a, b = sides[(t[sides[:, 0]] > least) != (t[sides[:, 1]] > least)].T
-    part = (least - t[a]) / (t[b] - t[a])
-    return (local[a, :2] + part[:, None] * (local[b, :2] - local[a, :2])) / least
 
 
 def whole_within(low: float, high: float, count: int) -> range:

@@ -161,7 +161,6 @@ LAYOUTS = (
         ((MAIN, INSTRUMENTS, RIGHT, 0.36), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5)),
         {"Outside": MAIN, "Ray": RIGHT_SPACE, "Raster": RIGHT_SPACE, "Poses": INSTRUMENTS},
     ),
-    Layout("Detective", _LARGE, {"Detective": MAIN, "Outside": RIGHT_SPACE, "Ray": INSTRUMENTS}),
 )
 
 

@@ -6,13 +6,11 @@ of each.
 
 from __future__ import annotations
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from app.host import docks, layout
-from app.host.bars import Bars
 from app.host.failing import FailedViews
 from app.host.view import DockedView, Host
-from app.images.screen import is_at_the_bottom, window_px
 from app.state.options import Preferences
 from app.storage.session import Arrangement
 from app.widgets import theme
@@ -36,8 +34,6 @@ class Stage:
         self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failed = FailedViews()
-        self.bars = Bars()
-        self._grounded: set[str] = set()  # views whose windows have nothing under them
         self._next_focus = ""
         self._by_key = False  # whether the next focus is to be seen
         self._is_lost = False  # whether the control that had the keyboard is gone
@@ -281,19 +277,12 @@ class Stage:
         padding = view.padding
         if padding is not None:
             imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
-        without = imgui.WindowFlags_.no_background
-        plain = view.name in self._grounded and not view.flags & without
         if view.name in self._to_dock:
             self._to_dock.discard(view.name)
             around = [one for one in self.shown if one is not view and one.name not in NARROW]
             if dock := layout.largest(around):
                 imgui.set_next_window_dock_id(dock, imgui.Cond_.always)
-        self.bars.before_window(is_status=False)
-        opened, visible = imgui.begin(view.label, True, view.flags | (int(without) if plain else 0))
-        if opened and is_at_the_bottom():
-            self.bars.lay_tabs(host.renderers.underlay)
-        if not view.flags & without:
-            self._lay_ground(view, host, opened, plain)
+        opened, visible = imgui.begin(view.label, True, view.flags)
         if not visible:  # closed; does not overrule a simultaneous hide
             window.is_visible = False
         if padding is not None:
@@ -310,30 +299,6 @@ class Stage:
             imgui.end()
         if large:
             self._draw_large(view, host)
-        self.bars.before_window(is_status=True)  # unless another view follows
-
-    def _lay_ground(self, view: DockedView, host: Host, opened: bool, plain: bool) -> None:
-        """Note whether a view's window has nothing under it; from the next frame on, the underlay
-        is its background. plain: ImGui knows that in this frame.
-        """
-        if not opened:
-            self._grounded.discard(view.name)
-            return
-        under = is_at_the_bottom()
-        if plain:
-            corner, size = imgui.get_window_pos(), imgui.get_window_size()
-            far = ImVec2(corner.x + size.x, corner.y + size.y)
-            corner.y += imgui.internal.get_current_window().title_bar_height
-            color = imgui.get_style_color_vec4(imgui.Col_.window_bg)
-            if under:
-                box = window_px(corner, far)
-                host.renderers.underlay.fill(box, (color.x, color.y, color.z))
-            else:  # it has just been lifted
-                draw = imgui.get_window_draw_list()
-                draw.push_clip_rect(corner, far)
-                draw.add_rect_filled(corner, far, imgui.get_color_u32(color))
-                draw.pop_clip_rect()
-        (self._grounded.add if under else self._grounded.discard)(view.name)
 
     def _draw_large(self, view: DockedView, host: Host) -> None:
         """Draw the view over all the others, with another id so that its dock stays unchanged."""

@@ -116,11 +116,6 @@ class Host(Protocol):
         of the outside camera if that is visible.
         """
 
-    def take(self, text: str) -> bool:
-        """Offer a pasted text that holds no camera to the views. Return True if one took it and is
-        shown.
-        """
-
     @property
     def travelling(self) -> bool:
         """True while such a transition is under way."""
@@ -177,10 +172,6 @@ class DockedView:
     def with_flown(self, state: AppState, camera: Camera) -> AppState:
         """Return the state with that camera moved."""
         return state
-
-    def takes(self, host: Host, text: str) -> bool:
-        """Return True if the view took a pasted text that holds no camera. It is shown then."""
-        return False
 
     def object_under(self, host: Host) -> int | None:
         """Return the index of the scene's object under the mouse; None for the background, or if

@@ -32,7 +32,7 @@ class Pass:
         """Draw a picture of `size`. textures, uniforms: by their names in the shader."""
         target = self._target.of_size(size)
         inputs = tuple(textures.items()), tuple(uniforms.items())
-        return Picture(*target, self._draw(self._gl, self._screen, target[1], *inputs))
+        return Picture(target[0], self._draw(self._gl, self._screen, target[1], *inputs))
 
     def release(self) -> None:
         self._owner.release()

@@ -1,10 +1,6 @@
-"""The ray image of a moving camera: coarse at once, then finer, then full; then with several
-samples per pixel, if requested.
+"""The ray image of a moving camera, then with several samples per pixel, if requested.
 
 The window's thread only leaves requests and takes images: it never waits for the tracer.
-
-A change cancels a refinement in progress; a coarse image is finished (it takes a frame or two), so
-that steady dragging always shows something new.
 """
 
 from __future__ import annotations
@@ -12,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +16,7 @@ from numpy.typing import NDArray
 
 from app.images.request import ImageRequest
 from renderer.camera import Camera
-from renderer.coarseness import Coarseness, reduced
+from renderer.coarseness import reduced
 from renderer.frame import CHANNELS, Frame
 from renderer.samples import Progress, supersampled
 from renderer.scene.model import Scene
@@ -28,13 +24,11 @@ from renderer.scene.model import Scene
 if TYPE_CHECKING:  # its import loads the compiler
     from renderer.trace import TraceJob, Tracer
 
-COARSEST = 8  # image pixels a side that one traced pixel stands for
-ONCE_S = 0.008  # what the first image after a rest may take, so that it comes with the next frame
-COARSE_S = 0.004  # what a coarse image may take: OpenGL, and what shows it, may need the same cores
-REFINE_S = 0.15  # a full image that takes longer is preceded by another coarse one
-SETTLE_S = 0.04  # without a change, at most, before refining: while dragging, the cores stay free
-LAUNCH_S = 4e-4  # of an image's time, what does not grow with its pixels
-PATIENCE_S = 0.1  # for a coarse image, before a change cancels it too
+# How long an image may still take when something newer is requested: a coarse one is finished, so
+# that steady dragging always shows something new.
+FULL_PATIENCE_S, COARSE_PATIENCE_S = 0.03, 0.1
+
+Wanted = tuple[ImageRequest, int]  # and how many times coarser; compared by identity
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +50,13 @@ class RayImage:
         """True if nothing finer will come for its request."""
         return self.factor == 1 and (self.request.samples == 1 or self.mean is not None)
 
+    def is_beside(self, raster: ImageRequest) -> bool:
+        """Return True if it may be shown next to the raster image of a request: both have the same
+        camera.
+        """
+        mine = self.request
+        return mine.may_stand_in_for(raster) and mine.camera == raster.camera
+
     def shown(self, channel: str) -> NDArray:
         """Return a channel for display."""
         if channel == "color" and self.mean is not None:
@@ -67,9 +68,8 @@ class LiveTrace:
     """Traces the newest request.
 
     wake: called on its thread when there is something new. make_tracer: returns a Tracer for a
-    request; called on that thread. begin: called there first. coarse: deliver coarse images before
-    a full one that takes long. first_ever: no image at all has arrived, so preparing includes
-    compiling. Requests and polls come from one thread, the window's.
+    request; called on that thread. begin: called there first. first_ever: no image at all has
+    arrived, so preparing includes compiling. Requests and polls come from one thread, the window's.
     """
 
     def __init__(
@@ -77,21 +77,18 @@ class LiveTrace:
         wake: Callable[[], None],
         make_tracer: Callable[[ImageRequest], Tracer],
         begin: Callable[[], None] | None = None,
-        coarse: bool = True,
     ) -> None:
         self._wake = wake
-        self._coarse = coarse
         self.make_tracer = make_tracer
         self._begin = begin
         self._changed = threading.Condition()
-        self._newest: ImageRequest | None = None
-        self._begin_at = 1  # for the newest one
-        self._served: ImageRequest | None = None  # the last one begun
-        self._finished: ImageRequest | None = None  # the last one whose full image came, or failed
+        self._newest: Wanted | None = None
+        self._served: Wanted | None = None  # the last one begun
+        self._finished: Wanted | None = None  # the last one whose image came, or failed
         self._arrived: RayImage | None = None
         self._job: TraceJob | None = None
         self._passes, self._passes_done = 1, 0  # of an image with several samples per pixel
-        self._refining = False
+        self._cancels = False  # whether a newer request cancels the job at once
         self._closed = False
         self._error: Exception | None = None
         self._began_s = 0.0
@@ -102,17 +99,14 @@ class LiveTrace:
 
     # The window's side.
 
-    def request(self, request: ImageRequest, begin_at: int = 1) -> None:
-        """Request an image. Does nothing if it is the last one requested.
-
-        begin_at: the least factor of its first image, if coarse images are made: a finer one would
-        be of no use.
-        """
+    def request(self, request: ImageRequest, factor: int = 1) -> None:
+        """Request an image, `factor` times coarser. Does nothing if that was requested last."""
         with self._changed:
-            if self._closed or (request == self._newest and self._has_channel(request)):
+            newest = self._newest
+            if self._closed or ((request, factor) == newest and self._has_channel(request)):
                 return
-            self._newest, self._begin_at = request, begin_at if self._coarse else 1
-            if self._refining and self._job is not None:
+            self._newest = request, factor
+            if self._cancels and self._job is not None:
                 self._job.cancel()
             self._changed.notify()
 
@@ -124,7 +118,7 @@ class LiveTrace:
 
     @property
     def busy(self) -> bool:
-        """True while the newest request's full image is still to come."""
+        """True while the newest request's image is still to come."""
         with self._changed:
             return self._arrived is not None or self._newest is not self._finished
 
@@ -138,7 +132,7 @@ class LiveTrace:
         """Request the newest image again if it has failed."""
         with self._changed:
             if self._error is not None and self._newest is not None:
-                self._newest = replace(self._newest)  # another object: one not served yet
+                self._newest = self._newest[0], self._newest[1]  # another object: not served yet
                 self._error = None
                 self._changed.notify()
 
@@ -186,9 +180,8 @@ class LiveTrace:
             self._begin()
         tracer: Tracer | None = None
         made_for: ImageRequest | None = None
-        coarsest = COARSEST if self._coarse else 1
-        coarseness = Coarseness(COARSE_S, ONCE_S, coarsest, coarsest)
-        while (request := self._next()) is not None:
+        while (wanted := self._next()) is not None:
+            request, _ = wanted
             try:
                 if made_for is None or request.scene is not made_for.scene:
                     self._prepare()
@@ -199,15 +192,14 @@ class LiveTrace:
                     if tracer is not None:
                         tracer.close()
                     tracer = self.make_tracer(request)
-                    coarseness.forget()
                 made_for, self._ready = request, (request.scene, tracer)
-                self._trace(tracer, request, coarseness)
+                self._trace(tracer, wanted)
             except BaseException as error:  # shown in the window, which goes on
                 tracer, self._ready = None, None
                 with self._changed:
-                    self._job, self._refining, self._began_s = None, False, 0.0
+                    self._job, self._began_s = None, 0.0
                     self._passes, self._passes_done = 1, 0
-                    self._error, self._finished = _as_exception(error), request
+                    self._error, self._finished = _as_exception(error), wanted
                 self._wake()
         if tracer is not None:
             tracer.close()
@@ -218,7 +210,7 @@ class LiveTrace:
         with self._changed:
             self._began_s = time.monotonic()
 
-    def _next(self) -> ImageRequest | None:
+    def _next(self) -> Wanted | None:
         """Wait for a request that has not been served. Return None after close()."""
         with self._changed:
             self._changed.wait_for(lambda: self._closed or self._newest is not self._served)
@@ -227,43 +219,28 @@ class LiveTrace:
             self._served, self._error = self._newest, None
             return self._newest
 
-    def _trace(self, tracer: Tracer, request: ImageRequest, coarseness: Coarseness) -> None:
-        """Trace a request's images, from coarse to full, until a newer one comes."""
-        pixels = request.size[0] * request.size[1]
-        factor = max(coarseness.changed(pixels, time.monotonic()), self._begin_at)
-        refining = False
-        while True:
-            size = reduced(request.size, factor)
-            job = tracer.start(
-                request.camera, size, CHANNELS if factor == 1 else (request.channel,)
-            )
-            frame = self._finish(job, request, refining)
-            with self._changed:
-                self._job, self._refining = None, False
-                if not frame.complete:
-                    return
-                self._arrived = RayImage(request, frame, factor)
-                self._began_s, self.first_ever = 0.0, False
-                if factor == 1 and request.samples == 1:
-                    self._finished = request
-            self._wake()
-            coarseness.measured(factor, size[0] * size[1], max(frame.time_s - LAUNCH_S, 1e-6))
-            if factor == 1:
-                if request.samples > 1:
-                    self._supersample(tracer, request, frame)
+    def _trace(self, tracer: Tracer, wanted: Wanted) -> None:
+        """Trace an image, unless a newer request comes that does not wait for it."""
+        request, factor = wanted
+        channels = CHANNELS if factor == 1 else (request.channel,)
+        job = tracer.start(request.camera, reduced(request.size, factor), channels)
+        patience_s = FULL_PATIENCE_S if factor == 1 else COARSE_PATIENCE_S
+        frame = self._finish(job, wanted, patience_s)
+        with self._changed:
+            self._job = None
+            if not frame.complete:
                 return
-            full_s = coarseness.full_s(pixels)
-            # A single change: nothing to wait for. In a motion, the next one will come soon.
-            # Otherwise wait at most as long as the image takes: no longer than it can be in vain.
-            rest_s = coarseness.rest_s and max(min(SETTLE_S, full_s), coarseness.rest_s)
-            with self._changed:
-                if self._changed.wait_for(lambda: self._is_stale(request), rest_s):
-                    return
-            factor = next_factor(factor, full_s)
-            refining = True
+            self._arrived = RayImage(request, frame, factor)
+            self._began_s, self.first_ever = 0.0, False
+            if request.samples == 1:
+                self._finished = wanted
+        self._wake()
+        if request.samples > 1:
+            self._supersample(tracer, wanted, frame)
 
-    def _supersample(self, tracer: Tracer, request: ImageRequest, centres: Frame) -> None:
+    def _supersample(self, tracer: Tracer, wanted: Wanted, centres: Frame) -> None:
         """Trace the colour again with several samples per pixel, unless a newer request comes."""
+        request, _ = wanted
 
         def draw(
             camera: Camera,
@@ -271,7 +248,7 @@ class LiveTrace:
             channels: tuple[str, ...],
             progress: Progress | None,
         ) -> Frame:
-            frame = self._finish(tracer.start(camera, size, channels), request, refining=True)
+            frame = self._finish(tracer.start(camera, size, channels), wanted, 0.0)
             with self._changed:
                 self._job, self._passes_done = None, self._passes_done + 1
             return frame
@@ -280,34 +257,32 @@ class LiveTrace:
             self._passes = request.samples
         of_all = supersampled(draw, request.camera, request.size, ("color",), request.samples)
         with self._changed:
-            self._job, self._refining = None, False
+            self._job = None
             self._passes, self._passes_done = 1, 0
             if not of_all.complete:
                 return
             self._arrived = RayImage(request, centres, 1, of_all.color)
-            self._finished = request
+            self._finished = wanted
         self._wake()
 
-    def _finish(self, job: TraceJob, request: ImageRequest, refining: bool) -> Frame:
-        """Wait for a job's end. A newer request cancels it; a coarse one only after a while."""
+    def _finish(self, job: TraceJob, wanted: Wanted, patience_s: float) -> Frame:
+        """Wait for a job's end. A newer request cancels it after patience_s."""
         with self._changed:
-            self._job, self._refining = job, refining
-            stale = refining and self._is_stale(request)
-        if not stale and not job.wait(PATIENCE_S):
+            self._job, self._cancels = job, not patience_s
+        if not patience_s or not job.wait(patience_s):
             with self._changed:
-                self._refining = True  # from now on request() cancels this one too
-                stale = self._is_stale(request)
-        if stale:
-            job.cancel()
+                self._cancels = True  # from now on request() cancels it
+                if self._is_stale(wanted):
+                    job.cancel()
         return job.result()
 
     def _has_channel(self, request: ImageRequest) -> bool:
-        """Return True if the newest request, or its full image, has this request's channel."""
+        """Return True if the newest request's image has this request's channel, or will have it."""
         newest = self._newest
-        return newest is None or newest is self._finished or newest.channel == request.channel
+        return newest is None or newest[1] == 1 or newest[0].channel == request.channel
 
-    def _is_stale(self, request: ImageRequest) -> bool:
-        return self._closed or self._newest is not request
+    def _is_stale(self, wanted: Wanted) -> bool:
+        return self._closed or self._newest is not wanted
 
 
 def _as_exception(error: BaseException) -> Exception:
@@ -315,12 +290,3 @@ def _as_exception(error: BaseException) -> Exception:
     fails.
     """
     return error if isinstance(error, Exception) else RuntimeError(f"ended by {error!r}")
-
-
-def next_factor(factor: int, full_s: float) -> int:
-    """Return the factor after a coarse image: the full one if that is quick, else one 4 times as
-    fine.
-    """
-    if full_s <= REFINE_S:
-        return 1
-    return max(factor // 4, 1)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import moderngl
 from numpy.typing import NDArray
@@ -18,12 +19,10 @@ from app.images.image_size import ImageSize
 from app.images.picking import object_on_ray
 from app.images.placement import Placement
 from app.images.progressive_ray import LiveTrace, RayImage
-from app.images.readback import Region
 from app.images.request import ImageRequest
 from app.images.scene_tracer import tracer_for
 from app.images.shown import Picture
 from app.images.textures import ImageTextures
-from app.images.underlay import Underlay
 from app.images.window_rasterizer import FAILURES
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
@@ -31,33 +30,42 @@ from app.widgets.background import lower_priority
 from renderer import compile_note
 from renderer.black import Reason
 from renderer.camera import Camera
+from renderer.coarseness import STILL_S, Coarseness, reduced
 from renderer.frame import Frame
 from renderer.memo import Memo
 from renderer.raster import Look
+from renderer.raster.targets import Region
 from renderer.scene.model import View
 
 NOTE_AFTER_S = 0.3
-STILL_S = 0.3  # comparing reads the raster image back, which may cost a frame: not while dragging
+BUDGET_S = 1 / 60  # for both images, while anything moves
 
 
 class Renderers(ImageSize):
     """Both images of the present state.
 
+    While anything moves, both images have the same camera, and the same size: coarser by one
+    factor, which follows from the time that the last ones took. The raster image is drawn when the
+    ray image of its request is there; alone if no view shows that, or the tracer still prepares.
+
     wake: called from other threads when the window has something new to show. smooth: the tracer
-    yields to the window's frames, and both images are coarse and drawn in parts if they would delay
-    a frame; otherwise they are complete at once.
+    yields to the window's frames, and images in motion may be coarse.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
         super().__init__()
         self._smooth = smooth
         self.agreement = Agreement(wake)
-        self.live = LiveTrace(wake, tracer_for, lower_priority if smooth else None, coarse=smooth)
-        self.underlay = Underlay()
+        self.live = LiveTrace(wake, tracer_for, lower_priority if smooth else None)
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
-        self._arrived_s = 0.0
         self._raster_failed = False
+        self._coarseness = Coarseness(BUDGET_S)
+        self._factor = 1
+        self._wanted: ImageRequest | None = None  # the newest
+        self._changed_s = -STILL_S
+        self._pair: RayImage | None = None  # whose raster image is shown in this frame
+        self._measured = 1, 0.0
         self._camera = Memo(View.for_size)
         self._moving = False
         # True if a view wants the ray image: in the last frame, in this one.
@@ -65,14 +73,13 @@ class Renderers(ImageSize):
 
     def begin(self, context: moderngl.Context) -> None:
         """Call once, when there is a context."""
-        self.textures = ImageTextures(context, self._smooth)
+        self.textures = ImageTextures(context, self._to_draw)
 
     def end(self) -> None:
         """Call once, before the context is destroyed."""
         self.live.close()
         self.agreement.close()
         if self.textures is not None:
-            self.underlay.release()
             self.textures.release()
 
     @property
@@ -110,7 +117,6 @@ class Renderers(ImageSize):
         """Take the threads' results. Call once a frame. moving: something is being dragged."""
         self._moving = moving
         self._begun.begin_frame()
-        self.underlay.begin_frame()
         self.follow_resolution(state)
         self._tracing, self._to_trace = self._to_trace, False
         failed = self.raster_error is not None
@@ -119,17 +125,66 @@ class Renderers(ImageSize):
         self._raster_failed = failed
         if self._tracing:
             self._ask(state)  # while other things are drawn, it may be there in time
-        waits = moving and time.monotonic() < self._arrived_s + STILL_S
+        self._measure()
         # Not in the frame of an image's arrival, which shows it first.
-        if not self._take_ray() and self._to_compare(state) and not waits:
+        if not self._take_ray() and self._to_compare(state) and self._rests:
             self._compare(state)
+        self._pair = self._next_pair(state)
         self.agreement.poll()
 
+    @property
+    def _rests(self) -> bool:
+        """True if nothing has changed for a while."""
+        return not self._smooth or time.monotonic() - self._changed_s >= STILL_S
+
+    def _factor_of(self, request: ImageRequest) -> int:
+        """Return how many times coarser the newest request's images are. Full when it rests."""
+        before = self._wanted
+        if request != before:
+            self._wanted, now_s = request, time.monotonic()
+            if before is None or not before.has_scene_of(request):
+                self._coarseness.forget()  # nothing moves: the scene is another one
+            else:
+                self._changed_s = now_s
+                self._factor = self._coarseness.changed(request.size[0] * request.size[1], now_s)
+        return 1 if self._rests else self._factor
+
+    def _to_draw(self, request: ImageRequest) -> tuple[ImageRequest, int]:
+        """Return the raster image to show for a request, and how many times coarser."""
+        factor, pair = self._factor_of(request), self._pair
+        if pair is None or not pair.request.may_stand_in_for(request):
+            return request, factor
+        if pair.request.without_effects == request.without_effects:
+            return request, min(factor, pair.factor)
+        return pair.request, pair.factor
+
+    def _next_pair(self, state: AppState) -> RayImage | None:
+        """Return the ray image that the raster image waits for; None if it does not wait."""
+        image, request = self.ray_image, self.request(state)
+        if not self._tracing or image is None or self.ray_error is not None:
+            return None
+        if self.live.preparing_s >= NOTE_AFTER_S or not image.request.may_stand_in_for(request):
+            return None
+        return image
+
     def _ask(self, state: AppState) -> None:
-        """Request the ray image; while things move, no finer than the raster image."""
+        """Request the ray image; with several samples per pixel once nothing moves."""
         if (request := self.request(state)) is not None:
-            raster = self.textures.raster_seen() if self.textures is not None else None
-            self.live.request(request, raster.factor if raster is not None else 1)
+            factor = self._factor_of(request)
+            self.live.request(request if self._rests else replace(request, samples=1), factor)
+
+    def _measure(self) -> None:
+        """Record what the last images took: with OpenGL on the CPU, both use the same cores."""
+        factor, time_s = self._begun.raster.took
+        if self._tracing:
+            image = self.ray_image
+            if image is None or image.factor != factor:
+                return
+            time_s += image.frame.time_s
+        width, height = reduced(self.size, factor)
+        if time_s > 0 and (factor, time_s) != self._measured:
+            self._measured = factor, time_s
+            self._coarseness.measured(factor, width * height, time_s)
 
     def _take_ray(self) -> bool:
         """Take the newest ray image. Return True if there was one."""
@@ -137,36 +192,31 @@ class Renderers(ImageSize):
         if image is None:
             return False
         self._begun.take_ray(image)
-        self.ray_image, self._arrived_s = image, time.monotonic()
+        self.ray_image = image
         return True
 
     # Pictures and values.
 
-    def raster_picture(
-        self, state: AppState, placement: Placement, under: bool, name: str
-    ) -> Picture | None:
+    def raster_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         on failure.
 
-        under: for the underlay. name: of the picture, see ShownImage.picture.
+        name: of the picture, see ShownImage.picture.
         """
         request = self.request(state)
         assert request is not None
-        return self._begun.raster_in(placement, request, look_of(state.images), name, under=under)
+        return self._begun.raster_in(placement, request, look_of(state.images), name)
 
-    def ray_picture(
-        self, state: AppState, placement: Placement, under: bool, name: str
-    ) -> Picture | None:
-        """Return the same of the newest ray image; None if that is of another scene or size."""
+    def ray_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
+        """Return the same of the newest ray image; None if the raster image has another camera."""
         request = self.request(state)
         assert request is not None
-        self._take_ray()
-        return self._begun.ray_in(placement, request, look_of(state.images), name, under=under)
+        return self._begun.ray_in(placement, request, look_of(state.images), name)
 
     def shown_ray(self, state: AppState) -> RayImage | None:
-        """Return the newest ray image; None if it is stale."""
-        image = self.ray_image
-        if image is None or not image.request.may_stand_in_for(self.request(state)):
+        """Return the ray image that is shown; None if it is stale."""
+        image, request = self.ray_image, self.request(state)
+        if image is None or request is None or not image.is_beside(self._to_draw(request)[0]):
             return None
         return image
 
@@ -197,7 +247,9 @@ class Renderers(ImageSize):
 
     def unfinished(self, state: AppState) -> bool:
         """True if later frames have something to do that no thread will call for."""
-        return self._to_compare(state) or (self.textures is not None and self.textures.unfinished)
+        refines = self._wanted is not None and not self._rests
+        compares = self._to_compare(state)
+        return refines or compares or (self.textures is not None and self.textures.unfinished)
 
     @property
     def busy(self) -> bool:
@@ -240,7 +292,7 @@ class Renderers(ImageSize):
     def raster_s(self) -> float:
         """The time of the visible raster image; 0 if there is none."""
         textures = self._begun
-        return textures.raster.time_s if textures.raster_seen() is not None else 0.0
+        return textures.raster.took[1] if textures.raster_seen() is not None else 0.0
 
     @property
     def raster_factor(self) -> int:
@@ -342,7 +394,7 @@ class Renderers(ImageSize):
         assert image is not None
         try:
             raster = self._begun.raster.read_back(image.request)
-            if raster is not None:  # otherwise it goes on in the next frame
+            if raster is not None:  # otherwise a lens's table is being made
                 self.agreement.submit(image, raster)
         except FAILURES as error:
             self.agreement.fail(image.request, error)

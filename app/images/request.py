@@ -50,8 +50,12 @@ class ImageRequest:
         """
         if newer is None or newer.size != self.size:
             return False
-        same = newer.scene.objects is self.scene.objects  # after saving, too
-        return same or are_versions(newer.scene, self.scene)
+        return self.has_scene_of(newer)
+
+    def has_scene_of(self, other: ImageRequest) -> bool:
+        """Return True if another request has the same scene, however that was edited."""
+        same = other.scene.objects is self.scene.objects  # after saving, too
+        return same or are_versions(other.scene, self.scene)
 
     def is_served_by(self, other: ImageRequest | None) -> bool:
         """Return True if the Tracer that was made for another request can serve this one."""

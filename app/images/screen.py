@@ -12,28 +12,12 @@ from app.state.options import Pixel
 from app.widgets.theme import framebuffer_scale
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
-MAIN_DOCK = "MainDockSpace"  # HelloImGui's window that all others are docked in
 
 
 def available_px() -> tuple[int, int]:
     """Return the rest of the current window's content, (width, height) in framebuffer pixels."""
     avail, scale = imgui.get_content_region_avail(), framebuffer_scale()
     return max(1, math.floor(avail.x * scale)), max(1, math.floor(avail.y * scale))
-
-
-def is_at_the_bottom() -> bool:
-    """Return True if the current window has only the background under it: docked, not floating."""
-    root = imgui.internal.get_current_window().root_window_dock_tree
-    return imgui.is_window_docked() and root.name.startswith(MAIN_DOCK)
-
-
-def window_px(low: ImVec2, high: ImVec2) -> tuple[int, int, int, int]:
-    """Return left, top, right, bottom of a part of the screen in framebuffer pixels of the main
-    window.
-    """
-    at, scale = imgui.get_main_viewport().pos, framebuffer_scale()
-    left, top = round((low.x - at.x) * scale), round((low.y - at.y) * scale)
-    return left, top, round((high.x - at.x) * scale), round((high.y - at.y) * scale)
 
 
 @dataclass(frozen=True)
@@ -65,15 +49,6 @@ class Screen:
         """The visible part of the image."""
         left, top, right, bottom = map(float, self.placement.visible)
         return self._point(left, top), self._point(right, bottom)
-
-    @property
-    def visible_px(self) -> tuple[int, int, int, int]:
-        """Left, top, right, bottom of it in framebuffer pixels of the main window."""
-        at = imgui.get_main_viewport().pos
-        x = round((self.corner.x - at.x) * self.scale)
-        y = round((self.corner.y - at.y) * self.scale)
-        left, top, right, bottom = self.placement.visible
-        return x + left, y + top, x + right, y + bottom
 
     @property
     def cell(self) -> tuple[float, float]:

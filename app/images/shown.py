@@ -4,8 +4,7 @@ A picture is drawn again only if something has changed.
 
 ImGui samples every texture linearly. A picture of exactly its size on the screen comes out exact,
 so that enlarged pixels are squares and nothing is blurred; of a magnified image, only the visible
-part is drawn. A picture under ImGui's windows (underlay.py) needs no more pixels than the image
-has.
+part is drawn.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ import moderngl
 from app.images.placement import Placement, Size
 from renderer.memo import Memo
 from renderer.raster import Display, Look, Section
-from renderer.raster.resources import new_surface, new_texture
+from renderer.raster.resources import new_texture
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,19 +27,14 @@ class DepthBounds:
     texture: moderngl.Texture
 
 
-WHOLE = "whole"  # the name of pictures that have a pixel for each of the image's
 Held = tuple[moderngl.Texture, object]  # a texture, and what it holds, if that can change
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """The visible part of an image, as a texture and as a framebuffer to copy from.
-
-    made: another object whenever something else was drawn into them.
-    """
+    """The visible part of an image. made: another object whenever something else was drawn."""
 
     texture: moderngl.Texture
-    framebuffer: moderngl.Framebuffer
     made: object
 
     @property
@@ -68,7 +62,7 @@ class ShownImage:
         self._display = Display(context)
         self._channels: dict[str, moderngl.Texture] = {}
         self._version = 0
-        self._pictures: dict[tuple[str, bool], _Target] = {}
+        self._pictures: dict[str, _Target] = {}
         self._retired: list[_Target] = []
 
     def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
@@ -88,33 +82,25 @@ class ShownImage:
         look: Look,
         placement: Placement,
         depths: DepthBounds | None = None,
-        under: bool = False,
-        own_size: bool = False,
     ) -> Picture | None:
         """Return the visible part of the image in a window; None without an image. If the look's
         channel is missing, another one is shown.
 
         name: of the picture: the next call with the same name overwrites it. The texture stays
-        until the frame after the next, even if another replaces it. own_size: if all of the image
-        is visible and its pixels are enlarged, the picture has one pixel for each, and is the same
-        for all names. under: for the Underlay: of its own size, too, and upside down.
+        until the frame after the next, even if another replaces it.
         """
         if not self._channels:
             return None
         if look.channel not in self._channels:
             look = replace(look, channel=next(iter(self._channels)))  # type: ignore[arg-type]
         source = self._channels[look.channel]
-        section, size = section_of(placement, source.size), visible_size(placement)
-        if (under or own_size) and placement.sees_all and not section.averaged:
-            section, size, name = Section(), source.size, WHOLE
-        if under:
-            section = replace(section, rows=size[1])
+        section = section_of(placement, source.size)
         needed = depths if look.channel == "depth" else None
-        target = self._of_size((name, under), size)
+        target = self._of_size(name, visible_size(placement))
         made = target.draw(
             self._display, (source, self._version), look, section, target.framebuffer, needed
         )
-        return Picture(target.texture, target.framebuffer, made)
+        return Picture(target.texture, made)
 
     def begin_frame(self) -> None:
         """Release what the frame before the last may still have shown. Call once a frame."""
@@ -129,18 +115,15 @@ class ShownImage:
         self.begin_frame()
         self._display.release()
 
-    def _of_size(self, key: tuple[str, bool], size: Size) -> _Target:
-        """Return the target of a picture. key: its name, and True if it is for the underlay."""
-        picture = self._pictures.get(key)
+    def _of_size(self, name: str, size: Size) -> _Target:
+        """Return the target of a picture."""
+        picture = self._pictures.get(name)
         if picture is None or picture.texture.size != size:
             # The window may show the old one in this very frame: its name must not be used again.
             if picture is not None:
-                self._retired.append(self._pictures.pop(key))
-            texture = (
-                new_surface(self._gl, size) if key[1] else new_texture(self._gl, size, 4, "uint8")
-            )
-            picture = _Target(self._gl, texture)
-            self._pictures[key] = picture
+                self._retired.append(self._pictures.pop(name))
+            picture = _Target(self._gl, new_texture(self._gl, size, 4, "uint8"))
+            self._pictures[name] = picture
         return picture
 
 

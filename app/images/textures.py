@@ -6,34 +6,36 @@ import contextlib
 
 import moderngl
 
-from app.images.live_raster import LiveRaster, RasterImage
+from app.images.live_raster import Choice, LiveRaster, RasterImage
 from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
 from app.images.request import ImageRequest
-from app.images.shown import WHOLE, DepthBounds, Picture, ShownImage, whole
+from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from renderer.memo import Memo
 from renderer.raster import DepthRange, Look, upload
 
-PANE = "pane"
+PANE, WHOLE = "pane", "whole"
 ATTEMPTS = 3  # to upload a ray image, one per frame
 
 
 class ImageTextures:
     """The images in the window's context, which must be current in every call.
 
-    smooth: see LiveRaster. rasterizer: the window's. raster: the raster image. raster_error,
+    choice: see LiveRaster. rasterizer: the window's. raster: the raster image. raster_error,
     ray_error: the reason that an image is not shown.
     """
 
-    def __init__(self, context: moderngl.Context, smooth: bool = True) -> None:
-        self._gl = context
+    def __init__(
+        self, context: moderngl.Context, choice: Choice = lambda request: (request, 1)
+    ) -> None:
+        self._gl, self._choice = context, choice
         self.rasterizer = WindowRasterizer(context)
-        self.raster = LiveRaster(context, self.rasterizer, smooth)
+        self.raster = LiveRaster(context, self.rasterizer, choice)
         self._shown_raster, self._shown_ray = ShownImage(context), ShownImage(context)
         self._show_raster = Memo(_show_raster)
         self._ray: RayImage | None = None
-        # The image and channel that are on the GPU; they stay while a newer one lacks the channel.
+        # The image and channel that are on the GPU.
         self._uploaded: tuple[RayImage, str, moderngl.Texture] | None = None
         self._ray_texture: moderngl.Texture | None = None
         self._ray_failures = 0
@@ -61,10 +63,8 @@ class ImageTextures:
         self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
 
     def whole_raster(self, request: ImageRequest, look: Look) -> moderngl.Texture | None:
-        """Return all of the raster image, a pixel for each of its own, row 0 at the bottom: the
-        picture that a pane shows, too. Otherwise like raster_in().
-        """
-        picture = self.raster_in(whole(request.size), request, look, WHOLE, under=True)
+        """Return all of the raster image, row 0 at the top. Otherwise like raster_in()."""
+        picture = self.raster_in(whole(request.size), request, look, WHOLE)
         return picture.texture if picture is not None else None
 
     def raster_in(
@@ -73,13 +73,11 @@ class ImageTextures:
         request: ImageRequest,
         look: Look,
         name: str = PANE,
-        **options: bool,
     ) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         if that failed, see raster_error.
 
-        name, options: see ShownImage.picture. With OpenGL on the CPU, the image is coarse while
-        things move, and full soon afterwards.
+        name: see ShownImage.picture.
         """
         try:
             image = self.raster.follow(request)
@@ -87,7 +85,7 @@ class ImageTextures:
             self._show_raster(self._shown_raster, image)
             if look.channel == "depth":
                 self._measure(image, image.textures.surface)
-            picture = self._shown_raster.picture(name, look, placement, self._depths, **options)
+            picture = self._shown_raster.picture(name, look, placement, self._depths)
             self.raster_error = None
             return picture
         except FAILURES as error:  # shown in the window, which goes on
@@ -113,23 +111,23 @@ class ImageTextures:
         request: ImageRequest,
         look: Look,
         name: str = PANE,
-        **options: bool,
     ) -> Picture | None:
-        """Return the visible part of the last ray image in a window; None if none may stand in for
-        the request's, or if uploading it failed, see ray_error.
+        """Return the visible part of the last ray image in a window; None if that has another
+        camera than the raster image, or lacks the channel, or if uploading it failed, see
+        ray_error.
         """
         image = self._ray
         if image is None or self._ray_failures >= ATTEMPTS:
             return None
-        if not image.request.may_stand_in_for(request):
+        if not image.is_beside(self._choice(request)[0]):
             return None
         try:
-            shown, _, texture = self._uploaded = self._upload(image, look.channel)
-            if not shown.request.may_stand_in_for(request):
-                return None  # the new image lacks the channel, and the old one is stale
+            if getattr(image.frame, look.channel) is None:
+                return None  # coarse, and begun before the channel was selected
+            _, _, texture = self._uploaded = self._upload(image, look.channel)
             if look.channel == "depth" and not self._sees_raster:
                 self._measure(self._uploaded, texture)
-            picture = self._shown_ray.picture(name, look, placement, self._depths, **options)
+            picture = self._shown_ray.picture(name, look, placement, self._depths)
             self.ray_error = None
             return picture
         except FAILURES as error:
@@ -161,10 +159,6 @@ class ImageTextures:
     def _upload(self, image: RayImage, channel: str) -> tuple[RayImage, str, moderngl.Texture]:
         """Upload one channel, unless it is there already: in a large image, each takes 100 MB."""
         uploaded = self._uploaded
-        if getattr(image.frame, channel) is None:  # coarse, and begun before the channel was
-            if uploaded is not None:  # selected: the last image stays a moment longer
-                return uploaded
-            channel = "color"
         if uploaded is not None and uploaded[:2] == (image, channel):
             return uploaded
         texture, self._ray_texture = self._ray_texture, None  # upload() releases it if it fails

@@ -6,7 +6,7 @@ stored      an image as it is kept in a kind, and what is seen when it is expose
 light       three projectors whose light adds; the subpixels of a display; test pictures
 displays    tube, DLP, LCD and LED in time, whose mean over a cycle is the pixel's colour
 memory      the array itself: canvas[i, j], row-major or column-major, memory offsets
-array_code  the same as a program, in Python, Julia and C
+array_code  the same as a program, in Python and Julia
 disk        the sizes of files, and files of what is stored
 pages       which pictures each page shows; view, tools, tables, ...: on the screen
 """

@@ -1,6 +1,6 @@
 """The image as an array, as a program: declared, a pixel set, its offset in memory.
 
-Python and C count from 0 and store rows, Julia counts from 1 and stores columns. Another order or
+Python counts from 0 and stores rows, Julia counts from 1 and stores columns. Another order or
 first index is written out.
 """
 
@@ -21,8 +21,6 @@ _ARRAYS: dict[tuple[Language, Order], tuple[str, ...]] = {
         "canvas = PermutedDimsArray(memory, (2, 1))",
     ),
     ("julia", "column"): ("canvas = zeros(RGB{Float32}, H, W)",),
-    ("c", "row"): ("static float canvas[H][W][3];",),
-    ("c", "column"): ("static float canvas[W][H][3];",),
 }
 
 
@@ -46,25 +44,13 @@ def lines(
     row, column = (_index(name, language, first) for name in "ij")
     array = _ARRAYS[language, order]
     offset = f"{place(order, one_based)} * {PIXEL_BYTES}"
-    laid, counted = f"# {ONE_AFTER_ANOTHER[order]}", f"# from {first}"
-    if language == "c":
-        at = f"[{row}][{column}]" if order == "row" else f"[{column}][{row}]"
-        return [
-            f"enum {{ H = {size[1]}, W = {size[0]} }};",
-            laid.replace("#", "//"),
-            *array,
-            f"int i = {i}, j = {j};  {counted.replace('#', '//')}",
-            f"float *pixel = canvas{at};",
-            *(f"pixel[{k}] = {value}f;" for k, value in enumerate((red, green, blue))),
-            f"long offset = {offset}L;",
-        ]
     color = f"RGB({red}, {green}, {blue})" if language == "julia" else f"{red}, {green}, {blue}"
     return [
         "using Colors" if language == "julia" else "import numpy as np",
         f"H, W = {size[1]}, {size[0]}",
-        laid,
+        f"# {ONE_AFTER_ANOTHER[order]}",
         *array,
-        f"i, j = {i}, {j}  {counted}",
+        f"i, j = {i}, {j}  # from {first}",
         f"canvas[{row}, {column}] = {color}",
         f"offset = {offset}",
     ]
@@ -72,12 +58,6 @@ def lines(
 
 def program(language: Language, listed: list[str]) -> str:
     """Return the lines as a program that prints the offset."""
-    if language == "c":
-        body = "".join(f"    {line}\n" for line in listed)
-        return (
-            "#include <stdio.h>\n\nint main(void)\n{\n"
-            f'{body}    printf("%ld\\n", offset);\n    return 0;\n}}\n'
-        )
     last = "println(offset)" if language == "julia" else "print(offset)"
     return "\n".join([*listed, last]) + "\n"
 

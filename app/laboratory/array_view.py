@@ -11,7 +11,7 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.breaking import broken
-from app.explaining.languages import COMMENTS, LANGUAGES
+from app.explaining.languages import LANGUAGES
 from app.explaining.symbols import lettered
 from app.laboratory import array_code, memory
 from app.laboratory.options import LaboratoryOptions
@@ -157,7 +157,7 @@ class ArrayPage:
         with lettering(self.fonts.mono):
             letter = imgui.calc_text_size("0").x
             for number, line in enumerate(rows):
-                code, mark, comment = line.partition(COMMENTS[language])
+                code, mark, comment = line.partition("#")
                 y = top + number * LINE * em
                 draw.add_text(ImVec2(at.x, y), theme.u32(theme.TEXT), code)
                 after = ImVec2(at.x + len(code) * letter, y)

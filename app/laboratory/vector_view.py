@@ -14,13 +14,12 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.laboratory.diagram import bitmap, magnified, outlines
 from app.laboratory.options import LaboratoryOptions
-from app.outside.bitmap import bitmap, magnified
-from app.outside.sketch import Sketch
+from app.outside.figure import Figure
+from app.outside.figure_view import Sketch, Sketcher, save_svg
+from app.outside.painting import Magnified, paint
 from app.outside.svg import svg
-from app.outside.vector import Drawing
-from app.outside.vector_painting import Magnified, Mark, paint, prepared
-from app.outside.vector_view import Sketcher, export_svg
 from app.outside.view import OutsideView
 from app.state.bounds import range_of
 from app.widgets import theme
@@ -52,8 +51,7 @@ class Both:
     """The diagram in both ways, of a scene. svg_bytes: of the file."""
 
     scene: Scene
-    drawing: Drawing
-    marks: tuple[Mark, ...]
+    figure: Figure
     picture: NDArray[np.uint8]
     svg_bytes: int
 
@@ -100,7 +98,7 @@ class VectorPage:
             return
         if self.made is None:
             return
-        if not are_versions(self.made.scene, host.state.scene) or self.made.drawing.size != page:
+        if not are_versions(self.made.scene, host.state.scene) or self.made.figure.size != page:
             return  # stale
         changed = options
         for number, pane in enumerate(panes):
@@ -111,11 +109,11 @@ class VectorPage:
         if texture is not None:
             draw.add_image(imgui.ImTextureRef(texture.glo), panes[0].low, panes[0].high)
         low, high = panes[1].low, panes[1].high
-        width, height = self.made.drawing.size
+        width, height = self.made.figure.size
         scale = (high.x - low.x) * zoom / width
         origin = low.x - corner[0] * width * scale, low.y - corner[1] * height * scale
         view = Magnified(origin, scale)
-        paint(draw, self.made.drawing, self.made.marks, view, low, high, host.fonts)
+        paint(draw, self.made.figure, view, low, high, host.fonts)
         for pane in panes:
             draw.add_rect(pane.low, pane.high, theme.u32(theme.LINE))
         self._captions(host, panes)
@@ -124,7 +122,9 @@ class VectorPage:
 
     def _follow(self, host: Host, page: Size) -> None:
         assert self._work is not None
-        sketch = self._sketcher.follow(self._outside, host, page, UNITS, shape=SHAPE)
+        color = theme.BACKGROUND
+        ground = color.x, color.y, color.z
+        sketch = self._sketcher.follow(self._outside, host, page, ground, UNITS, SHAPE)
         self._work.ask(_both, sketch)
         self._asked = True
         outcome = self._work.poll()
@@ -186,7 +186,7 @@ class VectorPage:
             ),
             (
                 "Vector drawing",
-                f"{len(self.made.drawing.parts)} shapes, {size_text(self.made.svg_bytes)} as SVG",
+                f"{len(self.made.figure.parts)} shapes, {size_text(self.made.svg_bytes)} as SVG",
             ),
         )
         for pane, (title, caption) in zip(panes, texts, strict=True):
@@ -204,14 +204,15 @@ class VectorPage:
             place = ImVec2(pane.high.x - width, pane.low.y - 2.0 * em)
             imgui.set_cursor_screen_pos(place)
             if imgui.button(words, ImVec2(width, 0)):
-                export_svg(self._outside, host, live=False)  # as it is shown here
+                figure = self.made.figure  # as it is shown here
+                save_svg(host, lambda: figure, self.made.scene.name)
 
 
 def _both(sketch: Sketch) -> Both:
-    drawing = sketch.draw()
-    width, height = drawing.size
-    picture = bitmap(drawing, (width // PIXEL_PX, height // PIXEL_PX))
-    return Both(sketch.scene, drawing, prepared(drawing), picture, len(svg(drawing).encode()))
+    figure = sketch.figure(outlines(sketch.scene, sketch.screen.camera))
+    width, height = figure.size
+    picture = bitmap(figure, (width // PIXEL_PX, height // PIXEL_PX))
+    return Both(sketch.scene, figure, picture, len(svg(figure).encode()))
 
 
 def panes_in(corner: ImVec2, avail: ImVec2, em: float) -> tuple[tuple[PageRect, PageRect], Size]:

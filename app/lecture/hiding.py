@@ -214,13 +214,11 @@ def _item(scene: Scene, name: str) -> Item:
 
 
 def _tables(scene: Scene) -> dict[str, list[dict[str, Any]]]:
-    """Return all fields of the objects, by their shown names, except for locks."""
+    """Return all fields of the objects, by their shown names."""
     found: dict[str, list[dict[str, Any]]] = {}
     for row in _objects(scene):
         assert row.item is not None
-        fields = _fields(scene, row.item)
-        del fields["locked"]
-        found.setdefault(row.shown, []).append(fields)
+        found.setdefault(row.shown, []).append(_fields(scene, row.item))
     return found
 
 

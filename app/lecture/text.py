@@ -2,8 +2,8 @@ r"""Markdown with formulas, into blocks to draw.
 
 A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
 **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. [words](#name) is a link that
-shows other options. \$ is a dollar sign. Of a program in several languages (```python, ```julia,
-```c, one after another), one is shown.
+shows other options. \$ is a dollar sign. Of a program in two languages (```python, ```julia, one
+after the other), one is shown.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from app.compare.options import CompareOptions
 from app.costs.options import CostOptions
-from app.costs.recorded import PIXELS, SAMPLES, WORK
+from app.costs.recorded import COSTS
 from app.explaining.notation import number, text_tuple
 from app.images.request import MIRROR_DEPTH
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
@@ -185,31 +185,20 @@ def _stepper(step: Step, state: AppState) -> str:
     options = state.of(StepperOptions)
     width, height = options.canvas
     shown = {"object": (0,), "image": (1,), "both": (0, 1)}[options.order]
-    by = "triangle by triangle" if options.form == "triangles" else "object by object, by rays"
-    names = f"object order, {by}", "image order, pixel by pixel"
+    names = "object order, triangle by triangle", "image order, pixel by pixel"
     runs = "; ".join(f"{names[k]}, after {options.steps[k]} steps" for k in shown)
     return f"An image of {width} x {height} pixels as it is made: {runs}. {_scene(step)}"
 
 
 def _costs(step: Step, state: AppState) -> str:
-    options = state.of(CostOptions)
-    against = options.against
-    if options.recorded:
-        times = "; ".join(
-            f"{one.case.renderer} image, {one.triangles:,} triangles: {1e3 * one.time_s:.3g} ms"
-            for one in SAMPLES
-        )
-        counts = "; ".join(
-            f"{one.triangles:,} triangles: {one.set_up:,} set up, {one.nodes:,} nodes visited"
-            for one in WORK
-        )
-        of = f"Charts with logarithmic axes, for {PIXELS:,} pixels."
-        return f"{of} Counted: {counts}. Times: {times}."
-    return (
-        f"Charts with logarithmic axes: the counted steps of both loops, and their time, against "
-        f"the number of {against}. Object order grows with the triangles, image order with pixels "
-        "and with the logarithm of the triangles."
+    unit = state.of(CostOptions).against
+    costs = "; ".join(
+        f"{getattr(cost, unit):,} {unit}: {cost.triangles:,} triangles set up, {cost.tested:,} "
+        f"pixels tested, {cost.nodes:,} nodes visited, raster image {cost.raster_ms:.3g} ms, "
+        f"ray image {cost.ray_ms:.3g} ms"
+        for cost in COSTS[unit]
     )
+    return f"Charts with logarithmic axes, of counted steps and recorded times. {costs}."
 
 
 def _laboratory(step: Step, state: AppState) -> str:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from imgui_bundle import imgui
-
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.objects import editing
 from app.objects.choosing import chosen, everything, walked
@@ -55,11 +53,6 @@ def _has_chosen(window: Window) -> bool:
     return bool(chosen(window.state))
 
 
-def _copy(window: Window) -> None:
-    imgui.set_clipboard_text(editing.copied(window.state))
-    window.files.say("The chosen objects are in the clipboard, as in a scene file.")
-
-
 def _walking(step: int) -> Callable[[Window], None]:
     return lambda window: window.amend(walked(window.state, step))
 
@@ -94,7 +87,6 @@ SCENE = (
         (int(Key.delete),),
         can=_has_chosen,
     ),
-    Action(MENU, "Copy objects", _copy, "Ctrl+C", (CTRL | int(Key.c),), can=_has_chosen),
     Action(
         MENU,
         "Select all",

@@ -12,11 +12,10 @@ from dataclasses import replace
 
 from app.objects.choosing import choose, chosen, unlocked
 from app.objects.placing import place_for
-from app.outside.options import OutsideOptions
 from app.state.app_state import AppState
 from renderer.focus import Focus
 from renderer.scene.model import Scene
-from renderer.scene_editing import clipping, objects
+from renderer.scene_editing import objects
 from renderer.scene_editing.changing import Item
 from renderer.scene_editing.outline import OutlineRow
 
@@ -28,15 +27,11 @@ def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = Non
 
 
 def added(state: AppState, kind: str, focus: Focus) -> AppState:
-    """Return the state with a new object or light, in sight of the camera and the outside view's,
-    selected.
-    """
+    """Return the state with a new object or light, in the picture, selected."""
     if kind == "directional":  # it has no place
         table = objects.new_table(state.scene, kind)
         return with_scene(state, *objects.add(state.scene, table))
-    outside = state.of(OutsideOptions).camera
-    cameras = [state.camera] if outside is None else [state.camera, outside]
-    place = place_for(state.scene, focus, cameras, kind in objects.LIGHTS)
+    place = place_for(state.scene, focus, state.camera, kind in objects.LIGHTS)
     power = math.floor(math.log10(place.size))
     size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger
     at = [round(x, 2 - power) for x in place.at]
@@ -64,43 +59,11 @@ def duplicated(state: AppState, focus: Focus) -> AppState:
     return with_scene(state, *objects.duplicate(state.scene, items, by))
 
 
-def copied(state: AppState) -> str:
-    """Return the selection as scene-file text."""
-    return clipping.copy_text(state.scene, chosen(state))
-
-
-def pasted(state: AppState, text: str) -> AppState:
-    """Return the state with the objects and lights of a scene text added and selected."""
-    return with_scene(state, *clipping.paste_text(state.scene, text))
-
-
-def is_scene_text(text: str) -> bool:
-    """Return True if a text is meant to be objects or lights of a scene file."""
-    return "[[objects]]" in text or "[[lights]]" in text
-
-
-def reordered(state: AppState, item: Item, before: Item | None) -> AppState:
-    """Return the state with the item moved before another one, together with the selection if it is
-    part of it.
-    """
-    items = chosen(state) if item in chosen(state) else (item,)
-    return with_scene(state, objects.reorder(state.scene, items, before))
-
-
 def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
-    """Return the rows that contain all of these words: in a name, a kind, a material, or a part's
-    name.
-    """
+    """Return the rows that contain all of these words: in a name, a kind or a file."""
     wanted = words.lower().split()
-    if not wanted:
-        return list(rows)
-    found = []
-    for row in rows:
-        texts = (row.shown, row.kind, row.material, row.file, *(part.name for part in row.parts))
-        text = " ".join(texts).lower()
-        if all(word in text for word in wanted):
-            found.append(row)
-    return found
+    texts = (f"{row.shown} {row.kind} {row.file}".lower() for row in rows)
+    return [r for r, text in zip(rows, texts, strict=True) if all(w in text for w in wanted)]
 
 
 def reached(rows: Sequence[OutlineRow], first: Item | None, last: Item) -> tuple[Item, ...]:

@@ -16,8 +16,8 @@ from imgui_bundle import ImVec2, imgui
 
 from app.objects.choosing import chosen, rows_of
 from app.objects.editing import with_scene
-from app.objects.icons import LOCKED, SHOWN, WIDE_EM, icon, switch
 from app.objects.material_fields import material_lines
+from app.objects.outliner import SHOWN
 from app.objects.value_fields import (
     Edits,
     color_line,
@@ -49,7 +49,7 @@ from renderer.scene_editing.outline import OutlineRow
 
 COMMON = {*ObjectTable.__struct_fields__, *LightTable.__struct_fields__}
 PLACED = {"translate", "rotate_deg", "scale", "center", "position", "direction", "file"}
-NOTHING = "Choose an object: double-click it in a view, or click it in the list."
+NOTHING = "Select an object: double-click it in a view, or click it in the list."
 TOLD = {
     "radius": "from the middle to the surface, in world units",
     "tube_radius": "of the tube around the ring",
@@ -70,12 +70,10 @@ TOLD = {
 class Inspector:
     """The inspector's state between frames.
 
-    for_all: change a shared material for all objects that have it.
     problem: the reason why the last number was rejected.
     about: the selection at that time.
     """
 
-    for_all: bool = True
     problem: str = ""
     about: tuple[Item, ...] = ()
 
@@ -145,10 +143,7 @@ def _panel(
                 _place_lines(edits, items, fields, around)
         of_objects = tuple(row.item for row in listed if not row.is_light and row.item is not None)
         if of_objects:
-            for_all = material_lines(
-                edits, state.scene, of_objects, inspector.for_all, around.fonts
-            )
-            inspector = replace(inspector, for_all=for_all)
+            material_lines(edits, state.scene, of_objects, around.fonts)
     for edit in edits:
         try:
             state = with_scene(state, edit(state.scene))
@@ -177,22 +172,21 @@ def _tell(problem: str) -> None:
 
 
 def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> None:
-    em = imgui.get_font_size()
-    icon(row.kind, theme.TEXT)
-    imgui.same_line(0, 0.3 * em)
-    left = imgui.get_cursor_pos_x() + imgui.get_content_region_avail().x - 2 * WIDE_EM * em
     if len(items) > 1:
         imgui.align_text_to_frame_padding()
-        told = f"{len(items)} chosen; the last: {row.shown}"
-        imgui.text(fitting_words(told, left - imgui.get_cursor_pos_x()))
+        told = f"{len(items)} selected; the last: {row.shown}"
+        imgui.text(fitting_words(told, imgui.get_content_region_avail().x))
     else:
-        imgui.set_next_item_width(left - imgui.get_cursor_pos_x())
+        imgui.set_next_item_width(-1)
         changed, name = imgui.input_text_with_hint("##name", row.shown, row.name)
         rows.tip("its name")
         if changed:
             edits.append(lambda scene: objects.rename(scene, items[0], name))
-    imgui.same_line(left)
-    _switches(edits, row, items)
+    changed, on = checkbox("shown", not row.hidden)
+    rows.tip("Light on" if row.is_light else SHOWN)
+    if changed:
+        edits.append(lambda scene: objects.hide(scene, items, not on))
+    imgui.same_line()
     kind = f"{row.kind} light" if row.is_light else row.kind
     triangles = f", {row.triangles:,} triangles" if row.triangles else ""
     imgui.text_disabled(f"{kind}{triangles}")
@@ -203,16 +197,6 @@ def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSet
         imgui.same_line()
         imgui.text_disabled("by default")
         rows.tip(BY_DEFAULT)
-
-
-def _switches(edits: Edits, row: OutlineRow, items: Sequence[Item]) -> None:
-    """Draw the list's own switches: visible, and locked."""
-    told = "Light on" if row.is_light else SHOWN
-    if switch("eye", "no eye" if row.hidden else "eye", not row.hidden, told):
-        edits.append(lambda scene: objects.hide(scene, items, not row.hidden))
-    imgui.same_line(0, 0)
-    if switch("lock", "lock" if row.locked else "no lock", row.locked, LOCKED):
-        edits.append(lambda scene: objects.lock(scene, items, not row.locked))
 
 
 def _shape_lines(edits: Edits, items: Sequence[Item], fields: Any, around: PanelSetting) -> None:

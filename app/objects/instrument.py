@@ -24,7 +24,7 @@ SYNONYMS = {
     "Delete": "remove",
     "Duplicate": "copy clone",
 }
-MOUSE = (("double-click an object", "choose it; V: by a click; Shift: one more"),)
+MOUSE = (("double-click an object", "select it; V: by a click; Shift: one more"),)
 
 
 def _make(views: Sequence[DockedView]) -> list[DockedView]:

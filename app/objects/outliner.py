@@ -1,22 +1,22 @@
-"""The list of a scene's objects and lights: the Add menu, the search, the lines.
+"""The list of a scene's objects and lights: the Add menu, the search, the rows.
 
 Takes a state and returns another. Selecting is separate from editing, since it is no undo step.
-Only visible lines are drawn.
+Only visible rows are drawn.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache, partial
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.objects import editing
-from app.objects.choosing import choose, chosen, rows_of
-from app.objects.icons import WIDE_EM, icon
-from app.objects.listed import Listed, ListLine, Outliner, lines_of, scroll_to
-from app.objects.outliner_row import draw_line, dropped
+from app.objects.choosing import choose, choose_also, chosen, rows_of
+from app.objects.listed import Listed, Outliner, scroll_to
 from app.state.app_state import AppState
 from app.widgets import theme
+from app.widgets.checks import checkbox
+from app.widgets.lettering import fitting_letters
 from app.widgets.rows import tip
 from renderer.focus import Focus
 from renderer.scene.model import Scene
@@ -26,78 +26,58 @@ from renderer.scene_editing.outline import OutlineRow
 
 EMPTY = "The scene has no objects. Add one, or drop a model here."
 READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."
-NO_MATCH = "Nothing is called so."
-SEARCH = "of a name, a kind, a material; Enter chooses all that is found"
-NARROW_EM = 18.0  # narrower lists show no triangle counts
+NO_MATCH = "No matching object or light."
+SEARCH = "words of a name, a kind or a file; Enter selects all rows that match"
+SHOWN = "shown by both renderers"
+KIND_EM = 5.0
 
 
 def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
     """Draw the list into the current window."""
     rows = rows_of(state.scene)
-    result = _head(Listed.of(outliner, state), focus)
+    result = _head(Listed(outliner, state), focus)
     if rows and all(row.item is None for row in rows):
         imgui.text_wrapped(READ_ONLY)
     elif not rows:
         imgui.text_wrapped(EMPTY)
     if rows and not result.rows:
         imgui.text_disabled(NO_MATCH)
-    flags = (
-        imgui.TableFlags_.row_bg
-        | imgui.TableFlags_.no_pad_outer_x
-        | imgui.TableFlags_.sizing_fixed_fit
-        | imgui.TableFlags_.no_saved_settings
-        | imgui.TableFlags_.hideable
-    )
-    em = imgui.get_font_size()
-    narrow = imgui.get_content_region_avail().x < NARROW_EM * em
+    flags = imgui.TableFlags_.row_bg | imgui.TableFlags_.no_pad_outer_x
+    flags |= imgui.TableFlags_.sizing_fixed_fit | imgui.TableFlags_.no_saved_settings
     # A table that scrolls by itself is a window that Tab does not go into.
     imgui.begin_child("list", (0, 0), imgui.ChildFlags_.nav_flattened)
     if result.rows and imgui.begin_table("items", 3, int(flags)):
+        imgui.table_setup_column("shown", 0, imgui.get_frame_height())
         imgui.table_setup_column("name", int(imgui.TableColumnFlags_.width_stretch))
-        imgui.table_setup_column("triangles", 0, 4.2 * em)
-        imgui.table_set_column_enabled(1, not narrow)
-        imgui.table_setup_column("switches", 0, (2 * WIDE_EM + 0.3) * em)
-        result = _lines(result)
-        _plain_row()
-        imgui.align_text_to_frame_padding()
-        imgui.text_disabled(_whole(state.scene))
-        result = _dropped_at_the_end(result)
+        imgui.table_setup_column("kind", 0, KIND_EM * imgui.get_font_size())
+        result = _visible_rows(result)
         imgui.end_table()
+        imgui.text_disabled(_totals(state.scene))
     imgui.end_child()
     return result
 
 
-def _lines(result: Listed) -> Listed:
-    """Draw the visible lines, and the one whose name is being typed."""
-    lines = _kept_lines(result.state.scene, result.outliner.words, result.outliner.opened)
+def _visible_rows(result: Listed) -> Listed:
+    """Draw the visible rows, and the one whose name is being typed."""
     height = imgui.get_frame_height() + 2 * imgui.get_style().cell_padding.y
-    result = _follow(lines, height, result)
+    items = [row.item for row in result.rows]
+    selected = chosen(result.state)
+    last = selected[-1] if selected else None
+    if last != result.outliner.seen:  # scroll to an item that was selected elsewhere
+        if last in items and not imgui.is_window_hovered():
+            room = imgui.get_window_height()
+            at = scroll_to(items.index(last), height, imgui.get_scroll_y(), room)
+            imgui.set_scroll_y(at)
+        result = result.keeping(seen=last)
     clipper = imgui.ListClipper()
-    clipper.begin(len(lines), height)
-    if result.outliner.renamed is not None:
-        typed = result.outliner.renamed[0]
-        for number, line in enumerate(lines):
-            if line.row.item == typed and line.part is None:
-                clipper.include_item_by_index(number)
+    clipper.begin(len(items), height)
+    renamed = result.outliner.renamed
+    if renamed is not None and renamed[0] in items:
+        clipper.include_item_by_index(items.index(renamed[0]))
     while clipper.step():
-        for line in lines[clipper.display_start : clipper.display_end]:
-            result = draw_line(line, result)
+        for row in result.rows[clipper.display_start : clipper.display_end]:
+            result = _row(row, result)
     return result
-
-
-def _follow(lines: list[ListLine], height: float, result: Listed) -> Listed:
-    """Scroll to what was selected elsewhere, in a view or with Tab."""
-    items = chosen(result.state)
-    last = items[-1] if items else None
-    if last == result.outliner.seen:
-        return result
-    if last is not None and not imgui.is_window_hovered():
-        for number, line in enumerate(lines):
-            if line.row.item == last:
-                room = imgui.get_window_height()
-                imgui.set_scroll_y(scroll_to(number, height, imgui.get_scroll_y(), room))
-                break
-    return result.keeping(seen=last)
 
 
 def _head(result: Listed, focus: Focus) -> Listed:
@@ -108,15 +88,12 @@ def _head(result: Listed, focus: Focus) -> Listed:
     below = imgui.get_item_rect_min().x, imgui.get_item_rect_max().y
     imgui.set_next_window_pos(below, imgui.Cond_.appearing)
     if imgui.begin_popup("add"):
-        for kind in (*objects.SHAPES, "", *objects.LIGHTS):
-            if not kind:
-                imgui.separator()
-                continue
+        for kind in (*objects.SHAPES, *objects.LIGHTS):
             label = f"{kind} light" if kind in objects.LIGHTS else kind
-            if _offered(kind, label.capitalize()):
+            if imgui.menu_item(label.capitalize(), "", False)[0]:
                 result = result.tried(partial(editing.added, result.state, kind, focus))
         imgui.separator()
-        if _offered("model", "Model..."):
+        if imgui.menu_item("Model...", "", False)[0]:
             result = result.but(model=True)
         imgui.end_popup()
     imgui.same_line()
@@ -131,13 +108,6 @@ def _head(result: Listed, focus: Focus) -> Listed:
     return result
 
 
-def _offered(kind: str, label: str) -> bool:
-    icon(kind, theme.TEXT)
-    imgui.same_line()
-    imgui.align_text_to_frame_padding()
-    return bool(imgui.menu_item(label, "", False)[0])
-
-
 @lru_cache(maxsize=1)
 def _found(scene: Scene, words: str) -> list[OutlineRow]:
     """Return the rows found, cached because it is called in each frame."""
@@ -145,27 +115,99 @@ def _found(scene: Scene, words: str) -> list[OutlineRow]:
 
 
 @lru_cache(maxsize=1)
-def _kept_lines(scene: Scene, words: str, opened: frozenset[Item]) -> list[ListLine]:
-    return lines_of(_found(scene, words), opened)
-
-
-@lru_cache(maxsize=1)
-def _whole(scene: Scene) -> str:
+def _totals(scene: Scene) -> str:
     """Return the totals of the scene as text."""
     rows = rows_of(scene)
     count, triangles = sum(len(row.ids) for row in rows), sum(row.triangles for row in rows)
     return f"{count:,} object{'s' * (count != 1)}, {triangles:,} triangles"
 
 
-def _plain_row() -> None:
-    """Draw a row that is not a line of the list."""
+def _row(row: OutlineRow, result: Listed) -> Listed:
+    """Draw a row of the table: a checkbox that shows it, its name and its kind."""
+    item = row.item
     imgui.table_next_row()
-    imgui.table_set_bg_color(imgui.TableBgTarget_.row_bg0, 0)
+    imgui.push_id(str(item if item is not None else f"part {row.ids.start}"))
+    if imgui.table_next_column() and item is not None:
+        result = _shown(row, item, result)
     imgui.table_next_column()
+    renamed = result.outliner.renamed
+    if renamed is not None and renamed[0] == item:
+        result = _rename_field(row, result)
+    else:
+        result = _name(row, result)
+    imgui.table_next_column()
+    imgui.align_text_to_frame_padding()
+    imgui.text_disabled(row.kind)
+    imgui.pop_id()
+    return result
 
 
-def _dropped_at_the_end(result: Listed) -> Listed:
-    room = imgui.get_content_region_avail()
-    _plain_row()
-    imgui.dummy(ImVec2(-1 if room.x < 1 else room.x, max(imgui.get_frame_height(), 1.0)))
-    return dropped(None, result)
+def _shown(row: OutlineRow, item: Item, result: Listed) -> Listed:
+    changed, on = checkbox("##shown", not row.hidden)
+    tip("Light on" if row.is_light else SHOWN)
+    if not changed:
+        return result
+    state, items = result.state, result.acted_on(item)
+    return result.tried(lambda: editing.with_scene(state, objects.hide(state.scene, items, not on)))
+
+
+def _name(row: OutlineRow, result: Listed) -> Listed:
+    item = row.item
+    start = imgui.get_cursor_screen_pos()
+    kinds = imgui.SelectableFlags_
+    flags = kinds.allow_double_click | kinds.allow_overlap
+    accent = theme.ACCENT
+    imgui.push_style_color(imgui.Col_.header, ImVec4(accent.x, accent.y, accent.z, 0.45))
+    size = ImVec2(0, imgui.get_frame_height())
+    clicked = imgui.selectable("##row", item in chosen(result.state), int(flags), size)[0]
+    imgui.pop_style_color()
+    if item is not None:
+        result = _row_menu(row, item, result)
+    imgui.set_cursor_screen_pos(start)
+    imgui.align_text_to_frame_padding()
+    shown = fitting_letters(row.shown, imgui.get_content_region_avail().x)
+    imgui.text_colored(theme.DIM if row.hidden or item is None else theme.TEXT, shown)
+    if shown != row.shown:
+        tip(row.shown)
+    if not clicked or item is None:
+        return result
+    if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+        return result.renaming(row)
+    io, state, anchor = imgui.get_io(), result.state, result.outliner.anchor
+    if io.key_shift and anchor is not None:
+        return result.but(chosen=choose(state, editing.reached(result.rows, anchor, item)))
+    result = result.keeping(anchor=item)
+    return result.but(chosen=choose_also(state, item) if io.key_ctrl else choose(state, (item,)))
+
+
+def _rename_field(row: OutlineRow, result: Listed) -> Listed:
+    assert result.outliner.renamed is not None
+    item, name = result.outliner.renamed
+    if not result.outliner.begun:
+        imgui.set_keyboard_focus_here()
+    imgui.set_next_item_width(-1)
+    flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
+    done, name = imgui.input_text("##name", name, int(flags))
+    if not (done or imgui.is_item_deactivated()):
+        return result.keeping(renamed=(item, name), begun=True)
+    result = result.keeping(renamed=None, begun=False)
+    if imgui.is_key_pressed(imgui.Key.escape) or name == row.name:
+        return result
+    state = result.state
+    return result.tried(lambda: editing.with_scene(state, objects.rename(state.scene, item, name)))
+
+
+def _row_menu(row: OutlineRow, item: Item, result: Listed) -> Listed:
+    if not imgui.begin_popup_context_item("menu"):
+        return result
+    state = result.state
+    if item not in chosen(state):
+        result = result.but(chosen=choose(state, (item,)))
+    if imgui.menu_item("Rename", "", False)[0]:
+        result = result.renaming(row)
+    if not row.is_light and imgui.menu_item("Frame it", "", False)[0]:
+        result = result.but(framed=item)
+    if imgui.menu_item("Delete", "", False, not row.locked)[0]:
+        result = result.tried(lambda: editing.deleted(choose(state, (item,))))
+    imgui.end_popup()
+    return result

@@ -7,6 +7,7 @@ front side of its plane, as set by its winding. If there are many objects, their
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,7 +16,6 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.outside.outlines import contours
 from renderer.camera import Camera
 from renderer.scene.boxes import extent
 from renderer.scene.model import Mesh, SceneObject, Sphere
@@ -115,6 +115,32 @@ def _rings(spheres: Sequence[Sphere], camera: Camera, corners: int) -> Floats:
     radii = np.array([sphere.radius for sphere in spheres], float)
     rings = contours(centers, radii, camera, corners)
     return np.stack([rings, np.roll(rings, -1, axis=1)], axis=2).reshape(-1, 2, 3)
+
+
+def contours(centers: Floats, radii: Floats, camera: Camera, corners: int) -> Floats:
+    """Return the circles on spheres where they are seen edge on, (m, corners, 3), without spheres
+    that the eye is inside of.
+
+    centers: (n, 3). radii: (n,).
+    """
+    if camera.is_parallel:
+        way = np.broadcast_to(np.asarray(camera.w, float), centers.shape)
+        way, back = way / np.linalg.norm(camera.w), np.zeros(len(radii))
+    else:
+        way = np.asarray(camera.eye, float) - centers
+        distance = np.linalg.norm(way, axis=1)
+        outside = distance > radii * (1 + 1e-9)
+        centers, radii, way, distance = (part[outside] for part in (centers, radii, way, distance))
+        way, back = way / distance[:, None], radii * (radii / distance)
+        radii = radii * np.sqrt(1 - (radii / distance) ** 2)
+    helper = np.eye(3)[np.abs(way).argmin(axis=1)]
+    first = np.cross(way, helper)
+    first = first / np.linalg.norm(first, axis=1, keepdims=True)
+    second = np.cross(way, first)
+    angles = np.arange(corners) * (2 * math.pi / corners)
+    ring = np.cos(angles)[:, None] * first[:, None] + np.sin(angles)[:, None] * second[:, None]
+    found: Floats = (centers + back[:, None] * way)[:, None] + radii[:, None, None] * ring
+    return found
 
 
 def _boxes(meshes: Sequence[Mesh], camera: Camera) -> Floats:

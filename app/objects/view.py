@@ -10,7 +10,6 @@ from typing import ClassVar
 from app.cameras.presets import framed
 from app.host import layout
 from app.host.view import DockedView, Host
-from app.objects import editing
 from app.objects.inspector import Inspector, PanelSetting, inspector_panel
 from app.objects.listed import Outliner
 from app.objects.outliner import outliner_panel
@@ -28,15 +27,6 @@ class ObjectsView(DockedView):
 
     def __init__(self) -> None:
         self.outliner = Outliner()
-
-    def takes(self, host: Host, text: str) -> bool:
-        if not editing.is_scene_text(text):
-            return False
-        try:
-            host.change(editing.pasted(host.state, text))
-        except LucidaError as error:
-            host.files.message = f"Nothing was pasted. {error}"
-        return True
 
     def draw(self, host: Host) -> None:
         listed = outliner_panel(self.outliner, host.state, host.focus)

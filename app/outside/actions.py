@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.outside.extent import around, framed, outside_camera, way_of
+from app.outside.figure_view import Ground, export_figure
 from app.outside.options import OutsideOptions
 from app.outside.switches import (
     AXIS_NAMES,
@@ -18,7 +19,6 @@ from app.outside.switches import (
     toggled,
     with_gizmo,
 )
-from app.outside.vector_view import export_diagram
 from app.outside.view import OutsideView
 from app.state.app_state import AppState
 from renderer.camera import Camera
@@ -142,18 +142,20 @@ OUTSIDE = (
     *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
 )
 
+
+def _figure(name: str, ground: Ground) -> Action:
+    return Action(PICTURE, name, lambda window: export_figure(window, ground))
+
+
 DIAGRAM = (
     Action(
         PICTURE,
-        "Export diagram as SVG...",
-        export_diagram,
+        "Export figure as SVG...",
+        lambda window: export_figure(window, "window"),
         "Ctrl+Shift+E",
         (CTRL | SHIFT | int(Key.e),),
         separated=True,
     ),
-    Action(
-        PICTURE,
-        "Export diagram as SVG without the live image...",
-        lambda window: export_diagram(window, live=False),
-    ),
+    _figure("Export figure as SVG on white...", "white"),
+    _figure("Export figure as SVG without a ground...", "transparent"),
 )

@@ -14,15 +14,13 @@ import moderngl
 
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
-from renderer.coarseness import Coarseness, reduced
+from renderer.coarseness import STILL_S, Coarseness, reduced
 from renderer.memo import Memo
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
 
 PLACE, COARSE = "Outside", "Outside, coarse"  # see Rasterizer.draw
-STILL_S = 0.15  # without a change of the view, before it is drawn in full, its edges made smooth
 FRAME_S = 0.008  # what a picture may take of a frame while the view moves
-COARSEST = 4
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
@@ -62,7 +60,7 @@ class Ground:
         self._timer = context.query(time=True)
         # Factor and pixels of the picture whose time has not been read yet.
         self._timed: tuple[int, int] | None = None
-        self.coarseness = Coarseness(FRAME_S, FRAME_S, COARSEST)
+        self.coarseness = Coarseness(FRAME_S)
 
     @property
     def settled(self) -> bool:
@@ -104,7 +102,7 @@ class Ground:
             factor = self.coarseness.changed(request.size[0] * request.size[1], now_s)
             self.shown = None
             self.shown = picture = self._draw(request, rasterizer, now_s, factor)
-        elif not refines or now_s - picture.changed_s <= max(STILL_S, self.coarseness.rest_s):
+        elif not refines or now_s - picture.changed_s < STILL_S:
             pass
         elif picture.factor > 1:
             self.shown = picture = self._draw(request, rasterizer, picture.changed_s, 1)

@@ -16,7 +16,7 @@ SYNONYMS = {
     "Handles: move plane": "gizmo distance focal length",
     "Handles: turn up": "gizmo rotate roll",
     "Fit all": "zoom extents",
-    "Export diagram as SVG...": "vector drawing wireframe outline outlines",
+    "Export figure as SVG...": "vector drawing diagram",
     "Outside view": "3d world frustum wireframe scene",
 }
 

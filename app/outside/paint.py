@@ -13,8 +13,8 @@ import numpy as np
 from imgui_bundle import ImVec4
 
 from app.outside.diagram import Role, Segments
+from app.outside.figure import Color
 from app.outside.projected import Primitive, Shape, Strokes, Text
-from app.outside.vector import Color, Paint
 from app.widgets import theme
 from renderer.camera import Vector
 from renderer.images.display import to_srgb8
@@ -47,6 +47,7 @@ DARKER: dict[Role, ImVec4] = {
     "plane": theme.rgb("#2f3943"),
     "volume": theme.rgb("#45607c"),
     "grid": theme.rgb("#5d6873"),
+    "eye": theme.rgb("#c9c1b2"),
     "mark": theme.rgb("#8c7a00"),
     "text": theme.rgb("#16191c"),
     "other": theme.rgb("#6a3fd1"),
@@ -72,20 +73,10 @@ def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
     return theme.MARK if role == "mark" else FIXED[role]
 
 
-def vector_paint() -> Paint:
-    """Return the colours of a vector drawing on the theme's own ground."""
-    ground = theme.BACKGROUND
-    behind = (ground.x, ground.y, ground.z)
-    darker = DARKER if ground.x > 0.5 else {}
-
-    def color(role: Role, tint: float) -> Color:
-        found = darker.get(role, role_color(role, behind))
-        end = 1.0 if tint > 0 else 0.0
-        red, green, blue = (part + abs(tint) * (end - part) for part in (found.x, found.y, found.z))
-        return red, green, blue
-
-    plain = theme.PLAIN
-    return Paint(color, (plain.x, plain.y, plain.z), behind)
+def figure_color(role: Role, tint: float, ground: theme.Rgb) -> Color:
+    """Return the colour of a role in a figure on a ground, with a tint (1: white, -1: black)."""
+    darker = DARKER if min(ground) > 0.5 else {}
+    return _tinted(darker.get(role, role_color(role, ground)), tint)
 
 
 @lru_cache(maxsize=1)
@@ -174,6 +165,10 @@ def _corners(parts: Sequence[Shape], color: Callable[[Role, float, float], Rgba]
 
 def _color(role: Role, opacity: float, tint: float, ground: theme.Rgb) -> Rgba:
     color = role_color(role, ground)
+    return *_tinted(color, tint), color.w * opacity
+
+
+def _tinted(color: ImVec4, tint: float) -> Color:
     end = 1.0 if tint > 0 else 0.0
     red, green, blue = (part + abs(tint) * (end - part) for part in (color.x, color.y, color.z))
-    return red, green, blue, color.w * opacity
+    return red, green, blue

@@ -14,7 +14,6 @@ from app.outside.hits import RayHits
 from app.outside.projected import Primitive
 from app.outside.tools import Written
 from renderer.raster.overlay import Overlay
-from renderer.raster.screen_pass import Target
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +21,7 @@ class MadePicture:
     """The last picture, what it was made from, and its labels, which are drawn over it."""
 
     key: tuple[Any, ...]
-    target: Target
+    texture: moderngl.Texture
     primitives: list[Primitive]
     labels: list[Written]
 

@@ -129,15 +129,13 @@ class OutsideScreen:
         return way / length if length > 0 else np.asarray(camera.w) / np.linalg.norm(camera.w)
 
 
-def image_plane(
-    camera: Camera, looking: Camera, size: Size, upside_down: bool = False
-) -> Plane | None:
+def image_plane(camera: Camera, looking: Camera, size: Size) -> Plane | None:
     """Return a camera's image plane in the picture of another one, of `size`; None if it has none,
-    or is seen edge-on. upside_down: for a picture whose row 0 is the lowest.
+    or is seen edge-on.
     """
     if not has_plane(camera):
         return None
-    corners = plane_corners(camera)[[3, 2, 0] if upside_down else [0, 1, 3]]
+    corners = plane_corners(camera)[[0, 1, 3]]
     behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
     return plane_on_screen(looking, size, corners, behind)
 

@@ -18,10 +18,10 @@ from app.outside.looking import TRIAD_PX, Floats, camera_along
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.paint import role_color
+from app.outside.painting import measured, rimmed_text
 from app.outside.placing import Box, Edges, LabelPlacer
 from app.outside.projected import Primitive, Text
 from app.outside.switches import AXIS_NAMES, SWITCHES, Switch, handles, is_on, toggled, with_gizmo
-from app.outside.vector_painting import measured, rimmed_text
 from app.state.bounds import whole_range_of
 from app.widgets import theme
 from app.widgets.areas import press_area

@@ -19,8 +19,7 @@ from app.host.view import DockedView, Host
 from app.images.picking import object_on_ray
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
-from app.images.screen import available_px, is_at_the_bottom
-from app.images.shown import Picture
+from app.images.screen import available_px
 from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
 from app.outside.diagram import Item, RayEnd
@@ -48,7 +47,6 @@ from app.outside.placing import Edges, LabelPlacer
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen, image_plane
 from app.outside.scrubber import Scrubber
-from app.outside.sketch import OPACITY
 from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
@@ -67,6 +65,7 @@ Size = tuple[int, int]
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
+OPACITY = 0.9  # of the picture on the image plane: things behind it are slightly visible
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 
 
@@ -120,7 +119,7 @@ class OutsideView(DockedView):
     @property
     def size_px(self) -> Size | None:
         """Return the picture's size, (width, height); None while the view is hidden."""
-        return self._made.target[0].size if self._made is not None else None
+        return self._made.texture.size if self._made is not None else None
 
     def show(self, source: str, items: Iterable[Item] = (), **more: Any) -> None:
         """Show what another instrument adds, until its next call. more: see Extension."""
@@ -187,8 +186,7 @@ class OutsideView(DockedView):
         self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
         scope = self._follow_mouse(host, size, origin, extent)
         self._widening.follow(host, scope, self.extensions.answers)
-        is_under = is_at_the_bottom()
-        texture = self._texture(host, scope.shown, size, scope, is_under)
+        texture = self._texture(host, scope.shown, size, scope)
         draw = imgui.get_window_draw_list()
         far = ImVec2(origin.x + extent.x, origin.y + extent.y)
         if texture is None:
@@ -198,12 +196,7 @@ class OutsideView(DockedView):
             return
         assert self.tools is not None
         assert self._made is not None
-        if is_under:
-            left, top = round(origin.x * scale), round(origin.y * scale)
-            picture = Picture(*self._made.target, self._made)
-            host.renderers.underlay.put(picture, (left, top, left + size[0], top + size[1]))
-        else:
-            draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
+        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
         draw.push_clip_rect(origin, far, True)
         ground = _ground(host.state)
         self._gizmo.follow(host, scope, ground)
@@ -287,14 +280,11 @@ class OutsideView(DockedView):
     # The picture.
 
     def _texture(
-        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
+        self, host: Host, camera: Camera, size: Size, scope: Scope
     ) -> moderngl.Texture | None:
-        """Return the view's picture, drawn again if anything has changed; None if that failed.
-
-        is_under: it is for the underlay.
-        """
+        """Return the view's picture, drawn again if anything has changed; None if that failed."""
         try:
-            self._made = self._drawn(host, camera, size, scope, is_under)
+            self._made = self._drawn(host, camera, size, scope)
         except (LucidaError, moderngl.Error) as error:
             self.unseen(host)
             self._error = describe(error)
@@ -302,11 +292,9 @@ class OutsideView(DockedView):
         assert self.tools is not None
         if self._scopes.waits or not self.tools.ground.settled:
             host.animate()
-        return self._made.target[0]
+        return self._made.texture
 
-    def _drawn(
-        self, host: Host, camera: Camera, size: Size, scope: Scope, is_under: bool
-    ) -> MadePicture:
+    def _drawn(self, host: Host, camera: Camera, size: Size, scope: Scope) -> MadePicture:
         """Return the present picture; the last one if nothing has changed."""
         both, state = host.renderers, host.state
         assert self.tools is not None
@@ -332,7 +320,7 @@ class OutsideView(DockedView):
         )  # fmt: skip
         key = (
             content, ground.number, ground.smooth, screen.near, units_px(scope.extent),
-            live and live.number, state.images, is_under, theme.used(), extensions.items,
+            live and live.number, state.images, theme.used(), extensions.items,
             extensions.cloud, extensions.picture,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
@@ -340,19 +328,18 @@ class OutsideView(DockedView):
         primitives = project([*grown_diagram(content), *extensions.items], screen)
         labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
         picture = extensions.picture
-        # Row 0 of whole_raster() is the lowest.
-        plane = image_plane(inner, camera, size, upside_down=picture is None)
+        plane = image_plane(inner, camera, size)
         if not options.image:
             picture = None
         elif picture is None:
             picture = both.textures.whole_raster(request, look_of(state.images))
-        target = overlay.draw(
+        texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
             exposure_ev, OPACITY, screen.unit_px, ground.mean if ground.smooth else None, CASING,
-            (ground.number, ground.parts), is_under,
+            (ground.number, ground.parts),
             self.tools.layer.picture(extensions.cloud, screen, _ground(state)),
         )  # fmt: skip
-        return MadePicture(key, target, primitives, labels)
+        return MadePicture(key, texture, primitives, labels)
 
     def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
         """Return the marked pixel's ray and the bundle's, with their ends as far as they

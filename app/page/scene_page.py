@@ -55,4 +55,4 @@ def write_scene_page(path: str | Path, scene: Scene, view: View) -> int:
 
 def check_page_path(path: str | Path) -> Path:
     """Return the path. Raises LucidaError if it cannot be written, or is no page's."""
-    return check_export_path(path, ENDINGS, f"give {ENDINGS[0]}")
+    return check_export_path(path, ENDINGS)

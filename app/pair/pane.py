@@ -12,7 +12,6 @@ from app.images.placement import Placement
 from app.images.screen import Box, Screen
 from app.images.shown import Picture
 from app.images.textures import PANE
-from app.images.underlay import Underlay
 from app.pair.dark_note import DarkNote, draw_dark_note
 from app.pair.hatching import draw_hatching
 from app.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
@@ -26,16 +25,14 @@ from app.widgets import theme
 from app.widgets.areas import mouse_area
 
 MAP = "map"  # the whole image, small
-# What is seen of a state's image in a window, None for no image. The bool: whether it is for the
-# underlay; the string: which of the image's pictures.
-Drawn = Callable[[AppState, Placement, bool, str], Picture | None]
+# Returns the visible part of a state's image in a window, under a name; None for no image.
+Drawn = Callable[[AppState, Placement, str], Picture | None]
 
 
 @dataclass(frozen=True)
 class Pane:
     """One image's window. picture: asked after the mouse has moved the camera.
-    underlay: where it can be put, having nothing under it; None: ImGui draws it. values: of some
-    pixels, likewise; None: they are not written.
+    values: of some pixels, likewise; None: they are not written.
 
     note: text over the image, which is darkened: it is not of now. dark: why an image as it should
     be is black. progress: of the image under way, 1 for none. hovered: the pixel
@@ -46,7 +43,6 @@ class Pane:
 
     seen: Seen
     picture: Drawn
-    underlay: Underlay | None
     values: Values | None
     fonts: theme.Fonts
     note: str = ""
@@ -130,17 +126,14 @@ def image_pane(
 def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
     draw = imgui.get_window_draw_list()
     low, high = screen.visible
-    picture = pane.picture(state, screen.placement, pane.underlay is not None, PANE)
+    picture = pane.picture(state, screen.placement, PANE)
     if picture is None:  # yet: no part of it may be taken for a black image
         draw.add_rect_filled(*room, theme.u32(theme.PANEL))
     else:
         _surround(draw, room, low, high)
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if picture is not None:
-        if pane.underlay is not None:
-            pane.underlay.put(picture, screen.visible_px)
-        else:
-            draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
+        draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
         draw_hatching(draw, screen, pane.seen.shown)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
@@ -176,7 +169,7 @@ def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -
     """Return OpenGL's name of a texture of the whole image, (width, height) framebuffer pixels."""
     size = screen.placement.size
     small = Placement(size, extent, extent[0] / size[0], (0, 0), extent)
-    picture = pane.picture(state, small, False, MAP)
+    picture = pane.picture(state, small, MAP)
     return picture.texture.glo if picture is not None else None
 
 

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from app.images.pixelvalues import Depths, is_dark, line_count, shown_bytes, value_lines
 from app.images.placement import RULED_FROM
-from app.images.readback import Region
 from app.images.screen import Screen
 from app.pair.rulers import ADVANCE
 from app.state.app_state import AppState
 from app.widgets import theme
+from renderer.raster.targets import Region
 
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
 MOST_TEXT = 64.0

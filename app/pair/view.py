@@ -16,7 +16,7 @@ from app.host.guest import Click, Guest, ShownIn
 from app.host.view import DockedView, Host
 from app.images.marking import Anchor, followed
 from app.images.placement import Placement, shown_pixel
-from app.images.screen import Screen, available_px, is_at_the_bottom
+from app.images.screen import Screen, available_px
 from app.images.shown import Picture
 from app.pair.dark_note import DarkNote, note_button
 from app.pair.footprint import draw_footprint, draw_value, footprint
@@ -159,7 +159,6 @@ class ImageView(DockedView):
         pane = Pane(
             seen=seen,
             picture=picture,
-            underlay=both.underlay if is_at_the_bottom() else None,
             values=values,
             fonts=host.fonts,
             note=describe(error) if error else note,
@@ -316,10 +315,10 @@ class PhotographedView(ImageView):
         if not layer.follow(host.renderers, host.state):
             return picture
 
-        def laid(state: AppState, placement: Placement, under: bool, name: str) -> Picture | None:
-            made = picture(state, placement, under, name)
+        def laid(state: AppState, placement: Placement, name: str) -> Picture | None:
+            made = picture(state, placement, name)
             of = self.name, name
-            return layer.over(host.renderers, state, of, made, placement, under, self.is_ray)
+            return layer.over(host.renderers, state, of, made, placement, self.is_ray)
 
         return laid
 

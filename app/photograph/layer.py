@@ -82,7 +82,6 @@ class PhotographLayer:
         name: tuple[str, str],
         picture: Picture | None,
         placement: Placement,
-        under: bool,
         ray: bool,
     ) -> Picture | None:
         """Return a picture of one of the images with the photograph as the state says. Call
@@ -96,7 +95,7 @@ class PhotographLayer:
             return picture
         parts = self._parts(both, state)
         laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
-        return self._laid(both, name, picture, placement, under, laid, ray)
+        return self._laid(both, name, picture, placement, laid, ray)
 
     def instead(
         self, both: Renderers, state: AppState, picture: Picture, placement: Placement
@@ -106,7 +105,7 @@ class PhotographLayer:
         The picture stays where the photograph ends or is transparent: nothing differs there.
         """
         laid = LaidPhotograph(self._parts(both, state))
-        return self._laid(both, ("in its place", ""), picture, placement, False, laid, False)
+        return self._laid(both, ("in its place", ""), picture, placement, laid, False)
 
     def end(self) -> None:
         self._work.close()
@@ -132,14 +131,13 @@ class PhotographLayer:
         name: tuple[str, str],
         picture: Picture,
         placement: Placement,
-        under: bool,
         laid: LaidPhotograph,
         ray: bool,
     ) -> Picture:
         assert self._laying is not None
         try:
             objects = self._seen(both, ray) if laid.behind else None
-            return self._laying.laid(name, picture, placement, under, laid, objects)
+            return self._laying.laid(name, picture, placement, laid, objects)
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self.problem = describe(error)
             return picture

@@ -60,7 +60,6 @@ class Laying:
         name: Hashable,
         picture: Picture,
         placement: Placement,
-        under: bool,
         laid: LaidPhotograph,
         objects: Held | None = None,
     ) -> Picture:
@@ -68,7 +67,6 @@ class Laying:
 
         Laying behind needs objects: the number of each pixel's object, int32, row 0 at the top;
         without them nothing is laid. name: each picture is drawn over by the next of that name.
-        under: the picture is for the underlay.
         """
         if self.texture is None or (laid.behind and objects is None):
             return picture
@@ -88,7 +86,6 @@ class Laying:
             opacity=laid.opacity,
             pixels=(float(placement.size[0]), float(placement.size[1])),
             level=smaller,
-            upside_down=under,
         )
 
     def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:

@@ -6,7 +6,6 @@ The last sets are cached, so that undo finds them at once.
 
 from __future__ import annotations
 
-import re
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -119,23 +118,16 @@ class PosesReader:
 def is_cameras(source: str) -> bool:
     """Return True if a name is that of a file or folder of cameras, never of a scene.
 
-    Files with the extensions of programs and models are examined: a script for Blender, a glTF file
-    without a mesh.
+    A glTF file is examined: it is one of cameras if it has no mesh.
     """
     path = Path(source)
     try:
         if source.lower().endswith(CAMERA_ENDINGS) or path.is_dir():
             return True
-        looks = {".py": _is_for_blender, ".gltf": _has_no_mesh}.get(path.suffix.lower())
-        return (
-            looks is not None and path.stat().st_size <= _LARGEST_LOOKED_AT and looks(given(path))
-        )
+        is_small_gltf = path.suffix.lower() == ".gltf" and path.stat().st_size <= _LARGEST_LOOKED_AT
+        return is_small_gltf and _has_no_mesh(given(path))
     except (OSError, ValueError):  # LucidaError is a ValueError: there is no such file
         return False
-
-
-def _is_for_blender(script: Given) -> bool:
-    return script.is_text and re.search(r"^\s*(import|from)\s+bpy\b", script.text, re.M) is not None
 
 
 def _has_no_mesh(model: Given) -> bool:

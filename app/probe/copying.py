@@ -1,32 +1,21 @@
-"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python, Julia or C."""
+"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python or Julia."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
-from app.explaining.languages import COMMENTS, c, julia
+from app.explaining.languages import julia
 from app.explaining.notation import Line, number
 from app.explaining.symbols import in_notation, program
 from app.probe.color_formulas import color_lines
 from app.probe.formulas import hit_lines, pixel_text, ray_lines
 from app.probe.lens_program import lens_program
 from app.probe.reading import OUTSIDE, SEEN, Meeting, Reading
-from app.state.options import Language, Notation
+from app.state.options import Notation
 from renderer.pixels import Indexing
 from renderer.shared_numbers import SRGB_GAMMA, SRGB_LINEAR, SRGB_SCALE, SRGB_SHIFT, SRGB_SLOPE
 
-# A program's camera in the book's letters: the declarations of the same in code's words, and what
-# is written before, around and after each.
-_DECLARED = re.compile(
-    r"(?P<indent> *)(?:double )?(?P<name>eye|[uvw]|distance)(?:\[3\])?"
-    r" = (?P<value>[^;#]+?);?(?:  .*)?"
-)
-_CAMERA: dict[Language, tuple[str, str, str]] = {
-    "python": ("cam = SimpleNamespace(", "    {name}={value},", ")"),
-    "julia": ("cam = (", "    {name} = {value},", ")"),
-    "c": ("struct {{ double e[3], u[3], v[3], w[3], d; }} cam = {{", "    {value},", "}};"),
-}
+_CAMERA = slice(5, 10)  # the program's lines that declare the camera's vectors and distance
 
 
 def section_lines(
@@ -87,22 +76,14 @@ def as_python(
     words or by the book's letters; for a pixel of the background, only origin, direction, color
     and rgb.
     """
-    return _in_notation(_program(reading, indexing), "python", notation)
+    return _in_notation(_program(reading, indexing), notation)
 
 
 def as_julia(
     reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
 ) -> str:
     """Return the same program in Julia, using its standard library."""
-    return _in_notation(julia.program(_program(reading, indexing)), "julia", notation)
-
-
-def as_c(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
-) -> str:
-    """Return the same program in C, a whole file; link it with -lm."""
-    whole = c.program(_program(reading, indexing))
-    return c.HEAD + _in_notation(whole.removeprefix(c.HEAD), "c", notation)
+    return _in_notation(julia.program(_program(reading, indexing)), notation, in_julia=True)
 
 
 def _program(reading: Reading, indexing: Indexing) -> str:
@@ -143,31 +124,20 @@ def _program(reading: Reading, indexing: Indexing) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _in_notation(code: str, language: Language, notation: Notation) -> str:
+def _in_notation(code: str, notation: Notation, in_julia: bool = False) -> str:
     """Return a program in code's words in a notation. With letters, it has a camera: `cam.u`."""
     if notation == "code":
         return code
-    before, around, after = _CAMERA[language]
-    lines: list[str] = []
-    left = ["eye", "u", "v", "w", "distance"]
-    for line in code.split("\n"):
-        found = _DECLARED.fullmatch(line)
-        if found is None or found["name"] not in left:
-            text, mark, comment = line.partition(COMMENTS[language])
-            lines.append(program(text, notation) + mark + comment)
-            continue
-        indent = found["indent"]
-        if len(left) == 5:
-            lines.append(indent + before.format())
-        left.remove(found["name"])
-        name = program(found["name"], notation).removeprefix("cam.")
-        lines.append(indent + around.format(name=name, value=found["value"]))
-        if not left:
-            lines.append(indent + after.format())
-    text = "\n".join(lines)
-    if language == "python":
-        text = text.replace("import numpy", "from types import SimpleNamespace\n\nimport numpy", 1)
-    return text
+    parts = (line.partition("#") for line in code.split("\n"))
+    lines = [program(text, notation) + mark + comment for text, mark, comment in parts]
+    fields = [line.partition("  #")[0].removeprefix("cam.") for line in lines[_CAMERA]]
+    if in_julia:
+        lines[_CAMERA] = ["cam = (", *(f"    {field}," for field in fields), ")"]
+    else:
+        fields = [field.replace(" = ", "=", 1) for field in fields]
+        lines[_CAMERA] = ["cam = SimpleNamespace(", *(f"    {field}," for field in fields), ")"]
+        lines[1:1] = ["from types import SimpleNamespace", ""]
+    return "\n".join(lines)
 
 
 def _background_program(reading: Reading) -> list[str]:

@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.explaining.notation import Line, number
 from app.outside.growing import lit_in
-from app.probe.copying import as_c, as_julia, as_latex, as_python, as_text, section_lines
+from app.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
 from app.probe.options import ProbeOptions
 from app.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
@@ -37,7 +37,6 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("LaTeX", as_latex),
     ("Python", as_python),
     ("Julia", as_julia),
-    ("C", as_c),
 )
 SECTIONS = {
     "ray": "Ray",

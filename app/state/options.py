@@ -32,7 +32,7 @@ MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
-Language = Literal["python", "julia", "c"]
+Language = Literal["python", "julia"]
 Notation = Literal["book", "code"]
 
 

@@ -25,23 +25,42 @@ class Removed:
 
 @dataclass(frozen=True)
 class Replaced:
-    """A value of an option that left. value: what takes its place."""
+    """A value of an option that left.
+
+    value: what takes its place.
+    was_default: True if every old session holds the old value; a session's is not reported.
+    """
 
     value: Any
     instead: str
+    was_default: bool = False
 
 
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
 REMOVED: dict[str, Removed] = {
+    "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
+    "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
+    "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
+    "costs.recorded": Removed("the cost plot always shows recorded images", False),
+    "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
+    "detective": Removed(
+        "paste a matrix with Ctrl+V, which asks what it means",
+        {"text": "", "pixel_origin": "center", "chosen": ""},
+    ),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 
 # Values by the option's path and the old value, such as ("language", "c").
-REPLACED: dict[tuple[str, Any], Replaced] = {}
+REPLACED: dict[tuple[str, Any], Replaced] = {
+    ("language", "c"): Replaced("python", "programs are in Python or Julia"),
+    ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
+}
 
 # Views that a lecture's step could show.
-REMOVED_VIEWS: dict[str, str] = {}
+REMOVED_VIEWS: dict[str, str] = {
+    "detective": "paste a matrix with Ctrl+V, which asks what it means",
+}
 
 
 def without_removed(
@@ -79,7 +98,8 @@ def _kept(
             yield name, dict(_kept(value, f"{path}.", is_session, lines))
         elif isinstance(value, str) and (path, value) in REPLACED:
             replaced = REPLACED[path, value]
-            lines.append(f"{path} = {value!r} is now {replaced.value!r}: {replaced.instead}")
+            if not (is_session and replaced.was_default):
+                lines.append(f"{path} = {value!r} is now {replaced.value!r}: {replaced.instead}")
             yield name, replaced.value
         else:
             yield name, value

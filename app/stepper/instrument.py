@@ -16,8 +16,6 @@ PAGES: dict[str, dict[str, object]] = {
     "Loop stepper: both loops": {"order": "both"},
     "Loop stepper: object order": {"order": "object"},
     "Loop stepper: image order": {"order": "image"},
-    "Loop stepper: object order by triangles": {"order": "object", "form": "triangles"},
-    "Loop stepper: object order by rays": {"order": "object", "form": "rays"},
 }
 INSTRUMENT = Instrument(
     lambda views: [StepperView(view_of(views, OutsideView))],

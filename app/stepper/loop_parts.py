@@ -1,4 +1,4 @@
-"""The functions that the two teaching renderers call: rays, objects, hits, colours, the canvas.
+"""The functions that the teaching renderers call: rays, objects, hits, colours, the canvas.
 
 Each handles one ray and one object at a time. Pixels are (i, j) = (row, column), 0-based; vectors
 are tuples of three floats.
@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.explaining.projected import mesh_extent, pixels_of, sphere_extent
 from app.probe.crossings import Index
 from renderer import pure_python as scalar
 from renderer.camera import Camera, Floats, Size, Vector
@@ -124,16 +123,6 @@ def viewing_ray(camera: Camera, x: float, y: float) -> ViewingRay:
         origin = camera.eye
         direction = scalar.minus(across, scalar.times(camera.distance, camera.w))
     return ViewingRay(origin, direction, *camera.t_range)
-
-
-def bounding_box(object: Object, camera: Camera, size: Size) -> tuple[range, range]:
-    """The rows and the columns of the pixels that the object's projection can touch."""
-    if object.sphere >= 0:
-        x, y, z, radius = object.index.flat.spheres[object.sphere].tolist()
-        extent = sphere_extent(np.array([x, y, z]), radius, camera)
-    else:
-        extent = mesh_extent(object.vertices, object.faces, camera)
-    return pixels_of(extent, camera, size)
 
 
 def intersect(object: Object, ray: ViewingRay) -> Hit:

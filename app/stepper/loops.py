@@ -2,22 +2,13 @@
 
 The stepper shows these functions' sources while they run, in either notation, which is why they
 have no types and use code's words. The functions that they call are in loop_parts.py and
-raster_parts.py. Object order has two forms: rasterization, for triangles, as graphics cards do it;
-and by rays, for any shape, which differs from image order only by swapped loops. All take a Model,
-a Camera and a size (width, height), and return the same Canvas.
+raster_parts.py. Object order is rasterization, as graphics cards do it. Both take a Model, a Camera
+and a size (width, height), and return the same Canvas.
 """
 
 from __future__ import annotations
 
-from app.stepper.loop_parts import (
-    MISS,
-    Canvas,
-    DepthBuffer,
-    bounding_box,
-    color_at,
-    intersect,
-    viewing_ray,
-)
+from app.stepper.loop_parts import MISS, Canvas, color_at, intersect, viewing_ray
 from app.stepper.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 
 
@@ -39,26 +30,6 @@ def rasterization(scene, camera, size):
                     if t < depth[i, j]:
                         depth[i, j] = t
                         canvas[i, j] = shade(triangle, ea, eb, ec)
-    return canvas
-
-
-def object_order(scene, camera, size):
-    """For each object, for each pixel, by the pixel's ray."""
-    width, height = size
-    left, right, bottom, top = camera.viewport
-    canvas = Canvas(size, scene.background)
-    depth = DepthBuffer(size)
-    for object in scene.objects:
-        rows, columns = bounding_box(object, camera, size)
-        for i in rows:
-            for j in columns:
-                x = left + (j + 0.5) / width * (right - left)
-                y = top - (i + 0.5) / height * (top - bottom)
-                ray = viewing_ray(camera, x, y)
-                hit = intersect(object, ray)
-                if hit.t < depth[i, j]:
-                    depth[i, j] = hit.t
-                    canvas[i, j] = color_at(scene, ray, hit)
     return canvas
 
 

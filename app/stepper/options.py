@@ -16,8 +16,6 @@ class StepperOptions:
 
     canvas: (width, height).
     order: the visible algorithms.
-    form: of object order: triangle by triangle, as graphics cards work, or each object by its rays;
-    a scene without triangles is always drawn by rays.
     steps: of the run in object order, and of the one in image order; a step past the end is the
     last.
     speed: steps per second while it plays.
@@ -25,7 +23,6 @@ class StepperOptions:
 
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)
     order: Literal["both", "object", "image"] = "both"
-    form: Literal["triangles", "rays"] = "triangles"
     steps: tuple[Step, Step] = (0, 0)
     speed: Annotated[float, Range(1, 20_000)] = 8.0
 

@@ -17,25 +17,19 @@ from app.stepper.listing import Listing, listing, shown_lines
 from app.stepper.loop_parts import (
     Canvas,
     DepthBuffer,
-    bounding_box,
     color_at,
     intersect,
     viewing_ray,
 )
-from app.stepper.model import SHOWN, Moment
-from app.stepper.numbers import TEXTS, numbers
-from app.stepper.plan import (
-    Need,
-    Place,
-    canvases_in,
-    plan,
-    plan_of_two,
-)
+from app.stepper.model import Moment
+from app.stepper.numbers import numbers
+from app.stepper.plan import Place, canvases_in, code_width, plan
 from app.stepper.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 from app.stepper.recording import MOST_STEPS, Order, Recording
 from app.stepper.source import shown_code, source_of
 from app.widgets import theme
 from app.widgets.canvas import Marks, canvas
+from app.widgets.code import LINE, letters_in, row_count
 from app.widgets.lettering import fitting_words
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_int
@@ -44,7 +38,6 @@ from renderer.pixels import Indexing
 
 TITLES = {
     Order.RASTER: "Rasterization: for each triangle, for each pixel",
-    Order.OBJECT: "Object order by rays: for each object, for each pixel",
     Order.IMAGE: "Image order: for each pixel, for each object",
 }
 SLIDER_EM = 14.0  # the least width of the slider next to a title
@@ -58,13 +51,12 @@ RunTextures = tuple[int | None, int | None]  # OpenGL names: the colour's, the d
 class Shown:
     """The presentation of algorithms.
 
-    orders: those that are side by side. canvas: its pixels, (width, height). indexing, notation: of
-    code, numbers and captions. in_julia: show Julia, too. is_low: there is no room for words that
-    the algorithm can be known without.
+    orders: those that are side by side. indexing, notation: of code, numbers and captions.
+    in_julia: show Julia, too. is_low: there is no room for words that the algorithm can be known
+    without.
     """
 
     orders: tuple[Order, ...]
-    canvas: tuple[int, int]
     indexing: Indexing
     notation: Notation
     in_julia: bool
@@ -93,27 +85,28 @@ def run_panel(
         recording.source.lines, shown.notation, shown.indexing, shown.in_julia,
         _called(shown.notation, shown.indexing),
     )  # fmt: skip
-    if shown.is_low and not shown.is_bare:  # two of them have room for the code alone
-        listing(lines, moment.line, room, fonts)
-        return step
-    need, extent = _need(shown), (round(room.x), round(room.y))
-    made = plan_of_two(extent, need) if shown.in_julia else plan(extent, need)
+    em_px, extent = imgui.get_font_size(), (room.x, room.y)
+    letters = letters_in(code_width(extent), em_px)
+    rows = [row_count(_code_of(order, shown), letters) for order in shown.orders]
+    made = plan(extent, (1 + shown.in_julia) * max(rows) * LINE * em_px + 0.5, em_px)
 
     def to(place: Place) -> ImVec2:
         imgui.set_cursor_screen_pos(ImVec2(corner.x + place.left, corner.y + place.top))
-        return ImVec2(*place.size)
+        return ImVec2(place.width, place.height)
 
     listing(lines, moment.line, to(made.code), fonts)
     place = to(made.canvases)
     imgui.begin_group()
-    together = recording.order.has_depth and made.depth is None
-    clicked = _canvases(recording, moment, picture, place, shown.indexing, together)
+    clicked = _canvases(recording, moment, picture, place, shown.indexing)
     imgui.end_group()
-    if recording.order.has_depth and made.depth is not None:
-        clicked = _depth(recording, moment, picture, to(made.depth)) or clicked
     place = to(made.numbers)
     numbers(moment, shown.indexing, shown.notation, place, made, fonts, counted=not shown.is_low)
     return clicked or step
+
+
+def _code_of(order: Order, shown: Shown) -> tuple[str, ...]:
+    """Return an algorithm's lines as they are shown."""
+    return narrowed(shown_lines(source_of(order.renderer).lines, shown.notation, shown.indexing))
 
 
 def _heading(recording: Recording, moment: Moment | None, shown: Shown, fonts: Fonts) -> int | None:
@@ -141,36 +134,13 @@ def _heading(recording: Recording, moment: Moment | None, shown: Shown, fonts: F
     return slider(recording, moment)
 
 
-def _need(shown: Shown) -> Need:
-    """Return the room that is needed. Of two runs side by side, the larger need counts."""
-    lines = [
-        narrowed(shown_lines(source_of(order.renderer).lines, shown.notation, shown.indexing))
-        for order in shown.orders
-    ]
-    names, counters = [names_of(order) for order in shown.orders], 0 if shown.is_low else 3
-    return Need(
-        lines=max(lines, key=len),
-        canvas=shown.canvas,
-        has_depth=any(order.has_depth for order in shown.orders),
-        em_px=imgui.get_font_size(),
-        short=max(counters + sum(name not in TEXTS for name in one) for one in names),
-        long=max(sum(name in TEXTS for name in one) for one in names),
-    )
-
-
-def names_of(order: Order) -> list[str]:
-    """Return the names of an algorithm's visible variables."""
-    return [name for name in SHOWN if name in order.renderer.__code__.co_varnames]
-
-
 def slider(recording: Recording, moment: Moment) -> int | None:
     """Draw the slider of the run's step. Return the step that it asks for."""
     most = max(1, len(recording) - 1)
     imgui.set_next_item_width(-1)
     note = f"step %d of {most}"
     if recording.truncated:
-        less = "object order by rays" if recording.order is Order.RASTER else "fewer pixels"
-        note += f" (stopped after {MOST_STEPS}: take {less})"
+        note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
     elif not recording.complete:
         note += " so far"
     changed, step = slider_int(
@@ -184,7 +154,7 @@ def slider(recording: Recording, moment: Moment) -> int | None:
 def _called(notation: Notation, indexing: Indexing) -> dict[str, str]:
     """Return the sources of the functions that the loops call."""
     parts = (
-        viewing_ray, bounding_box, intersect, color_at, Canvas, DepthBuffer,
+        viewing_ray, intersect, color_at, Canvas, DepthBuffer,
         prepared, triangles, project, box_around, edge, t_of, shade,
     )  # fmt: skip
     return {
@@ -194,44 +164,30 @@ def _called(notation: Notation, indexing: Indexing) -> dict[str, str]:
 
 
 def _canvases(
-    recording: Recording,
-    moment: Moment,
-    picture: RunTextures,
-    room: ImVec2,
-    indexing: Indexing,
-    together: bool,
+    recording: Recording, moment: Moment, picture: RunTextures, room: ImVec2, indexing: Indexing
 ) -> Pixel | None:
-    """Draw the canvas, with the depth buffer next to it or below if they share a place."""
-    name, size = recording.order.name, recording.size
+    """Draw the canvas, with the depth buffer next to it or below. Return the clicked pixel."""
+    name, size, has_depth = recording.order.name, recording.size, recording.order.has_depth
     label = imgui.get_text_line_height_with_spacing()
     spacing = imgui.get_style().item_spacing
-    gap = spacing.x, spacing.y
-    upper, lower, beside = canvases_in((room.x, room.y), size, together, label, gap)
-    first = ImVec2(*upper)
+    each, beside = canvases_in((room.x, room.y), size, has_depth, label, (spacing.x, spacing.y))
+    extent = ImVec2(*each)
     dots = tuple((test.pixel, test.t < float("inf")) for test in moment.tests)
     corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
-    marks = Marks(moment.pixel, moment.box, dots if recording.order.has_depth else (), corners)
+    marks = Marks(moment.pixel, moment.box, dots if has_depth else (), corners)
     imgui.begin_group()
-    imgui.text_colored(theme.DIM, _caption(moment, indexing, first.x))
-    clicked = canvas(picture[0], size, first, marks, f"canvas##{name}")
+    imgui.text_colored(theme.DIM, _caption(moment, indexing, extent.x))
+    clicked = canvas(picture[0], size, extent, marks, f"canvas##{name}")
     imgui.set_item_tooltip("a click goes to a pixel's turn")
     imgui.end_group()
-    if not together:
+    if not has_depth:
         return clicked
     if beside:
         imgui.same_line()
-    return _depth(recording, moment, picture, ImVec2(lower[0], lower[1] + label)) or clicked
-
-
-def _depth(
-    recording: Recording, moment: Moment, picture: RunTextures, room: ImVec2
-) -> Pixel | None:
-    """Draw the depth buffer, with a line above it."""
-    name, size = recording.order.name, recording.size
-    rest = ImVec2(room.x, max(20.0, room.y - imgui.get_text_line_height_with_spacing()))
     imgui.begin_group()
     imgui.text_colored(theme.DIM, "depth")
-    clicked = canvas(picture[1], size, rest, Marks(moment.pixel, moment.box), f"depth##{name}")
+    marks = Marks(moment.pixel, moment.box)
+    clicked = canvas(picture[1], size, extent, marks, f"depth##{name}") or clicked
     imgui.set_item_tooltip("for each pixel the nearest t so far, near ones bright")
     imgui.end_group()
     return clicked

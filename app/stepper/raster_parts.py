@@ -16,13 +16,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.explaining.projected import whole_within
+from app.explaining.projected import pixels_of, sphere_extent, whole_within
 from app.stepper.loop_parts import (
     Canvas,
     DepthBuffer,
     Model,
     Object,
-    bounding_box,
     color_at,
     intersect,
     light_at,
@@ -70,7 +69,9 @@ def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuf
     for object in scene.objects:
         if object.sphere < 0:
             continue
-        rows, columns = bounding_box(object, camera, size)
+        x, y, z, radius = scene.flat.spheres[object.sphere].tolist()
+        extent = sphere_extent(np.array([x, y, z]), radius, camera)
+        rows, columns = pixels_of(extent, camera, size)
         for i in rows:
             for j in columns:
                 x, y = (float(place) for place in camera.image_point(i, j, size))

@@ -18,7 +18,7 @@ from typing import Any
 from app.explaining.columns import Column
 from app.state.bounds import check, whole_range_of
 from app.stepper.loop_parts import Model
-from app.stepper.loops import image_order, object_order, rasterization
+from app.stepper.loops import image_order, rasterization
 from app.stepper.options import StepperOptions
 from app.stepper.raster_parts import t_of
 from app.stepper.source import Source, source_of
@@ -31,16 +31,15 @@ _MISSING = object()
 
 
 class Order(Enum):
-    """The algorithm. Object order has two forms: by triangles, and by rays."""
+    """The algorithm."""
 
     RASTER = "rasterization"
-    OBJECT = "object order"
     IMAGE = "image order"
 
     @property
     def has_depth(self) -> bool:
-        """True if the run has a depth buffer: object order, in both forms."""
-        return self is not Order.IMAGE
+        """True if the run has a depth buffer: object order."""
+        return self is Order.RASTER
 
     @property
     def renderer(self) -> Callable[..., Any]:
@@ -49,7 +48,6 @@ class Order(Enum):
 
 _RENDERERS = {
     Order.RASTER: rasterization,
-    Order.OBJECT: object_order,
     Order.IMAGE: image_order,
 }
 

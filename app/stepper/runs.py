@@ -19,10 +19,6 @@ from renderer.scene.model import Scene
 SOON_S = 0.4  # longer runs are shown while they run
 
 
-# The default algorithms.
-BY_RAYS = (Order.OBJECT, Order.IMAGE)
-
-
 @dataclass(frozen=True, eq=False)
 class Pair:
     """The recordings of one canvas, in object order and in image order. begun_s: on
@@ -42,11 +38,8 @@ class Pair:
     def is_late(self) -> bool:
         return time.monotonic() - self.begun_s > SOON_S
 
-    def is_of(
-        self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
-    ) -> bool:
-        mine = self.scene, self.camera, self.size, tuple(self.runs)
-        return same(mine, (scene, camera, size, orders))
+    def is_of(self, scene: Scene, camera: Camera, size: Size) -> bool:
+        return same((self.scene, self.camera, self.size), (scene, camera, size))
 
     def cancel(self) -> None:
         for run in self.runs.values():
@@ -69,9 +62,7 @@ class Runs:
     def busy(self) -> bool:
         return self._background.busy
 
-    def of(
-        self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...] = BY_RAYS
-    ) -> Pair | None:
+    def of(self, scene: Scene, camera: Camera, size: Size) -> Pair | None:
         """Return the recordings to show; None before the first steps of a scene.
 
         Those of the last camera are shown until the new ones are complete, or take long.
@@ -82,11 +73,11 @@ class Runs:
             self.error = outcome.error
             if outcome.value is not None and outcome.value.complete:
                 self._shown = outcome.value
-        self._background.ask(self._record, scene, camera, size, orders)
+        self._background.ask(self._record, scene, camera, size)
         going, shown = self._under_way, self._shown
         # Only the camera may be another one.
-        alike = shown is not None and shown.is_of(scene, shown.camera, size, orders)
-        if going is not None and going.is_of(scene, camera, size, orders):
+        alike = shown is not None and shown.is_of(scene, shown.camera, size)
+        if going is not None and going.is_of(scene, camera, size):
             if (going.is_late or not alike) and all(len(run) for run in going.runs.values()):
                 self._shown = going
                 return going
@@ -99,14 +90,14 @@ class Runs:
             self._under_way.cancel()
         self._background.close()
 
-    def _record(self, scene: Scene, camera: Camera, size: Size, orders: tuple[Order, ...]) -> Pair:
+    def _record(self, scene: Scene, camera: Camera, size: Size) -> Pair:
         """Record both runs, on the thread."""
-        runs = {order: Recording(self._model(scene), camera, size, order) for order in orders}
+        runs = {order: Recording(self._model(scene), camera, size, order) for order in Order}
         pair = Pair(scene, camera, size, runs, time.monotonic())
         self._under_way = pair
         # Triangle by triangle may take long, and nothing is shown before each has a step.
-        for order in sorted(runs, key=lambda one: one is Order.RASTER):
-            runs[order].run()
+        runs[Order.IMAGE].run()
+        runs[Order.RASTER].run()
         return pair
 
 

@@ -45,7 +45,7 @@ class Source:
     first_line: subtracted from Python's line numbers.
     shown: the number in `lines` of each of Python's, -1 for the docstring.
     pixels: the loop over columns j, inside that over rows.
-    objects: the loop over objects, or over their triangles.
+    objects: the loop over objects, or over triangles.
     test: the line that intersects an object, or the last of a triangle's edge functions.
     write: the line that sets a pixel of the canvas.
     sets: the lines that set each variable.

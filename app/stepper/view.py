@@ -36,7 +36,6 @@ from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Size
 from renderer.errors import describe
 from renderer.memo import Memo
-from renderer.scene.model import Sphere
 
 STEPPER = "Stepper"
 LOW_EM = 18.0  # a view that is lower has one row of controls, and no words that it can do without
@@ -97,13 +96,9 @@ class StepperView(DockedView):
         self._uploads.begin_frame()
         self._seen = True
         options = host.state.of(StepperOptions)
-        scene = host.state.scene
-        has_triangles = any(not isinstance(one.shape, Sphere) for _, one in scene.visible)
         is_low = imgui.get_content_region_avail().y < LOW_EM * imgui.get_font_size()
         now = Asked(options, host.state.options.language)
-        slider_px = BARE_SLIDER_EM * imgui.get_font_size() if options.order != "both" else 0.0
-        room = slider_px if is_low else None
-        asked = controls(now, self.playing, has_triangles, room) if host.has_tools else now
+        asked = controls(now, self.playing, is_low) if host.has_tools else now
         host.apply(host.state.with_options(language=asked.language))
         wish = self._asked or keys() or asked.wish
         self._asked = ""
@@ -112,9 +107,7 @@ class StepperView(DockedView):
             host.apply(host.state.with_options(stepper=options))
         state = host.state
         camera = state.view.for_size(options.canvas)
-        by_triangles = has_triangles and options.form == "triangles"
-        both = (Order.RASTER if by_triangles else Order.OBJECT, Order.IMAGE)
-        pair = self._runs.of(state.scene, camera, options.canvas, both)
+        pair = self._runs.of(state.scene, camera, options.canvas)
         if self._runs.error is not None:
             imgui.text_colored(theme.ERROR, describe(self._runs.error))
             return
@@ -124,7 +117,7 @@ class StepperView(DockedView):
             return
         if not pair.complete:
             host.animate()
-        orders = [one for one in both if options.order in ("both", _key(one))]
+        orders = [one for one in Order if options.order in ("both", _key(one))]
         steps = self._moved(host, pair, orders, options, wish)
         self._panels(host, pair, orders, steps, is_low)
         self._show_outside(host, pair, orders)
@@ -192,7 +185,6 @@ class StepperView(DockedView):
                 self._upload(run, moment, state.images.exposure_ev)
         shown = panel.Shown(
             tuple(orders),
-            state.of(StepperOptions).canvas,
             state.options.indexing,
             state.options.notation,
             state.options.language == "julia",

@@ -15,6 +15,7 @@ from app.widgets import theme
 from renderer.errors import describe
 
 SHOWN_AFTER_S = 0.4  # quick work has no progress bar
+LONG = 40  # letters of an answer
 LOADING = "##loading"
 
 
@@ -59,12 +60,14 @@ def wrapped(text: str, color: ImVec4 | None = None) -> None:
 
 
 def message_box(text: str, answers: Sequence[str] = ("Close",)) -> str:
-    """Draw a message with buttons. Return the selected answer, or ""."""
-    chosen = ""
+    """Draw a message with buttons, one below the other if they are long. Return the selected
+    answer, or "".
+    """
+    chosen, is_long = "", max(map(len, answers)) > LONG
     with overlay("##message", top_center(3), (0.5, 0), box_width(40, 0.8), theme.ERROR):
         wrapped(text)
         for index, answer in enumerate(answers):
-            if index:
+            if index and not is_long:
                 imgui.same_line()
             if imgui.button(answer):
                 chosen = answer

@@ -333,18 +333,6 @@ def _set_style() -> None:
             style.set_color_(slot, color)
 
 
-def show_bars(shown: bool) -> None:
-    """Draw the backgrounds of menu bars, tab bars and windows from here on, or leave them out."""
-    style, col, colors = imgui.get_style(), imgui.Col_, _used[0].palette
-    for slot, color in (
-        (col.menu_bar_bg, colors.BACKGROUND),
-        (col.title_bg, colors.BACKGROUND),
-        (col.title_bg_active, colors.BACKGROUND),
-        (col.window_bg, colors.PANEL),
-    ):
-        style.set_color_(slot, color if shown else UNSEEN)
-
-
 def u32(color: ImVec4, alpha: float = 1.0) -> int:
     """Return a colour in the form that draw lists take."""
     return imgui.get_color_u32(color if alpha == 1.0 else color * (1, 1, 1, alpha))

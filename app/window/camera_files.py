@@ -54,4 +54,4 @@ def _save_dialog(window: Window, entry: Format) -> None:
 
 
 # A view file is the action "Save view...", which keeps whether it is fitted.
-CAMERA_FILES = tuple(_action(entry) for entry in FORMATS if entry.writes and entry.name != "view")
+CAMERA_FILES = tuple(_action(entry) for entry in FORMATS if entry.name != "view")

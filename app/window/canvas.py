@@ -10,7 +10,7 @@ from __future__ import annotations
 import moderngl
 
 from app.widgets.surface import Target, copy_pixels
-from renderer.raster.resources import new_surface
+from renderer.raster.resources import new_texture
 
 MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on
 Size = tuple[int, int]
@@ -62,7 +62,7 @@ class WindowCanvas:
     def _sized(self, old: moderngl.Framebuffer | None, size: Size) -> moderngl.Framebuffer:
         if old is not None and old.size == size:
             return old
-        new = self._context.framebuffer([new_surface(self._context, size)])
+        new = self._context.framebuffer([new_texture(self._context, size, 4, "uint8")])
         new.use()
         # Not before: while it makes a framebuffer, moderngl binds the last one again.
         if old is not None:

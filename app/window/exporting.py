@@ -1,7 +1,7 @@
 """Exports of a scene and its camera for other renderers, or as a page: on a thread, with progress
 and cancel.
 
-Lists what could not be exported. renderer/scene_export/ has the formats.
+Lists what could not be exported.
 """
 
 from __future__ import annotations

@@ -176,13 +176,6 @@ class MainWindow:
             self.history = self.history.change(there, self.transition.gesture)
         self.animate()
 
-    def take(self, text: str) -> bool:
-        for view in self.views.values():
-            if view.takes(self, text):
-                self.shell.stage.show(view.name)
-                return True
-        return False
-
     @property
     def travelling(self) -> bool:
         return self.transition.under_way
@@ -311,7 +304,6 @@ class MainWindow:
             take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
         self.renderers.update(self.state, moving)
-        self.shell.stage.bars.show(self.renderers.underlay)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)
         if not self.lecture.is_given:
@@ -336,8 +328,6 @@ class MainWindow:
     def status(self, room: float | None = None) -> None:
         """Draw the status line. room: its width; None for that of its window."""
         both, state = self.renderers, self.state
-        if room is None:
-            self.shell.stage.bars.lay_status(both.underlay)
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked

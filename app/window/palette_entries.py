@@ -24,7 +24,7 @@ OWN = {
     "Open photograph...": "background image picture overlay backdrop load png jpg",
     "Save view...": "export camera",
     "Save scene": "export",
-    "Export...": "mitsuba pbrt gltf glb xml save scene camera renderer",
+    "Export...": "gltf glb blender save scene camera renderer",
     "Save a picture of the window": "screenshot capture image png",
     "Save a picture of the view in use": "screenshot capture image png",
     "Copy a picture of the window": "screenshot clipboard",

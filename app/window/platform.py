@@ -233,7 +233,7 @@ class _Loader:
     def __enter__(self) -> _Loader:
         return self
 
-    def __exit__(self, *exception: object) -> None:
+    def __exit__(self, *_: object) -> None:
         pass
 
     def release(self) -> None:

@@ -28,6 +28,7 @@ from renderer.scene_editing.documents import (
 )
 
 OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
+SAVE_AS = "Save as a new file..."
 LEAVE = "Open without saving"
 
 Then = Callable[[], None]
@@ -96,10 +97,11 @@ class SceneSaving:
             return
         written = self._written.popleft()
         if isinstance(outcome.error, ChangedOnDiskError | CommentsLostError):
-            self._files.ask(
-                one_line(f"{written.path.name} {outcome.error.problem}."),
-                {OVERWRITE: lambda: self._write(written, force=True)},
-            )
+            state = replace(host.state, scene=written.scene)
+            answers: dict[str, Then] = {SAVE_AS: lambda: self.save_as(state, written.then)}
+            if isinstance(outcome.error, ChangedOnDiskError):
+                answers[OVERWRITE] = lambda: self._write(written, force=True)
+            self._files.ask(one_line(f"{written.path.name} {outcome.error.problem}."), answers)
         elif outcome.error is not None:
             self._files.message = describe(outcome.error)
         elif outcome.value is not None:

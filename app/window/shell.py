@@ -38,7 +38,7 @@ from app.window.shortcut_sheet import help_sheet
 from renderer.errors import LucidaError, describe
 from renderer.scene_export import ENDINGS
 
-EXPORTED = "Mitsuba .xml, pbrt .pbrt, glTF .glb, page .html"
+EXPORTED = "glTF .glb, page .html"
 
 
 class Shell:

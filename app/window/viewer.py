@@ -239,7 +239,6 @@ class WindowRun:
 
     def _begin_frame(self) -> None:
         begin_letters()
-        self.window.shell.stage.bars.begin_frame()
         self._focusing.begin_frame()
 
     def _before_render(self) -> None:
@@ -254,7 +253,6 @@ class WindowRun:
             pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
             drawn = self._canvas.bind(pixels, self.window.is_rearranging())
             drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
-            self.window.renderers.underlay.paint(drawn)
 
     def _before_swap(self) -> None:
         canvas = self._canvas

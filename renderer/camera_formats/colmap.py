@@ -24,7 +24,8 @@ from renderer.camera_formats.distortion import lens_of
 from renderer.camera_formats.entries import errors_within, in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.camera_formats.rigid import pinhole, quaternion_of, rotation_of
+from renderer.camera_formats.rigid import pinhole
+from renderer.camera_formats.rotations import quaternion_of, rotation_of
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.intrinsics import viewport_of

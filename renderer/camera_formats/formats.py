@@ -1,12 +1,9 @@
 """The list of formats, and the functions that read and write a file of any of them.
 
-A format is a module here and a line in FORMATS. A module that reads has
+A format is a module here and a line in FORMATS. A module has
 
     recognises(given: Given) -> bool            True if it looks like this format; never raises
     read(given: Given, options: Options) -> CameraSet
-
-and one that writes has
-
     write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]
 
 which returns the content of the file under "", or the contents of a folder's files by their names.
@@ -36,7 +33,7 @@ class Format:
     """A camera format.
 
     name: on the command line. what: in words. endings: of the file that is written, "" for a
-    folder; the first is the default. Empty for one that is only read.
+    folder; the first is the default.
     """
 
     name: str
@@ -53,41 +50,28 @@ class Format:
         models: Collection[str] = getattr(self.module, "LENSES", ())
         return models
 
-    @property
-    def reads(self) -> bool:
-        return hasattr(self.module, "read")
-
-    @property
-    def writes(self) -> bool:
-        return hasattr(self.module, "write")
-
 
 # In the order in which recognised() tries them.
 FORMATS = (
     Format("view", "Lucida's view file", (".toml",)),
     Format("colmap", "COLMAP's model", ("",)),
     Format("nerf", "NeRF's and nerfstudio's transforms.json", (".json",)),
-    Format("three", "three.js's camera", (".json",)),
-    Format("blender", "Blender's camera", (".py",)),
     Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
-    Format(
-        "reconstruction",
-        "posed photographs of Gaussian splatting, Metashape or Meshroom",
-        (),
-    ),
-    Format(
-        "calibration",
-        "a calibration of ORB-SLAM, VINS, Kalibr, OpenCV's stereo, ROS's .ini or Open3D",
-        (),
-    ),
-    Format("opencv", "OpenCV's K, R and t, and ROS's camera_info", (".yml", ".json")),
+    Format("opencv", "OpenCV's K, R and t, or a calibration of its family", (".yml", ".json")),
     Format("gltf", "cameras of a glTF file", (".gltf",)),
-    Format("mitsuba", "a sensor of Mitsuba 3", (".xml",)),
-    Format("pbrt", "a camera of pbrt-v4", (".pbrt",)),
 )
 
 UNKNOWN = "is not a recognised camera format"
-_TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt", ".py")
+_TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
+# Formats that are not read, by words of their files.
+_NOT_READ = {
+    "import bpy": "Blender's scripts are",
+    '"PerspectiveCamera"': "three.js's JSON is",
+    "<sensor ": "Metashape's XML is",
+    '"poseId"': "Meshroom's .sfm is",
+    '"img_name"': "Gaussian splatting's cameras.json is",
+    "PinholeCamera": "Open3D's JSON is",
+}
 
 
 def format_named(name: str) -> Format:
@@ -115,8 +99,6 @@ def read_cameras(
     gc.disable()
     try:
         entry = format_named(format) if format else recognised(found)
-        if not entry.reads:
-            raise LucidaError("format", f"{entry.name} is only written", "give another format")
         cameras: CameraSet = entry.module.read(found, options)
         if not cameras.cameras:
             raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
@@ -131,7 +113,7 @@ def read_cameras(
 def recognised(found: Given) -> Format:
     """Return the format that a file looks like. Raises LucidaError."""
     for entry in FORMATS:
-        if entry.reads and entry.module.recognises(found):
+        if entry.module.recognises(found):
             return entry
     if found.ending in _TEXTS and found.data:
         text = found.text  # raises if it is not text
@@ -140,7 +122,10 @@ def recognised(found: Given) -> Format:
     if found.is_folder:
         remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
         raise LucidaError("", "is a folder without cameras", remedy)
-    names = ", ".join(entry.name for entry in FORMATS if entry.reads)
+    for mark, what in _NOT_READ.items():
+        if found.is_text and mark in found.text:
+            raise LucidaError("", f"{UNKNOWN}: {what} not read", "export glTF or COLMAP there")
+    names = ", ".join(entry.name for entry in FORMATS)
     raise LucidaError("", UNKNOWN, f"say which with `lucida camera --from`: {names}")
 
 
@@ -152,8 +137,6 @@ def written(
     Raises LucidaError if the format cannot hold them.
     """
     entry, options = format_named(format), options or Options()
-    if not entry.writes:
-        raise LucidaError("format", f"{entry.name} is only read", "give another format")
     held = [_held(posed, entry, options) for posed in cameras]
     files: dict[str, bytes] = entry.module.write(held, options)
     return files

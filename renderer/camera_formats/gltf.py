@@ -99,7 +99,7 @@ def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -
         raise LucidaError(
             "viewport",
             f"{listed(camera.viewport)} is off the middle by {parts}, which gltf has not",
-            "centre it, or write opencv, colmap or pbrt",
+            "centre it, or write opencv or colmap",
         )
     reach = height if camera.is_parallel else camera.distance
     clip = {

@@ -1,14 +1,14 @@
-"""OpenCV's cameras: K, R and t in calibration files, ROS's camera_info, and as they are printed.
+"""Calibration files of OpenCV's family: OpenCV, ROS, ORB-SLAM, stella_vslam, VINS, Kalibr, and K, R
+and t as they are printed.
 
-Knows the names that people use for them. storage.py parses the notations.
-Sources: OpenCV's documentation, "Camera calibration and 3D reconstruction"; ROS's CameraInfo.
+storage.py parses the notations, opencv_keys.py knows the names.
+Source: OpenCV's documentation, "Camera calibration and 3D reconstruction".
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -27,36 +27,29 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
-from renderer.camera_formats.opencv_lens import Names, lens_in, lens_table, plain
+from renderer.camera_formats.opencv_keys import Keys, are_cameras, cameras_in, plain
+from renderer.camera_formats.opencv_lens import lens_in, lens_table
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import rigid
 from renderer.camera_formats.rotations import from_vector, to_vector
-from renderer.camera_formats.storage import MOST_BYTES, Table, table_in, to_json, to_yaml
+from renderer.camera_formats.storage import (
+    MOST_BYTES,
+    Table,
+    is_ini,
+    table_in,
+    to_json,
+    to_yaml,
+)
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
 from renderer.lenses import Lens
 
 LENSES = ("brown", "fisheye", "equidistant")
-# Accepted names, in lower case, letters and digits only.
-_K = ("cameramatrix", "k", "intrinsics", "intrinsic", "intrinsicmatrix", "mtx")
-_P = ("projectionmatrix", "p")
-_FOCAL, _SKEW = ("fx", "fy", "cx", "cy"), ("skew",)
-_SIZE = ("imagesize", "size", "resolution")
-_WIDTH, _HEIGHT = ("imagewidth", "width", "w"), ("imageheight", "height", "h")
-_R, _RVEC = ("r", "rotation", "rotationmatrix"), ("rvec", "rodrigues", "rotationvector")
-_T = ("t", "tvec", "translation", "translationvector")
-_FROM_WORLD = (
-    *("extrinsics", "extrinsic", "extrinsicmatrix", "rt", "camerafromworld", "worldtocamera"),
-    *("world2cam", "w2c"),
-)
-_TO_WORLD = ("worldfromcamera", "cameratoworld", "cam2world", "c2w")
-_VIEWS = ("extrinsicparameters",)  # of a calibration's pictures: rvec and tvec, one row per picture
-
+_FOCAL = ("fx", "fy", "cx", "cy")
 _NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
 # A matrix without a name in pasted text: its meaning is unknown.
 _NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
 _AGREE = 1e-4  # tolerance between R and rvec, if a file has both
-
 
 _Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
 _AT_ORIGIN = [("", np.eye(4))]
@@ -66,16 +59,16 @@ def recognises(given: Given) -> bool:
     if len(given.data) > MOST_BYTES:
         return given.ending in (".yml", ".yaml")  # read() checks the size
     if isinstance(given.json, dict):
-        names = {plain(name) for name in given.json}
+        names = list(given.json)
     elif given.is_text:
-        names = {plain(name) for name in _NAMED.findall(given.text)}
-        if "<opencv_storage" in given.text:
+        if "<opencv_storage" in given.text or is_ini(given.text):
             return True
         if given.path is None and _NAMELESS.search(given.text):
             return False
+        names = _NAMED.findall(given.text)
     else:
         return False
-    return not names.isdisjoint((*_K, *_P)) or names.issuperset(_FOCAL[:2])
+    return are_cameras({plain(name.rpartition(".")[2]) for name in names})
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -84,23 +77,43 @@ def read(given: Given, options: Options) -> CameraSet:
 
 
 def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet:
-    """Return the cameras of a table with any of the names above. Raises LucidaError."""
-    names = Names(table)
-    name, K, projected = _intrinsics(names)
-    size, sizing = _size(names, K, options, origin)
-    poses, told = ([projected], f"K, R and t out of {name}") if projected else _poses(names)
-    lens, ignored = lens_in(names, options)
+    """Return the cameras of a table with any of the names in opencv_keys.py. Raises LucidaError."""
+    cameras: list[PosedCamera] = []
+    taken: dict[str, None] = {}
+    sizing, pose = "", np.eye(4)
+    found = cameras_in(table)
+    for name, keys in found.items():
+        if "from previous" in keys:
+            previous, change = keys["from previous"]
+            pose = affine(previous, change) @ pose
+            keys = keys | {"from world": (previous, pose)}
+        own, told, sizing = _cameras(keys, options, origin, name if len(found) > 1 else "")
+        cameras += own
+        taken |= dict.fromkeys(told)
+    return CameraSet("opencv", tuple(cameras), tuple(taken), sizing=sizing)
+
+
+def _cameras(
+    keys: Keys, options: Options, origin: PixelOrigin, name: str
+) -> tuple[list[PosedCamera], list[str], str]:
+    """Return the cameras of one table, a camera for each of its poses; the conventions; and the
+    origin of the size in words.
+    """
+    K_name, K, projected = _intrinsics(keys)
+    size, sizing = _size(keys, K, options, origin)
+    poses, told = ([projected], f"K, R and t out of {K_name}") if projected else _poses(keys)
+    lens, ignored = lens_in(keys, options)
+    name = name or str(keys.get("name", ("", ""))[1] or "")
     cameras = []
     for called, pose in poses:
-        camera = _camera((name, K), (called, pose), size, origin, lens)
-        cameras.append(PosedCamera(camera, size, called, ignored=ignored))
-    if len(cameras) == 1:
-        cameras = [replace(cameras[0], name=str(table.get("camera_name") or ""))]
+        camera = _camera((K_name, K), (called, pose), size, origin, lens)
+        own = name if len(poses) == 1 else called
+        cameras.append(PosedCamera(camera, size, own, ignored=ignored))
     taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]]
     taken += [sizing] if sizing else []
     if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
         taken.append("R is no rotation, and held as it is")
-    return CameraSet("opencv", tuple(cameras), tuple(taken), sizing=sizing)
+    return cameras, taken, sizing
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -132,26 +145,22 @@ def _origin_told(given: Given) -> PixelOrigin:
     return "corner" if ORIGIN_TOLD["corner"] in given.text else "center"
 
 
-def _intrinsics(names: Names) -> tuple[str, Floats, _Pose | None]:
+def _intrinsics(keys: Keys) -> tuple[str, Floats, _Pose | None]:
     """Return the name of K, K itself, and the pose if both come from a projection matrix."""
-    if found := names.get(_K):
-        name, value = found
+    if "K" in keys:
+        name, value = keys["K"]
         numbers = flat(name, value, 9, 4)
-        if numbers.size == 4:
-            return name, _focal(*numbers), None
-        return name, numbers.reshape(3, 3), None
-    if _FOCAL[:1] in names:
-        values = []
+        return name, _focal(*numbers) if numbers.size == 4 else numbers.reshape(3, 3), None
+    if "fx" in keys:
         for part in _FOCAL:
-            if (entry := names.get((part,))) is None:
+            if part not in keys:
                 raise LucidaError(part, "is missing", "give fx, fy, cx and cy")
-            values.append(number_of(*entry))
-        K = _focal(*values)
-        if skew := names.get(_SKEW):
-            K[0, 1] = number_of(*skew)
-        return "fx", K, None
-    if found := names.get(_P):
-        name, value = found
+        K = _focal(*(number_of(*keys[part]) for part in _FOCAL))
+        if "skew" in keys:
+            K[0, 1] = number_of(*keys["skew"])
+        return keys["fx"][0], K, None
+    if "P" in keys:
+        name, value = keys["P"]
         P = flat(name, value, 12).reshape(3, 4)
         with np.errstate(all="ignore"):
             try:
@@ -168,13 +177,13 @@ def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
     return np.array([[fx, 0.0, cx], [0, fy, cy], [0, 0, 1]])
 
 
-def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size, str]:
+def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, str]:
     """Return the image's size, and its origin in words if the file does not state it."""
-    if found := names.get(_SIZE):
-        name, value = found
+    if "size" in keys:
+        name, value = keys["size"]
         width, height = flat(name, value, 2).tolist()
         return size_of(name, width, height), ""
-    wide, high = names.get(_WIDTH), names.get(_HEIGHT)
+    wide, high = keys.get("width"), keys.get("height")
     if wide and high:
         return size_of(wide[0], side_of(*wide), side_of(*high)), ""
     if wide or high:
@@ -191,14 +200,14 @@ def _size(names: Names, K: Floats, options: Options, origin: str) -> tuple[Size,
     return size, told
 
 
-def _poses(names: Names) -> tuple[list[_Pose], str]:
+def _poses(keys: Keys) -> tuple[list[_Pose], str]:
     """Return the poses in a file, and their origin in words."""
-    if found := names.get(_FROM_WORLD):
+    if found := keys.get("from world"):
         return [(found[0], affine(*found))], f"{found[0]} takes world points to the camera"
-    if found := names.get(_TO_WORLD):
+    if found := keys.get("to world"):
         pose = as_camera_from_world(affine(*found))
         return [(found[0], pose)], f"{found[0]} takes the camera's points to the world"
-    if found := names.get(_VIEWS):
+    if found := keys.get("views"):
         numbers = flat(*found)
         if not numbers.size or numbers.size % 6:
             problem = f"has {numbers.size} numbers"
@@ -206,10 +215,9 @@ def _poses(names: Names) -> tuple[list[_Pose], str]:
         rows = numbers.reshape(-1, 6)
         poses = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
         return poses, f"{found[0]}: rvec and tvec of each picture of the calibration"
-    moved, turned = names.get(_T), names.get(_R)
-    if _P in names and _K in names and not moved:  # ROS: R rotates into the rectified image
+    moved, turned, vector = keys.get("t"), keys.get("R"), keys.get("rvec")
+    if {"P", "K"} <= keys.keys() and not moved:  # ROS: R rotates into the rectified image
         return _AT_ORIGIN, "no pose: the camera stands at the origin, not rectified"
-    vector = names.get(_RVEC)
     if not (moved or turned or vector):
         return _AT_ORIGIN, "no pose: the camera stands at the origin"
     R = np.eye(3)

@@ -27,12 +27,19 @@ _YAML = re.compile(
     r"^\s*(?:rows|data)\s*:|^\w+:[ \t]*\r?\n(?:[ \t]+\w+:|[ \t]*-[ \t])", re.MULTILINE
 )
 _PYTHON = re.compile(r"\s*\{\s*'")  # a printed dictionary
+# ROS's .ini: names and numbers on lines below a name.
+_INI = re.compile(
+    r"^(width|height|camera matrix|distortion)[ \t]*\n((?:[ \t]*\n|[-+\d.eE \t]+\n)+)", re.MULTILINE
+)
 
 
 def table_in(given: Given) -> Table:
     """Return the values of a file or a text, by their names. Raises LucidaError."""
     check_bytes(len(given.data), MOST_BYTES, given.name)
     text = given.text
+    if is_ini(text):
+        table = {name: list(map(_word, words.split())) for name, words in _INI.findall(text)}
+        return {name: value[0] if len(value) == 1 else value for name, value in table.items()}
     if given.ending == ".json" or (text.lstrip()[:1] == "{" and not _PYTHON.match(text)):
         table = from_json(text)
     elif text.lstrip()[:1] == "<":
@@ -46,6 +53,10 @@ def table_in(given: Given) -> Table:
     if not isinstance(table, dict):
         raise LucidaError("", "holds no names with values", "give e.g. camera_matrix: ...")
     return {str(name): _value(str(name), value) for name, value in table.items()}
+
+
+def is_ini(text: str) -> bool:
+    return "[image]" in text and _INI.search(text) is not None
 
 
 def to_yaml(table: Table, comments: list[str]) -> str:

@@ -36,7 +36,6 @@ from renderer.scene.model import View
 from renderer.scene.views import view_from_table, view_table
 from renderer.trace import TraceJob, Tracer
 
-COARSEST = 8  # image pixels a side that one traced pixel stands for
 MOVING_S = 0.03  # what an image in motion may take: 15 a second, with the way to the browser
 PATIENCE_S = 0.25  # then the browser is told to ask again
 PUSH_S = 0.04  # between images that a running cell sends
@@ -121,7 +120,7 @@ class Explorer(anywidget.AnyWidget):
         )
         self._target: Vector = self._focus.center
         self._effects = shadows, mirror_depth
-        self._coarseness = Coarseness(MOVING_S, MOVING_S, COARSEST, unknown=2)
+        self._coarseness = Coarseness(MOVING_S, unknown=2)
         self._job: TraceJob | None = None
         self._job_of: tuple[Camera, int] | None = None  # and how much coarser
         self._latest: Frame | None = None

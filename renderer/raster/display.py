@@ -40,13 +40,11 @@ class Section:
     origin: the image's upper left corner in the target, in its pixels.
     texels_per_pixel: along x and y.
     averaged: area-weighted means; otherwise the nearest texel.
-    rows: the target's height if row 0 is its bottom row, as in OpenGL; otherwise 0.
     """
 
     origin: tuple[float, float] = (0.0, 0.0)
     texels_per_pixel: tuple[float, float] = (1.0, 1.0)
     averaged: bool = False
-    rows: int = 0
 
 
 class Display:
@@ -84,7 +82,6 @@ class Display:
                 tinted=look.tinted,
                 origin=section.origin,
                 texels_per_pixel=section.texels_per_pixel,
-                rows=float(section.rows),
             )
 
     def release(self) -> None:

@@ -110,12 +110,11 @@ def _show_scene(
     linear: moderngl.Texture,
     number: Hashable,
     exposure_ev: float,
-    rows: int,
 ) -> None:
     """Draw linear light with the display transform. number: a key of the texture's content."""
     framebuffer.use()
     linear.use(0)
-    cover(screen, linear_color=0, rows=rows, exposure=exposure_factor(exposure_ev))
+    cover(screen, linear_color=0, exposure=exposure_factor(exposure_ev))
 
 
 class Overlay:
@@ -132,12 +131,7 @@ class Overlay:
         self._shown = Memo(_show_scene)
         self._lines = own.own(LineRenderer(context))
         self._mean = own.own(SizedTarget(context, dtype="float16"))
-        # By name, and True if for a window's framebuffer.
-        self._targets = {
-            (name, is_surface): own.own(SizedTarget(context, is_surface=is_surface))
-            for name in ("scene", "shown")
-            for is_surface in (False, True)
-        }
+        self._targets = {name: own.own(SizedTarget(context)) for name in ("scene", "shown")}
 
     def gather(self, scene: Textures, first: bool, weight: float) -> moderngl.Texture:
         """Add a picture of the scene, multiplied by `weight`, to the sum since the last call with
@@ -191,25 +185,21 @@ class Overlay:
         mean: moderngl.Texture | None = None,
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
-        upside_down: bool = False,
         cloud: CloudPicture | None = None,
-    ) -> Target:
-        """Draw the view. Return an 8-bit picture of `size` and its framebuffer, which the next call
-        overwrites.
+    ) -> moderngl.Texture:
+        """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
         scene: drawn by `camera`, at `size` or coarser. mean: the scene's colour with smooth edges,
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
-        if unknown. upside_down: row 0 is the bottom row, as in a window's framebuffer; the target
-        is then a new_surface(). cloud: of this size, by the same camera; below the layers.
+        if unknown. cloud: of this size, by the same camera; below the layers.
         """
         gl, coarse = self._gl, scene.surface.size
-        target = _, framebuffer = self._targets["shown", upside_down].of_size(size)
+        drawn, framebuffer = self._targets["shown"].of_size(size)
         has_plane = plane is not None and picture is not None
         shared: dict[str, Any] = {
             "surface": 1,
-            "upward": -1.0 if upside_down else 1.0,
             "texels": (coarse[0] / size[0], coarse[1] / size[1]),
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
@@ -221,7 +211,7 @@ class Overlay:
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
         with plain_state(gl, 5):
-            shown = self._scene_shown(mean or scene.color, exposure_ev, number, upside_down)
+            shown = self._scene_shown(mean or scene.color, exposure_ev, number)
             self._cover(shown, framebuffer)
             try:
                 framebuffer.color_mask = True, True, True, False  # the target stays opaque
@@ -245,7 +235,7 @@ class Overlay:
                 self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
             finally:
                 framebuffer.color_mask = True, True, True, True
-        return target
+        return drawn
 
     def _cover(self, shown: Target, target: moderngl.Framebuffer) -> None:
         """Fill the target with a picture, and bind it. If the sizes match, copy: on a CPU, a copy
@@ -263,14 +253,13 @@ class Overlay:
         self._enlarge.render(moderngl.TRIANGLES, vertices=6)
 
     def _scene_shown(
-        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable, upside_down: bool
+        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
     ) -> Target:
         """Return the scene after the display transform, recomputed only if necessary."""
-        texture, framebuffer = self._targets["scene", upside_down].of_size(linear.size)
+        texture, framebuffer = self._targets["scene"].of_size(linear.size)
         if number is None:
             self._shown.forget()
-        rows = linear.height if upside_down else 0
-        self._shown(self._show, framebuffer, linear, number, exposure_ev, rows)
+        self._shown(self._show, framebuffer, linear, number, exposure_ev)
         return texture, framebuffer
 
     def release(self) -> None:

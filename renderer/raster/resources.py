@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import Any, Protocol, TypeVar
 
 import moderngl
@@ -52,40 +51,12 @@ def new_texture(
     return texture
 
 
-def new_surface(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Texture:
-    """Return a texture of 8-bit colours, without filtering, to be copied to the window, or drawn
-    there by picture.frag.
-
-    OpenGL stores it in the screen's order, blue first; reads and writes are red first, as in any
-    texture. Raises LucidaError if memory is exhausted.
-
-    Mesa's software renderer has fast paths only for such surfaces: filling, enlarging and copying
-    take a tenth to a half of the time. One of them is wrong in Mesa 22.3: drawing a surface to
-    another one, multiplied by a varying colour. ImGui does that, so it must never be given a
-    surface.
-    """
-    texture = new_texture(context, size, 4, np.uint8)
-    # moderngl cannot create this format. If its loader is not accessible, this is an ordinary
-    # texture.
-    load = getattr(getattr(context.mglo, "_context", None), "load_opengl_function", None)
-    address = load("glTexImage2D") if load is not None else None
-    if address:
-        texture.use(context.max_texture_units - 1)  # the unit that moderngl uses for its own work
-        form = (_TEXTURE_2D, 0, _RGBA, *size, 0, _BGRA, _UNSIGNED_BYTE)
-        ctypes.CFUNCTYPE(None, *(ctypes.c_int,) * 8, ctypes.c_void_p)(address)(*form, None)
-        _check_texture(context, texture)
-    return texture
-
-
 def _check_texture(context: moderngl.Context, texture: moderngl.Texture) -> None:
     try:
         check(context, f"a texture of {texture.width}x{texture.height}")
     except LucidaError:
         texture.release()
         raise
-
-
-_TEXTURE_2D, _RGBA, _BGRA, _UNSIGNED_BYTE = 0x0DE1, 0x1908, 0x80E1, 0x1401
 
 
 def check(context: moderngl.Context, doing: str) -> None:

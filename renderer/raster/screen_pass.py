@@ -9,7 +9,7 @@ from typing import Any
 import moderngl
 
 from renderer.raster.programs import set_uniform
-from renderer.raster.resources import Owner, check, new_surface, new_texture
+from renderer.raster.resources import Owner, check, new_texture
 from renderer.raster.sources import Constant, link
 
 Size = tuple[int, int]
@@ -59,7 +59,7 @@ def cover(screen: moderngl.VertexArray, **uniforms: Any) -> None:
 class SizedTarget:
     """A texture to draw into, recreated if another size is requested.
 
-    dtype: see new_texture. is_surface: for a window's framebuffer, see new_surface.
+    dtype: see new_texture.
     """
 
     def __init__(
@@ -67,21 +67,16 @@ class SizedTarget:
         context: moderngl.Context,
         components: int = 4,
         dtype: str = "uint8",
-        is_surface: bool = False,
     ) -> None:
         self._gl, self._components = context, components
-        self._dtype, self._is_surface = dtype, is_surface
+        self._dtype = dtype
         self._made: Target | None = None
 
     def of_size(self, size: Size) -> Target:
         """Return texture and framebuffer. Raises LucidaError if memory is exhausted."""
         if self._made is None or self._made[0].size != size:
             self.release()
-            texture = (
-                new_surface(self._gl, size)
-                if self._is_surface
-                else new_texture(self._gl, size, self._components, self._dtype)
-            )
+            texture = new_texture(self._gl, size, self._components, self._dtype)
             self._made = texture, self._gl.framebuffer([texture])
             check(self._gl, f"a picture of {size[0]}x{size[1]}")
         return self._made

@@ -33,8 +33,7 @@ from renderer.scene.gltf_numbers import read_numbers, scaled, triangles_of, whol
 from renderer.scene.gltf_shared import (
     TYPES,
     Key,
-    check_accessors,
-    check_triangles,
+    check_size,
     compacted,
     same_primitives,
 )
@@ -80,8 +79,7 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
     shown = [entry.primitive for entry in instances]
     same = same_primitives(tree, shown, is_mapped)
     keys = sorted(set(same.values()))
-    check_triangles(tree, shown, keys)
-    check_accessors(file, keys)
+    check_size(tree, shown, keys)
     materials = read_materials(file, {entry.material for entry in instances}, images)
     shared = Counter(tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys)
     users = [

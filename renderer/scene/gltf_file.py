@@ -102,6 +102,12 @@ class GltfScene(msgspec.Struct, rename="camel"):
     nodes: list[Index] = []
 
 
+class GltfVersion(msgspec.Struct):
+    """What every version has; glTF 1.0 has tables where 2.0 has lists, and may omit its version."""
+
+    asset: Asset
+
+
 class Gltf(msgspec.Struct, rename="camel"):
     """The parts of a glTF tree that become objects; all others are ignored."""
 
@@ -133,13 +139,14 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     else:  # its buffers may be inside, as base64
         check_bytes(len(data), TEXT_MODEL_BYTES, source)
     try:
+        version = msgspec.json.decode(text, type=GltfVersion).asset.version
+        if version.split(".")[0] != "2":
+            raise _of_version(version)
         tree = msgspec.json.decode(text, type=Gltf)
     except msgspec.ValidationError as error:
-        raise _of_version_1(text) or invalid(error) from None
+        raise invalid(error) from None
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
         raise damaged(f"is not glTF: {str(error)[:120]}") from None
-    if tree.asset.version.split(".")[0] != "2":
-        raise _of_version(tree.asset.version)
     least = tree.asset.min_version
     if least is not None and least != "2.0":
         problem = f"says that it needs glTF {least[:20]}"
@@ -153,23 +160,6 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
 
 def _of_version(version: str) -> LucidaError:
     return LucidaError("", f"is glTF {version[:20]}", "export it as glTF 2.0")
-
-
-def _of_version_1(text: bytes | memoryview) -> LucidaError | None:
-    """Return the error for a tree of glTF 1.0, which has objects by name instead of lists and may
-    omit its version; None for any other.
-    """
-    try:
-        tree = msgspec.json.decode(text)
-    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
-        return None  # its end is damaged, behind the value that was refused
-    if not isinstance(tree, dict):
-        return None
-    asset = tree.get("asset")
-    version = str(asset.get("version", "1.0") if isinstance(asset, dict) else "1.0")
-    lists = ("scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers", "materials")
-    is_old = any(isinstance(tree.get(name), dict) for name in lists)
-    return _of_version(version) if is_old and not version.startswith("2") else None
 
 
 def _chunks(data: bytes) -> tuple[memoryview, bytes]:

@@ -59,7 +59,7 @@ def read_numbers(file: OpenGltf, number: int, types: tuple[str, ...], field: str
     if accessor.buffer_view is not None or accessor.sparse is None:
         found = _in_view(file, accessor, types, field)
     else:
-        check_accessor(file, accessor, types, field)
+        _check_accessor(file, accessor, types, field)
         if accessor.count * item_bytes(accessor) > BINARY_MODEL_BYTES:
             raise LucidaError(field, f"declares {accessor.count} elements", "split the model")
         shape = accessor.count, COMPONENTS[accessor.type]
@@ -68,10 +68,12 @@ def read_numbers(file: OpenGltf, number: int, types: tuple[str, ...], field: str
 
 
 def item_bytes(accessor: Accessor) -> int:
-    return COMPONENT_TYPES[accessor.component_type].itemsize * COMPONENTS[accessor.type]
+    """Return the bytes of an element; 0 for a type that is not known, which is reported later."""
+    kind = COMPONENT_TYPES.get(accessor.component_type)
+    return 0 if kind is None else kind.itemsize * COMPONENTS.get(accessor.type, 0)
 
 
-def check_accessor(file: OpenGltf, accessor: Accessor, types: tuple[str, ...], field: str) -> None:
+def _check_accessor(file: OpenGltf, accessor: Accessor, types: tuple[str, ...], field: str) -> None:
     """Raise LucidaError for an accessor of another type, or with elements outside its view."""
     if accessor.type not in types or accessor.component_type not in COMPONENT_TYPES:
         problem = f"is {accessor.type[:20]} of type {accessor.component_type}"
@@ -99,7 +101,7 @@ def _in_view(
     file: OpenGltf, accessor: Accessor, types: tuple[str, ...], field: str
 ) -> NDArray[Any]:
     """Return the elements of an accessor in its buffer view."""
-    check_accessor(file, accessor, types, field)
+    _check_accessor(file, accessor, types, field)
     data = file.view(accessor.buffer_view, field)
     dtype, stride = COMPONENT_TYPES[accessor.component_type], item_bytes(accessor)
     stride = file.declared(accessor.buffer_view, field).byte_stride or stride

@@ -9,16 +9,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from renderer.errors import LucidaError
-from renderer.scene.gltf_file import TRIANGLE_LIST, Accessor, Gltf, OpenGltf, entry_at
-from renderer.scene.gltf_numbers import check_accessor, item_bytes
+from renderer.scene.gltf_file import TRIANGLE_LIST, Gltf, entry_at
+from renderer.scene.gltf_numbers import item_bytes
 from renderer.scene.gltf_textures import coordinates_of
-from renderer.scene.limits import (
-    BINARY_MODEL_BYTES,
-    MADE_TRIANGLES,
-    SHARED_BYTES,
-    SHARED_VERTICES,
-    TRIANGLES,
-)
+from renderer.scene.limits import SHARED_BYTES, TRIANGLES
 from renderer.scene.parts import used_vertices
 from renderer.scene.reading import check_count, size_text
 
@@ -63,67 +57,30 @@ def _numbers(tree: Gltf, source: int | None) -> Any:
     return a.buffer_view, a.byte_offset, a.count, a.component_type, a.type, a.normalized, sparse
 
 
-def check_triangles(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
-    """Raise LucidaError if a file shows too much, in all or by repeating its numbers.
+def check_size(tree: Gltf, shown: list[Key], keys: list[Key]) -> None:
+    """Raise LucidaError if a file shows too many triangles, or if its accessors together name far
+    more bytes than its buffers have.
 
     shown: the primitive of each instance.
     keys: those of which no two have the same numbers.
     """
-
-    def count(source: int) -> int:
-        accessor: Accessor = entry_at(tree.accessors, source, "accessors")
-        return accessor.count
-
-    counts = {}
-    for mesh, number in set(shown):
-        primitive = tree.meshes[mesh].primitives[number]
-        position = primitive.attributes["POSITION"]
-        source = position if primitive.indices is None else primitive.indices
-        corners = count(source)
-        triangles = corners // 3 if primitive.mode == TRIANGLE_LIST else max(corners - 2, 0)
-        counts[mesh, number] = triangles, _numbers(tree, source)
-    total = sum(counts[key][0] for key in shown)
-    check_count(total, TRIANGLES, "triangles")
-    stored = sum({counts[key][1]: counts[key][0] for key in keys}.values())
-    if total - stored > MADE_TRIANGLES:
-        raise LucidaError(
-            "",
-            f"makes {total} triangles by repeating the {stored} that it holds",
-            f"stay within {MADE_TRIANGLES} repeated ones: fewer copies, or a coarser mesh",
-        )
-    vertices = sum(count(tree.meshes[m].primitives[p].attributes["POSITION"]) for m, p in keys)
-    if len(keys) > 1 and vertices > SHARED_VERTICES:
-        raise LucidaError(
-            "",
-            f"has {len(keys)} primitives that name {vertices} vertices",
-            f"stay within {SHARED_VERTICES}: join primitives, or give each its own vertices",
-        )
-
-
-def check_accessors(file: OpenGltf, keys: list[Key]) -> None:
-    """Raise LucidaError if the primitives name accessors that are illegal, or that together name
-    far more bytes than the buffers have.
-    """
-    tree = file.tree
-    used: dict[int, Accessor] = {}
-    for key in keys:
-        for name, source in _sources(tree, key).items():
-            if source is not None:
-                where = name if name == "indices" else f"attributes.{name}"
-                field = f"meshes[{key[0]}].primitives[{key[1]}].{where}"
-                used[source] = entry_at(tree.accessors, source, field)
-                check_accessor(file, used[source], TYPES[name], f"accessors[{source}]")
-    numbers = {a.buffer_view for a in used.values() if a.buffer_view is not None}
-    views = [tree.buffer_views[number] for number in numbers]
-    named = sum(view.byte_length for view in views)
-    if named > 2 * BINARY_MODEL_BYTES:
-        raise LucidaError("bufferViews", f"hold {size_text(named)}", "split the model")
-    there = sum(tree.buffers[number].byte_length for number in {view.buffer for view in views})
-    items = sum(item_bytes(accessor) * accessor.count for accessor in used.values())
-    for field, size in (("bufferViews", named), ("accessors", items)):
-        if size > there + SHARED_BYTES:
-            problem = f"name {size_text(size)} of buffers of {size_text(there)}"
-            raise LucidaError(field, problem, "give each its own part of a buffer; export it again")
+    triangles = {}
+    for key in set(shown):
+        primitive = tree.meshes[key[0]].primitives[key[1]]
+        sources = _sources(tree, key)
+        source = sources["POSITION"] if primitive.indices is None else primitive.indices
+        corners = entry_at(tree.accessors, source or 0, "accessors").count
+        is_list = primitive.mode == TRIANGLE_LIST
+        triangles[key] = corners // 3 if is_list else max(corners - 2, 0)
+    check_count(sum(triangles[key] for key in shown), TRIANGLES, "triangles")
+    named = {source for key in keys for source in _sources(tree, key).values()}
+    accessors = [entry_at(tree.accessors, k, "accessors") for k in named if k is not None]
+    size = sum(accessor.count * item_bytes(accessor) for accessor in accessors)
+    there = sum(buffer.byte_length for buffer in tree.buffers)
+    if size > there + SHARED_BYTES:
+        problem = f"name {size_text(size)} of buffers of {size_text(there)}"
+        remedy = "give each its own part of a buffer; export it again"
+        raise LucidaError("accessors", problem, remedy)
 
 
 def compacted(fields: dict[str, Any]) -> dict[str, Any]:

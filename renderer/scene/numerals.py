@@ -41,35 +41,32 @@ def corners(text: bytes, begins: Ints) -> tuple[Ints, Ints | None, Ints | None]:
     """Return the first, second and third whole number of words such as 7, 7/8, 7//9 and 7/8/9: 0 if
     a word lacks one, None if all do. Raises ValueError for any other word.
     """
-    if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # a 0 to fromstring()
-        raise ValueError("a number is missing")
-    if b"/" not in text:
-        return _parsed(text, np.int64, len(begins)), None, None
-    for blank in (b" ", b"\t", b"\n"):
-        if blank + b"/" in text:
-            raise ValueError("a number is missing")
-        text = text.replace(b"/" + blank, b"/0" + blank)
     text = text.replace(b"//", b"/0/")
     octets = np.frombuffer(text, np.uint8)
-    apart = (octets <= _BLANK) | (octets == _SLASH)
-    begins = np.flatnonzero(apart[:-1] > apart[1:]) + 1
-    numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins))
-    if len(begins) - text.count(b"/") != (octets[begins - 1] != _SLASH).sum():
-        raise ValueError("a number is missing")
-    first = np.flatnonzero(octets[begins - 1] != _SLASH)
-    count = np.diff(first, append=len(begins))
-    found: list[Ints | None] = [numbers[first]]
-    for k in (1, 2):
-        has = count > k
-        if has.all():
-            found.append(numbers[first + k])
-        elif has.any():
-            column = np.zeros(len(first), np.int64)
-            column[has] = numbers[first[has] + k]
-            found.append(column)
-        else:
-            found.append(None)
-    return found[0], found[1], found[2]  # type: ignore[return-value]
+    slashes = np.flatnonzero(octets == _SLASH)
+    if len(slashes):
+        begins, _ = words(text)
+    each = np.diff(np.searchsorted(slashes, np.append(begins, len(text))))
+    most = int(each.max(initial=0))
+    lone = _LONE_SIGN.search(text) if b"-" in text or b"+" in text else None  # 0 to fromstring()
+    apart = octets <= _BLANK
+    if lone or most > 2 or (apart[slashes - 1] | apart[slashes + 1]).any() or (each < most).any():
+        return _mixed_corners(text)
+    numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins) * (most + 1))
+    columns = [*numbers.reshape(-1, most + 1).T, None, None]
+    return columns[0], columns[1], columns[2]
+
+
+def _mixed_corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
+    """Do the same for words that differ in what they have, one by one."""
+    rows = []
+    for word in text.split():
+        first, *others = word.split(b"/")
+        if len(others) > 2 or b"_" in word:
+            raise ValueError("too many numbers in a corner")
+        rows.append([int(first), *(int(k or b"0") for k in (*others, b"", b"")[:2])])
+    columns = [np.ascontiguousarray(column) for column in np.array(rows, np.int64).T]
+    return columns[0], *(c if c.any() else None for c in columns[1:])  # type: ignore[return-value]
 
 
 def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:

@@ -14,6 +14,7 @@ from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.model import BRIGHTEST, Material, Mesh
 from renderer.scene.normals import merge_positions, smooth_normals
+from renderer.scene.polygons import check_corners
 from renderer.scene.repairs import Repair, note_repair
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
@@ -26,7 +27,7 @@ FAR = 64.0  # times its own size: farther from the file's origin than that, a me
 class Part:
     """One geometry of a model file, as it was read.
 
-    vertices (n, 3). faces (m, k): polygons of k corners each. normals (n, 3) or None. colors,
+    vertices (n, 3). faces (m, 3). normals (n, 3) or None. colors,
     linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
     uv (n, 2), v up, or None; where a texture needs them. has_backs: whether a face that repeats
     another one turned over stays: where a material is single-sided, each is seen from its side.
@@ -46,32 +47,22 @@ class Part:
 def build_mesh(part: Part) -> Mesh | None:
     """Return the part as a mesh; None if no triangle with an area is left.
 
-    Polygons become fans of triangles. Faces without area are dropped, and so are faces that repeat
+    Faces without area are dropped, and so are faces that repeat
     another's three positions (both would be hit at the same distance), and vertices that no face
     uses. Without usable normals in the file they are computed, smooth up to CREASE_DEG. A mesh that
     is small against its coordinates (a map's, a plant's) gets an origin of its own, from which they
     are float32, and a transform to its place. Raises LucidaError if a face uses a vertex that does
     not exist, or one that is NaN or infinite.
     """
-    vertices = _floats(part.vertices, (3,), "vertices")
-    faces = _indices(part.faces)
+    vertices = _numbers(part.vertices).reshape(-1, 3)
+    faces = np.asarray(part.faces, np.int64).reshape(-1, 3)
     vertex_colors = _attribute(part.vertex_colors, len(vertices))
     face_colors = _attribute(part.face_colors, len(faces))
     normals = _attribute(part.normals, len(vertices))
     uv, lost_places = _coordinates(part.uv, len(vertices))
-    # Fans: corners 0, k, k + 1 of each polygon.
-    fan = max(faces.shape[1] - 2, 0)
-    corners = [[0, k + 1, k + 2] for k in range(fan)]
-    faces = faces[:, np.array(corners, int).reshape(-1, 3)].reshape(-1, 3)
-    if face_colors is not None:
-        face_colors = np.repeat(face_colors, fan, axis=0)
     if not len(faces) or not len(vertices):
         return None
-    if faces.min() < 0 or faces.max() >= len(vertices):
-        wrong = faces.min() if faces.min() < 0 else faces.max()
-        raise LucidaError(
-            "faces", f"use vertex {wrong} of {len(vertices)}", "export the model again"
-        )
+    check_corners(faces.reshape(-1), len(vertices))
     _check_used(vertices, faces)
     origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
@@ -143,25 +134,6 @@ def _numbers(value: Any) -> NDArray[np.float64]:
             return np.asarray(value, np.float64)
     except (TypeError, ValueError):
         return np.zeros(0)
-
-
-def _floats(value: Any, row: tuple[int, ...], name: str) -> NDArray[np.float64]:
-    array = _numbers(value)
-    if array.shape[1:] != row:
-        raise LucidaError(name, "are not rows of 3 numbers", "export the model again")
-    return array
-
-
-def _indices(value: Any) -> NDArray[np.int64]:
-    if value is None or not len(value):
-        return np.zeros((0, 3), np.int64)
-    try:
-        array = np.asarray(value)
-    except (TypeError, ValueError, OverflowError):
-        array = np.zeros(1)
-    if array.ndim != 2 or array.dtype.kind not in "ui" or array.shape[1] > 1 << 16:
-        raise LucidaError("faces", "are not rows of whole numbers", "export the model again")
-    return array.astype(np.int64)
 
 
 def _attribute(value: Any, count: int) -> NDArray[Any] | None:

@@ -1,4 +1,4 @@
-"""The places of fields in a TOML text: the line for errors, and the letters of each value.
+"""The lines of fields in a TOML text, for errors.
 
 The text must be one that tomllib has read without complaint.
 """
@@ -9,7 +9,6 @@ import itertools
 import re
 import tomllib
 from bisect import bisect_left
-from typing import NamedTuple
 
 from renderer.errors import LucidaError
 
@@ -20,7 +19,7 @@ _BETWEEN = re.compile(r"(?:[ \t\r\n,]+|#[^\n]*)*")  # what is in brackets
 _SPACE = re.compile(r"[ \t]*")
 _KEY = re.compile(r"""[\w-]+|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*'""")
 _BARE = re.compile(r"[^,\]}\n#]*")
-STRING = re.compile(
+_STRING = re.compile(
     r'"""(?:[^"\\]++|\\.|"(?!""))*+"{3,5}'  # up to two quotes may stand before the closing three
     r"|'''.*?'{3,5}"
     r'|"(?:[^"\\\n]++|\\.)*+"'
@@ -29,40 +28,10 @@ STRING = re.compile(
 )
 
 
-class Span(NamedTuple):
-    """Offsets: of the beginning of a field's key (of an array's element: its value), and of its
-    value, and one past it. is_inner: it is in brackets, and in no line of its own."""
-
-    start: int
-    value: int
-    end: int
-    is_inner: bool
-
-
-class Header(NamedTuple):
-    """[path] or [[path]]: offsets of its first letter, and one past it. first: the number of spans
-    before it."""
-
-    path: Path
-    start: int
-    end: int
-    first: int
-
-
 class Places:
-    """The places of a TOML text's fields.
-
-    spans: of all keys with a value and of the elements of arrays, in the text's order. headers: of
-    tables and of elements of arrays of tables. names: by path the letters of its last key, (first,
-    one past the last), wherever that is written.
-    """
+    """The lines of a TOML text's fields."""
 
     def __init__(self, text: str) -> None:
-        self.spans: dict[Path, Span] = {}
-        self.headers: list[Header] = []
-        self.names: dict[Path, list[tuple[int, int]]] = {}
-        self._parts: list[tuple[int, int]] = []  # of the key that was read last
-        self._depth = 0
         self._text = text
         self._at = 0
         self._breaks = [match.start() for match in re.finditer("\n", text)]
@@ -100,26 +69,15 @@ class Places:
                 self._pair(table)
                 continue
             self._place(table, start)
-            self._name(table)
-            self.headers.append(Header(table, start, self._at, len(self.spans)))
 
     def _pair(self, table: Path) -> None:
         start = self._at
         path = (*table, *self._keys())
-        self._name(path)
         self._at += 1  # the equals sign
         self._skip(_SPACE)
         self._value(path, start)
 
     def _value(self, path: Path, start: int) -> None:
-        begin, depth = self._at, self._depth
-        self._depth += 1
-        self._content(path, start)
-        self._depth = depth
-        end = begin + len(self._text[begin : self._at].rstrip())
-        self.spans[path] = Span(start, begin, end, depth > 0)
-
-    def _content(self, path: Path, start: int) -> None:
         first = self._text[self._at : self._at + 1]
         if first == "[":
             self._place(path, start)
@@ -129,7 +87,7 @@ class Places:
             self._inline_table(path)
         elif first in ('"', "'"):
             begin = self._at
-            self._skip(STRING)
+            self._skip(_STRING)
             opened = self._text[begin : begin + 4]
             several = opened[:3] in ('"""', "'''") and opened[3:] in ("\n", "\r")
             self._place(path, self._text.index("\n", begin) + 1 if several else start)
@@ -158,12 +116,10 @@ class Places:
 
     def _keys(self) -> tuple[str, ...]:
         keys = []
-        self._parts = []
         while True:
             self._skip(_SPACE)
             begin = self._at
             self._skip(_KEY)
-            self._parts.append((begin, self._at))
             keys.append(_unquoted(self._text[begin : self._at]))
             self._skip(_SPACE)
             if not self._text.startswith(".", self._at):
@@ -183,12 +139,6 @@ class Places:
             self._counts[path] = number + 1
             path = (*path, number)
         return path
-
-    def _name(self, path: Path) -> None:
-        """Record where the keys just read, the last ones of a path, are written."""
-        keys = [number for number, part in enumerate(path) if isinstance(part, str)]
-        for number, letters in zip(keys[-len(self._parts) :], self._parts, strict=True):
-            self.names.setdefault(path[: number + 1], []).append(letters)
 
     def _place(self, path: Path, at: int) -> None:
         """Record where a path begins, and the paths that it is in, unless they have begun."""

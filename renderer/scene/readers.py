@@ -1,105 +1,235 @@
-"""PLY, STL and OFF files through trimesh's readers.
+"""PLY, STL and OFF files.
 
-Each count that a file declares is compared with the file's size before trimesh sees it, so that a
-false one cannot set memory aside.
+Each count that a file declares is compared with the data that is there before memory is set aside.
 """
 
 from __future__ import annotations
 
-import contextlib
-import io
-import itertools
-import logging
 import re
-import warnings
-from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES, TRIANGLES
+from renderer.scene.numerals import floats, words
 from renderer.scene.parts import Part, linear_colors
+from renderer.scene.polygons import check_corners, triangulated
 from renderer.scene.reading import check_bytes, check_count, read_file, size_texts
 from renderer.scene.texts import read_text_bytes, tidy
 
-_SOLID = re.compile(r"^[ \t]*solid\b([^\n]*)", re.MULTILINE | re.IGNORECASE)
-_COUNT = re.compile(r"-?\d{1,18}")
-_SILENT = logging.NullHandler()
+_SOLID = re.compile(rb"(?is)\n[ \t]*solid\b([^\n]*)(.*?)endsolid")
+_VERTEX = re.compile(rb"(?i)vertex([^\n]*)")
+_FACET = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attribute", "<u2")])
+_PLY_END = re.compile(rb"end_header[ \t\r]*\n")
+_PLY_TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
+    "float": "f4", "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2",
+    "int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8",
+}  # fmt: skip
+Columns = dict[str, NDArray[Any]]
 
 
 def read_ply(path: Path) -> list[Part]:
-    """Return the mesh of a .ply file, text or binary."""
+    """Return the mesh of a .ply file, text or binary. Edges and textures are not read."""
     data = read_file(path, BINARY_MODEL_BYTES)
-    end = re.search(rb"end_header[ \t\r]*\n", data[: 1 << 16])
+    end = _PLY_END.search(data[: 1 << 16])
     if not data.startswith(b"ply") or not end:
         raise damaged("has no PLY header")
     header, body = data[: end.end()].decode("utf-8", "replace"), data[end.end() :]
-    if "ascii" in header.split("\n", 2)[1]:
-        check_bytes(len(data), TEXT_MODEL_BYTES, "")
-        lines = _lines(body.decode("utf-8", "replace"))
-        body = "\n".join(lines).encode()
-        _check_rows(_ply_rows(header, least_bytes=False), len(lines), "lines")
-    else:
-        _check_rows(_ply_rows(header, least_bytes=True), len(body), "bytes")
-    with _guarded("PLY"):
-        from trimesh.exchange.ply import load_ply
+    try:
+        elements, form = _ply_header(header)
+        if is_text := form == "ascii":
+            check_bytes(len(data), TEXT_MODEL_BYTES, "")
+            text = tidy(body)
+            body = floats(text, words(text)[0]).tobytes()
+        order = ">" if form == "binary_big_endian" else "<"
+        found: dict[str, Columns] = {}
+        at = 0
+        for element in elements:
+            found[element.name], at = _ply_columns(body, at, element, order, is_text)
+        is_whole = at == len(body)
+    except (ValueError, TypeError, LookupError, OverflowError):
+        is_whole = False
+    if not is_whole:
+        raise damaged("does not hold what its PLY header declares")
+    return [_ply_part(found, path.stem)]
 
-        # Edges and textures are not read: under this name trimesh does not look for edges.
-        header = re.sub(r"(?m)^element edge\b", "element edges", header)
-        found = load_ply(io.BytesIO(header.encode() + body), skip_materials=True)
-    return _parts(found, path.stem)
+
+class _PlyElement(NamedTuple):
+    """properties: name, type of a list's count or "", type."""
+
+    name: str
+    rows: int
+    properties: list[tuple[str, str, str]]
+
+
+def _ply_header(header: str) -> tuple[list[_PlyElement], str]:
+    """Return the elements and the format. Raises ValueError or KeyError."""
+    elements: list[_PlyElement] = []
+    form = ""
+    for line in header.split("\n"):
+        match line.split():
+            case ["format", form, *_]:
+                pass
+            case ["element", name, count]:
+                elements.append(_PlyElement(name, int(count), []))
+            case ["property", "list", counted, kind, name]:
+                types = name, _PLY_TYPES[counted], _PLY_TYPES[kind]
+                elements[-1].properties.append(types)
+            case ["property", kind, name]:
+                elements[-1].properties.append((name, "", _PLY_TYPES[kind]))
+    return elements, form
+
+
+def _ply_columns(
+    body: bytes, at: int, element: _PlyElement, order: str, is_text: bool
+) -> tuple[Columns, int]:
+    """Return the columns of an element, and where it ends. A list has two: its numbers under its
+    name, and their count in each row under "name count".
+    """
+    if not element.rows or not element.properties:
+        return {}, at
+    # In a text, all numbers have been read as float64.
+    kinds = [
+        (name, counted and (order + counted, "<f8")[is_text], (order + kind, "<f8")[is_text])
+        for name, counted, kind in element.properties
+    ]
+    fields: list[tuple[Any, ...]] = []
+    for name, counted, kind in kinds:  # as if all lists were as long as those of the first row
+        if counted:
+            length = np.frombuffer(body, counted, 1, at + np.dtype(fields).itemsize)
+            fields += [(f"{name} count", counted), (name, kind, (int(length[0]),))]
+        else:
+            fields.append((name, kind))
+    row = np.dtype(fields)
+    lists = [f"{name} count" for name, counted, _ in kinds if counted]
+    end = at + element.rows * row.itemsize
+    rows = np.frombuffer(body, row, element.rows if end <= len(body) or not lists else 0, at)
+    if len(rows) and all((rows[name] == rows[name][0]).all() for name in lists):
+        found = {name: rows[name].reshape(-1) for name in row.names or ()}
+    else:
+        found, end = _ragged_columns(body, at, element.rows, kinds)
+    if is_text:
+        types = {name: kind for name, _, kind in element.properties}
+        with np.errstate(all="ignore"):
+            found = {name: a.astype(types.get(name, "i8")) for name, a in found.items()}
+    return found, end
+
+
+def _ragged_columns(
+    body: bytes, at: int, count: int, kinds: list[tuple[str, str, str]]
+) -> tuple[Columns, int]:
+    """Return the columns of an element whose lists differ in length, row by row."""
+    found: dict[str, list[NDArray[Any]]] = {}
+    for _ in range(count):
+        for name, counted, kind in kinds:
+            length = 1
+            if counted:
+                number = np.frombuffer(body, counted, 1, at)
+                found.setdefault(f"{name} count", []).append(number)
+                length, at = int(number[0]), at + number.itemsize
+            numbers = np.frombuffer(body, kind, length, at)
+            found.setdefault(name, []).append(numbers)
+            at += numbers.nbytes
+    return {name: np.concatenate(pieces) for name, pieces in found.items()}, at
+
+
+def _ply_part(found: dict[str, Columns], name: str) -> Part:
+    vertex, face = found.get("vertex", {}), found.get("face", {})
+
+    def rows(columns: Columns, *names: str) -> NDArray[Any] | None:
+        there = [columns[name] for name in names if name in columns]
+        return np.column_stack(there) if len(there) >= 3 else None
+
+    points = rows(vertex, "x", "y", "z")
+    listed = next((n for n in ("vertex_index", "vertex_indices") if f"{n} count" in face), None)
+    if points is None or listed is None:
+        return Part(name, np.zeros((0, 3)), np.zeros((0, 3), np.int64))
+    faces, owner = _faces(points, face[listed], face[f"{listed} count"])
+    colors = linear_colors(rows(face, "red", "green", "blue", "alpha"))
+    return Part(
+        name,
+        points,
+        faces,
+        rows(vertex, "nx", "ny", "nz"),
+        linear_colors(rows(vertex, "red", "green", "blue", "alpha")),
+        None if colors is None else colors[owner],
+    )
+
+
+def _faces(
+    points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return triangles of vertices, and the polygon of each."""
+    corners = corners.astype(np.int64)
+    check_corners(corners, len(points))
+    places, owner = triangulated(points.astype(np.float64), corners, counts.astype(np.int64))
+    return corners[places], owner
+
+
+def read_off(path: Path) -> list[Part]:
+    """Return the mesh of an .off file (text; colours are not read)."""
+    text = re.sub(rb"#[^\n]*", b"", read_text_bytes(path)).lstrip()
+    kind = re.match(rb"(?i)([a-z0-9]*?)off", text)
+    if kind is None:
+        raise damaged("does not begin with OFF")
+    rest = text[kind.end() :]
+    if kind[1].upper() not in (b"", b"C", b"N", b"CN", b"ST") or rest.lstrip()[:6] == b"BINARY":
+        raise LucidaError("", f"is of the kind {kind[0].decode()}", "export a plain OFF")
+    rest = b" %s\n" % rest
+    begins, lengths = words(rest)
+    starts = np.cumsum(lengths) - lengths
+    try:
+        numbers = floats(rest, begins)
+        rows = starts[lengths > 0]
+        vertices, faces = (int(numbers[k]) for k in (0, 1))
+        is_whole = min(vertices, faces) >= 0 and vertices + faces < len(rows)
+        if not is_whole or (lengths[lengths > 0][1 : vertices + 1] < 3).any():
+            raise ValueError
+        points = numbers[rows[1 : vertices + 1, None] + np.arange(3)]
+        first = rows[vertices + 1 : vertices + 1 + faces]
+        counts = numbers[first].astype(np.int64)
+        places = np.repeat(first + 1 - (np.cumsum(counts) - counts), counts)
+        corners = numbers[places + np.arange(len(places))]
+    except (ValueError, IndexError, OverflowError):
+        raise damaged("does not hold what its OFF header declares") from None
+    return [Part(path.stem, points, _faces(points, corners, counts)[0])]
 
 
 def read_stl(path: Path) -> list[Part]:
     """Return the solids of an .stl file, text or binary."""
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")
-    names: list[str] = []
-    if len(data) != 84 + 50 * triangles or len(data) < 84:
-        if data.lstrip()[:5].lower() != b"solid":
-            if len(data) < 84:
-                raise damaged("is too short to be STL")
-            declared, there = size_texts(84 + 50 * triangles, len(data))
-            raise damaged(f"declares {triangles} triangles, {declared}, and has {there}")
-        check_bytes(len(data), TEXT_MODEL_BYTES, "")
-        text = tidy(data).decode("utf-8", "replace")
-        solids = text.lower().count("endsolid")
-        if not solids:
-            raise damaged("has no 'endsolid'")
-        check_count(solids, OBJECTS, "solids")
-        # trimesh takes quadratic time over equal names.
-        names = [match[1].strip() for match in _SOLID.finditer(text)]
-        numbers = itertools.count()
-        data = _SOLID.sub(lambda _: f"solid {next(numbers)}", text).encode()
-    else:
+    solids: list[tuple[str, NDArray[Any]]] = []
+    if len(data) >= 84 and len(data) == 84 + 50 * triangles:
         check_count(triangles, TRIANGLES, "triangles")
-    with _guarded("STL"):
-        from trimesh.exchange.stl import load_stl
-
-        found = load_stl(io.BytesIO(data))
-    return _parts(found, path.stem, names)
-
-
-def read_off(path: Path) -> list[Part]:
-    """Return the mesh of an .off file (text; vertex colours are not read)."""
-    text = read_text_bytes(path).decode("utf-8", "replace")
-    lines = _lines(re.sub(r"#[^\n]*", "", text))
-    if lines and lines[0][:3].lower() == "off":
-        lines[0] = "OFF" + lines[0][3:]
-    words = " ".join(lines[:3]).split(None, 3)
-    if not words or not re.fullmatch(r"[A-Z0-9]*OFF", words[0]):
-        raise damaged("does not begin with OFF")
-    if words[0] not in ("OFF", "COFF", "NOFF", "CNOFF", "STOFF") or words[1:2] == ["BINARY"]:
-        raise LucidaError("", f"is of the kind {words[0]}", "export a plain OFF")
-    first = 2 if lines[0] == words[0] else 1  # the counts may follow the keyword in its line
-    _check_rows([_whole(word) for word in words[1:3]], len(lines) - first, "lines")
-    with _guarded("OFF"):
-        from trimesh.exchange.off import load_off
-
-        found = load_off(io.StringIO("\n".join(lines)))
-    return _parts(found, path.stem)
+        facets = np.frombuffer(data, _FACET, triangles, 84)
+        solids.append(("", facets["vertices"].reshape(-1, 3)))
+    elif data.lstrip()[:5].lower() == b"solid":
+        check_bytes(len(data), TEXT_MODEL_BYTES, "")
+        found = _SOLID.findall(tidy(data))
+        if not found:
+            raise damaged("has no 'endsolid'")
+        check_count(len(found), OBJECTS, "solids")
+        for name, lines in found:
+            text = b" %s\n" % b"\n ".join(_VERTEX.findall(lines))
+            try:
+                points = floats(text, words(text)[0]).reshape(-1, 3)
+            except ValueError:
+                raise damaged("has a vertex that is not three numbers") from None
+            solids.append((name.decode("utf-8", "replace").strip(), points))
+    elif len(data) < 84:
+        raise damaged("is too short to be STL")
+    else:
+        declared, there = size_texts(84 + 50 * triangles, len(data))
+        raise damaged(f"declares {triangles} triangles, {declared}, and has {there}")
+    return [
+        Part(name or path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))
+        for name, points in solids
+    ]
 
 
 READERS = {".ply": read_ply, ".stl": read_stl, ".off": read_off}
@@ -108,77 +238,3 @@ READERS = {".ply": read_ply, ".stl": read_stl, ".off": read_off}
 def damaged(problem: str) -> LucidaError:
     """Return the error for a file that is not what its ending or its header says."""
     return LucidaError("", problem, "it is cut off or of another kind; export it again")
-
-
-@contextlib.contextmanager
-def _guarded(kind: str) -> Iterator[None]:
-    """Turn any exception of the block into a LucidaError, and show no warnings."""
-    logging.getLogger("trimesh").addHandler(_SILENT)  # it logs what it also raises
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            # numpy warns where it stops reading numbers early: the file is damaged.
-            warnings.filterwarnings("error", message=".*unmatched data.*")
-            yield
-    except MemoryError:
-        raise
-    except Exception as error:
-        # trimesh and numpy raise exceptions of all kinds for a damaged file.
-        reason = (str(error).strip().splitlines() or [type(error).__name__])[0][:120]
-        raise LucidaError(
-            "",
-            f"cannot be read as {kind}: {reason}",
-            "it is damaged or of another kind; export it again, as triangles",
-        ) from None
-
-
-def _parts(found: dict[str, Any], stem: str, names: Sequence[str] = ()) -> list[Part]:
-    """Return the geometries that trimesh has read, one or several. names: theirs, by number."""
-    parts = []
-    for number, fields in found.get("geometry", {"": found}).items():
-        is_named = number.isdigit() and int(number) < len(names)
-        parts.append(
-            Part(
-                (names[int(number)] if is_named else "") or stem,
-                fields.get("vertices"),
-                fields.get("faces"),
-                fields.get("vertex_normals"),
-                linear_colors(fields.get("vertex_colors")),
-                linear_colors(fields.get("face_colors")),
-            )
-        )
-    return parts
-
-
-def _lines(text: str) -> list[str]:
-    """Return the lines of a text that are not empty."""
-    return [line for line in map(str.strip, text.split("\n")) if line]
-
-
-def _ply_rows(header: str, least_bytes: bool) -> list[int]:
-    """Return for each element of a PLY header its rows, or the fewest bytes they can have."""
-    sizes = {"8": 1, "char": 1, "uchar": 1, "16": 2, "short": 2, "ushort": 2, "64": 8, "double": 8}
-    rows: list[int] = []
-    width: list[int] = []
-    for line in header.split("\n"):
-        words = line.split()
-        if words[:1] == ["element"] and len(words) == 3:
-            rows.append(_whole(words[2]))
-            width.append(0)
-        elif words[:1] == ["property"] and len(words) >= 3 and width:
-            kind = words[2] if words[1] == "list" else words[1]
-            width[-1] += sizes.get(kind, sizes.get(kind.lstrip("uintfloa"), 4))
-    if not least_bytes:
-        return rows
-    return [count * max(each, 1) for count, each in zip(rows, width, strict=True)]
-
-
-def _check_rows(declared: list[int], there: int, unit: str) -> None:
-    if sum(declared) > there:
-        raise damaged(f"declares {sum(declared)} {unit} of data and has {there}")
-
-
-def _whole(word: str) -> int:
-    if not _COUNT.fullmatch(word) or int(word) < 0:
-        raise damaged("declares a count that is not a whole number")
-    return int(word)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
 import os
 import re
 import stat
@@ -145,8 +146,6 @@ def suggestion(given: str, known: Iterable[str]) -> str:
 def close_matches(given: str, known: Iterable[str], least: float = 0.6) -> list[str]:
     """Return the known name that is most alike, whatever its case, if its likeness is at least that
     much of 1."""
-    import difflib  # here: most runs make no mistake
-
     names = {name.lower(): name for name in reversed(list(known))}
     return [names[name] for name in difflib.get_close_matches(given.lower(), names, 1, least)]
 

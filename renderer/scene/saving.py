@@ -35,33 +35,33 @@ from renderer.scene.views import view_table
 IMAGES = ("texture", "metal")  # fields of a material that name files
 
 
-def save_scene(
-    path: str | Path, scene: Scene, view: View | None = None, force: bool = False
-) -> None:
+def save_scene(path: str | Path, scene: Scene, view: View | None = None) -> None:
     """Write a scene file atomically. load_scene returns the same scene.
 
     view: the file's camera; None for the scene's own.
-    force: save even if the comments of the scene's file cannot be kept.
 
     Models are named by their paths, relative to the new file if they are below its folder. Raises
     LucidaError naming the file, or the object that the format cannot hold.
     """
-    text = scene_text(scene, full_path(path), view, force)
+    text = scene_text(scene, full_path(path), view)
     with atomic_write(path) as file:
         file.write(text.encode())
 
 
-def scene_text(scene: Scene, path: Path, view: View | None = None, force: bool = False) -> str:
+def scene_text(scene: Scene, path: Path, view: View | None = None) -> str:
     """Return the text of a scene file at `path`, which is absolute: as its author wrote it where
-    nothing has changed. Raises LucidaError; CommentsLostError only without `force`."""
+    nothing has changed.
+
+    Raises LucidaError; CommentsLostError if that is impossible in the scene's own file.
+    """
     tables, origin = file_tables(scene, path, view), scene.origin
-    if origin is not None and origin.saved.tables is not None and origin.saved.text:
-        saved = origin.saved
-        try:
-            return rewritten(saved.text, origin.saved.tables, saved.keys, tables, origin.keys)
-        except CommentsLostError as error:
-            if not force:
-                raise CommentsLostError("", error.problem, error.remedy, str(path)) from None
+    if origin is not None and (saved := origin.saved).tables is not None and saved.text:
+        text = rewritten(saved.text, saved.tables, saved.keys, tables, origin.keys)
+        if text is not None:
+            return text
+        if path == saved.path:
+            problem = "would lose its comments: they cannot be kept in this arrangement of tables"
+            raise CommentsLostError("", problem, "save the scene as a new file", str(path))
     return toml_text({"lucida": VERSION, **tables})
 
 
@@ -199,17 +199,6 @@ def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, 
     None. Paths that are the same there stay as they are written.
     """
     return tables if new == old else _renamed(tables, lambda name: path_text(old / name, new))
-
-
-def brought_into(tables: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """Return tables from anywhere for a scene file in `folder`: absolute paths below it become
-    relative.
-    """
-
-    def name_in(name: str) -> str:
-        return path_text(Path(name), folder) if Path(name).is_absolute() else name
-
-    return _renamed(tables, name_in)
 
 
 def _renamed(tables: dict[str, Any], named: Callable[[str], str]) -> dict[str, Any]:

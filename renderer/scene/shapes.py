@@ -162,11 +162,6 @@ def translate(mesh: Mesh, offset: Iterable[float]) -> Mesh:
     return transformed(mesh, placement(translate=offset))
 
 
-def rotate(mesh: Mesh, rotate_deg: Iterable[float]) -> Mesh:
-    """Return the mesh turned about the world's origin; for the order see placement()."""
-    return transformed(mesh, placement(rotate_deg=rotate_deg))
-
-
 def scale(mesh: Mesh, factors: float | Iterable[float]) -> Mesh:
     """Return the mesh scaled about the world's origin: one factor, or three."""
     return transformed(mesh, placement(scale=factors))

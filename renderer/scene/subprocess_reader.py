@@ -137,8 +137,6 @@ def main(path: str) -> None:
     """
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answer
-    import trimesh  # noqa: F401  # Windows: loading libraries waits for a thread that reads input
-
     end_with_parent()
     _go_first()
     answers.write(_HELLO)

@@ -170,8 +170,7 @@ def set_field(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Sc
 
 
 def set_scene_field(scene: Scene, field: str, value: Any) -> Scene:
-    """Return the scene with another name, ambient or background, or with another field of a shared
-    material, as in "materials.NAME.diffuse".
+    """Return the scene with another name, ambient or background.
 
     value: as in set_field(). Raises LucidaError naming the field.
     """

@@ -84,9 +84,9 @@ def save(
 
     path: None for its own file. The author's text is kept wherever nothing has changed. view: the
     file's camera; None for the scene's own. force: save even if another program has changed the
-    scene's own file since it was read, or if the file's comments cannot be kept; without it, these
-    raise ChangedOnDiskError and CommentsLostError. Raises LucidaError naming the file; nothing is
-    lost then.
+    scene's own file since it was read; without it, that raises ChangedOnDiskError. Raises
+    CommentsLostError if the file's comments cannot be kept, and LucidaError naming the file;
+    nothing is lost then.
     """
     scene = as_tables(scene)
     chosen = path or file_of(scene)
@@ -97,7 +97,7 @@ def save(
     saved = origin.saved
     if target == saved.path and not force:
         _check_unchanged(target, saved)
-    text, tables = scene_text(scene, target, view, force), file_tables(scene, target, view)
+    text, tables = scene_text(scene, target, view), file_tables(scene, target, view)
     if len(text.encode()) > TOML_BYTES:
         raise LucidaError("", "would be too large to be read again", "delete objects", str(target))
     with atomic_write(target) as file:

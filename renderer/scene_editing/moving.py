@@ -115,12 +115,6 @@ def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
     return with_listed(scene, changed)
 
 
-def place_at(scene: Scene, item: Item, matrix: ArrayLike) -> Scene:
-    """Return the scene with an item placed by a matrix (4, 4), which matrix_of() will return."""
-    now = matrix_of(scene, item)
-    return transform(scene, [item], np.asarray(matrix, float) @ np.linalg.inv(now))
-
-
 def _moved(fields: Any, matrix: Floats) -> Table:
     """Return the changes to the item's table."""
     linear = matrix[:3, :3]

@@ -1,4 +1,4 @@
-"""Adding, deleting, duplicating, reordering and renaming objects and lights."""
+"""Add, delete, duplicate, rename and hide objects and lights."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from renderer.scene_editing.changing import (
 
 SHAPES = ("sphere", "box", "rectangle", "disk", "cylinder", "cone", "torus")
 LIGHTS = ("point", "directional")
+KINDS: tuple[Kind, Kind] = ("objects", "lights")
 
 
 def new_table(
@@ -79,7 +80,7 @@ def add(scene: Scene, *tables: Table) -> tuple[Scene, tuple[Item, ...]]:
     scene = as_tables(scene)
     keys = new_keys(len(tables))
     changed: dict[Kind, list[Any]] = {}
-    all_keys = dict(zip(("objects", "lights"), map(list, origin_of(scene)[0].keys), strict=True))
+    all_keys = dict(zip(KINDS, map(list, origin_of(scene)[0].keys), strict=True))
     for key, table in zip(keys, tables, strict=True):
         kind: Kind = "lights" if table.get("type") in LIGHTS else "objects"
         changed.setdefault(kind, list(listed(scene, kind))).append(table)
@@ -93,8 +94,14 @@ def delete(scene: Scene, items: Iterable[Item]) -> Scene:
     scene, gone = as_tables(scene), set(items)
     for item in gone:
         find(scene, item)
-    keys = origin_of(scene)[0].keys
-    return _arranged(scene, *([key for key in kind if key not in gone] for kind in keys))
+    changed: dict[Kind, list[Any]] = {}
+    kept = []
+    for kind, keys in zip(KINDS, origin_of(scene)[0].keys, strict=True):
+        kept.append(tuple(key for key in keys if key not in gone))
+        if kept[-1] != keys:
+            tables = zip(keys, listed(scene, kind), strict=True)
+            changed[kind] = [table for key, table in tables if key not in gone]
+    return with_listed(scene, changed, (kept[0], kept[1])) if gone else scene
 
 
 def duplicate(
@@ -108,33 +115,15 @@ def duplicate(
     from renderer.scene_editing.moving import transform
 
     scene = as_tables(scene)
-    tables = [copy.deepcopy(listed(scene, kind)[k]) for kind, k in (find(scene, i) for i in items)]
-    found, copies = add(scene, *named_anew(scene, tables))
+    tables, taken = [], _names(scene)
+    for kind, number in (find(scene, item) for item in items):
+        table = copy.deepcopy(listed(scene, kind)[number])
+        if table.get("name"):
+            table["name"] = _unused(table["name"], taken)
+            taken.add(table["name"])
+        tables.append(table)
+    found, copies = add(scene, *tables)
     return (transform(found, copies, placement(by)) if any(by) else found), copies
-
-
-def reorder(scene: Scene, items: Iterable[Item], before: Item | None) -> Scene:
-    """Return the scene with some items moved, in their present order, before another one of their
-    kind; None to move them to the end.
-
-    The order of objects determines their ids. Lights and objects are separate lists.
-    """
-    scene, moved = as_tables(scene), set(items)
-    arranged = []
-    for keys in origin_of(scene)[0].keys:
-        mine = [key for key in keys if key in moved]
-        if not mine:
-            arranged.append(list(keys))
-            continue
-        if before is not None and before not in keys:
-            raise LucidaError("", "objects and lights are lists of their own", "drop it there")
-        rest = [key for key in keys if key not in moved]
-        # Before the first item from there on that is not moved.
-        start = len(keys) if before is None else keys.index(before)
-        after = next((key for key in keys[start:] if key not in moved), None)
-        at = len(rest) if after is None else rest.index(after)
-        arranged.append([*rest[:at], *mine, *rest[at:]])
-    return _arranged(scene, *arranged)
 
 
 def rename(scene: Scene, item: Item, name: str) -> Scene:
@@ -149,27 +138,6 @@ def hide(scene: Scene, items: Sequence[Item], hidden: bool = True) -> Scene:
     return set_field(scene, items, "hidden", True if hidden else None)
 
 
-def lock(scene: Scene, items: Sequence[Item], locked: bool = True) -> Scene:
-    """Return the scene with some items locked, or unlocked.
-
-    The window respects locks; the functions here do not.
-    """
-    return set_field(scene, items, "locked", True if locked else None)
-
-
-def named_anew(scene: Scene, tables: Sequence[Table]) -> list[Table]:
-    """Return the tables, renamed if the scene uses their names."""
-    taken = _names(scene)
-    found = []
-    for table in tables:
-        name = table.get("name")
-        if name and isinstance(name, str):
-            table = {**table, "name": _unused(name, taken)}
-            taken.add(table["name"])
-        found.append(table)
-    return found
-
-
 def unused_name(scene: Scene, name: str) -> str:
     """Return the name, with a number after it if an item of the scene has it."""
     return _unused(name, _names(scene))
@@ -177,8 +145,7 @@ def unused_name(scene: Scene, name: str) -> str:
 
 def _names(scene: Scene) -> set[str]:
     scene = as_tables(scene)
-    kinds: tuple[Kind, Kind] = ("objects", "lights")
-    return {table.get("name", "") for kind in kinds for table in listed(scene, kind)}
+    return {table.get("name", "") for kind in KINDS for table in listed(scene, kind)}
 
 
 def _unused(name: str, taken: set[str]) -> str:
@@ -189,14 +156,3 @@ def _unused(name: str, taken: set[str]) -> str:
     while f"{stem} {number}" in taken:
         number += 1
     return f"{stem} {number}"
-
-
-def _arranged(scene: Scene, objects: list[Item], lights: list[Item]) -> Scene:
-    """Return the scene with its items, or some of them, in another order."""
-    changed: dict[Kind, list[Any]] = {}
-    kinds: tuple[Kind, Kind] = ("objects", "lights")
-    for kind, now, was in zip(kinds, (objects, lights), origin_of(scene)[0].keys, strict=True):
-        if tuple(now) != was:
-            table = dict(zip(was, listed(scene, kind), strict=True))
-            changed[kind] = [table[key] for key in now]
-    return with_listed(scene, changed, (tuple(objects), tuple(lights))) if changed else scene

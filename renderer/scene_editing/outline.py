@@ -17,15 +17,6 @@ from renderer.scene_editing.changing import (
 
 
 @dataclass(frozen=True)
-class ModelPart:
-    """One geometry of a model. number: its id in images."""
-
-    number: int
-    name: str
-    triangles: int
-
-
-@dataclass(frozen=True)
 class OutlineRow:
     """An object or a light.
 
@@ -35,7 +26,7 @@ class OutlineRow:
     ids: of its objects, indices into scene.objects; none for a light.
     triangles: 0 for spheres and lights.
     material: the name of a shared one; "" for its own or none.
-    file: a model's, as in the scene file. parts: of a model with more than one.
+    file: a model's, as in the scene file.
     """
 
     item: Item | None
@@ -49,7 +40,6 @@ class OutlineRow:
     locked: bool
     material: str = ""
     file: str = ""
-    parts: tuple[ModelPart, ...] = ()
 
 
 def outline(scene: Scene) -> tuple[OutlineRow, ...]:
@@ -65,11 +55,7 @@ def outline(scene: Scene) -> tuple[OutlineRow, ...]:
         fields, kind = entry.fields, entry.table["type"]
         ids = range(first, first + len(entry.objects))
         first = ids.stop
-        parts = tuple(
-            ModelPart(k, part.name, triangles_of([part]))
-            for k, part in zip(ids, entry.objects, strict=True)
-        )
-        called = fields.name or (parts[0].name if len(parts) == 1 else "")
+        called = fields.name or (entry.objects[0].name if len(entry.objects) == 1 else "")
         is_model = isinstance(fields, ModelTable)
         rows.append(
             OutlineRow(
@@ -84,7 +70,6 @@ def outline(scene: Scene) -> tuple[OutlineRow, ...]:
                 fields.locked,
                 fields.material if isinstance(fields.material, str) else "",
                 fields.file if is_model else "",
-                parts if len(parts) > 1 else (),
             )
         )
     for number, (key, table) in enumerate(

@@ -1,10 +1,10 @@
-"""Export of a scene to other programs' files: Mitsuba 3, pbrt-v4, glTF.
+"""Export of a scene as a glTF file.
 
-export          selects the writer by the file's ending, and writes all files or none
-what            the files of an export, and the list of what a target lacks
-meshes          triangles as these programs need them, and PLY files
-materials       the nearest of their materials, images, and the lights' strengths
-lobe            Lucida's highlight as a table that Mitsuba reads
+export          checks the path, and writes the file
+gltf_scene      the scene as a .glb file
+glb_tree        the tree of that file, and its binary part
+meshes          triangles as glTF needs them
+materials       the nearest of glTF's materials, and the lights' strengths
 checkers        checkers on texture coordinates
 """
 

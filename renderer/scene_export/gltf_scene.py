@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera import Camera, Size
 from renderer.camera_formats.gltf import camera_table, node_matrix
 from renderer.camera_formats.rigid import rigid
 from renderer.images.display import to_srgb8
 from renderer.images.png import write_png
 from renderer.scene.cancelling import check_cancelled
-from renderer.scene.flat import flatten
 from renderer.scene.gltf_textures import WRAP_NAMES
 from renderer.scene.model import (
     Checker,
@@ -27,6 +27,7 @@ from renderer.scene.model import (
     Material,
     Mesh,
     PointLight,
+    Scene,
     Sphere,
     without_metal,
 )
@@ -34,6 +35,7 @@ from renderer.scene.texture import Texture
 from renderer.scene_export.checkers import with_checker_uv
 from renderer.scene_export.glb_tree import GlbTree, glb_bytes
 from renderer.scene_export.materials import (
+    LeftOut,
     light_strengths,
     mean_of_pattern,
     microfacets,
@@ -42,7 +44,6 @@ from renderer.scene_export.materials import (
     reflectance,
 )
 from renderer.scene_export.meshes import Triangles, arrays_of, unit_sphere, wound
-from renderer.scene_export.what import Exported, ExportSubject, LeftOut, called
 
 DIELECTRIC = 0.04  # the reflectance of a non-metallic glTF material at normal incidence
 SKEWED = 1e-6  # with a larger cosine, a transform is not just rotation and scale
@@ -51,13 +52,16 @@ NEAREST, LINEAR, REPEAT = 9728, 9729, 10497  # filters, a wrap
 LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 
 
-def write(subject: ExportSubject) -> Exported:
-    """Return a scene as a .glb file. Raises LucidaError for a camera that glTF cannot hold."""
-    scene, left = subject.scene, LeftOut()
-    camera = rigid(subject.camera, "gltf", subject.size)
+def glb_of(scene: Scene, camera: Camera, size: Size) -> tuple[bytes, tuple[str, ...]]:
+    """Return a scene as a .glb file, and one line for each thing that differs there.
+
+    Raises LucidaError for a camera that glTF cannot hold.
+    """
+    left = LeftOut()
+    camera = rigid(camera, "gltf", size)
     made = GlbTree()
     nodes = [_object_node(made, number, entry, left) for number, entry in scene.visible]
-    strengths = light_strengths(scene, flatten(scene), left)
+    strengths = light_strengths(scene, left)
     lights = [_light(color) for color in strengths]
     for number, light in enumerate(scene.lights):
         lights[number]["type"] = "point" if isinstance(light, PointLight) else "directional"
@@ -77,19 +81,20 @@ def write(subject: ExportSubject) -> Exported:
         "scene": 0,
         "scenes": [{"name": scene.name, "nodes": list(range(len(nodes)))}],
         "nodes": nodes,
-        "cameras": [camera_table(camera, subject.size)],
+        "cameras": [camera_table(camera, size)],
         **made.tables(),
     }
     if extensions:
         tree["extensionsUsed"] = extensions
     if lights:
         tree["extensions"] = {LIGHTS: {"lights": lights}}
-    return Exported(glb_bytes(tree, bytes(made.chunk)), left_out=left.lines)
+    return glb_bytes(tree, bytes(made.chunk)), left.lines
 
 
 def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[str, Any]:
     check_cancelled()
-    shape, material, name = entry.shape, entry.material, called("object", number, entry.name)
+    shape, material = entry.shape, entry.material
+    name = repr(entry.name) if entry.name else f"object {number}"
     texture, checker = material.image, None
     is_mapped = texture is not None and not isinstance(shape, Sphere)
     table = _material(material, is_mapped, name, left)

@@ -5,7 +5,6 @@ uniform sampler2D surface;      // the scene's: t in w; coarser than the target 
 uniform vec2 texels;            // of the surface in a pixel of the target
 uniform float perspective;      // 1: depth s is 1 / t, 0: it is t; both are affine on the screen
 uniform vec2 half_size;         // of the target, in pixels
-uniform float upward;           // 1: row 0 of the target is the picture's top row, -1: its last one
 uniform bool has_plane;
 uniform mat3 plane_from_screen; // (X q, Y q, q) of (x, y, 1) from the middle; X, Y: 0 to 1 inside
 uniform vec4 plane_box;         // left, top, right, bottom around the picture, from the middle

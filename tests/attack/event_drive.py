@@ -205,7 +205,7 @@ class Attack:
                 {"laboratory": {"side_px": self.rng.randrange(-3, 500)}},
                 {"stepper": {"canvas": (self.rng.randrange(0, 99), self.rng.randrange(0, 99))}},
                 {"stepper": {"steps": (self.rng.randrange(-5, 10**7), 0)}},
-                {"costs": {"triangles": self.rng.choice((0, 100, 5000))}},
+                {"costs": {"against": self.rng.choice(("triangles", "pixels"))}},
                 {"preferences": {"font_scale": self.rng.choice((0.1, 0.75, 1.0, 2.0, 9.0))}},
                 {"marked": (self.rng.randrange(-9, 999), self.rng.randrange(-9, 999))},
                 {"shadows": True, "mirrors": True},

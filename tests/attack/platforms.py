@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-ROOMS = ("raster", "parity", "scene_editing", "images", "outside", "costs", "laboratory")
+ROOMS = ("raster", "parity", "scene_editing", "images", "outside", "laboratory")
 
 
 def main(argv: Sequence[str]) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +16,6 @@ from renderer.errors import LucidaError
 from renderer.lenses import Lens
 from renderer.scene.model import View
 
-ONLY_WRITTEN: tuple[Form, ...] = ("Mitsuba", "pbrt")
 AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40)
 WIDE = View(AIMED, fit=True)
 POINTS = np.random.default_rng(3).uniform(-1, 1, (20, 3))
@@ -25,12 +23,12 @@ LENS = '{"K": [9, 9, 5, 5], "D": [0.5, 0, 0, 0]}'
 
 
 def test_every_format_of_one_text_file_can_be_copied() -> None:
-    texts = {entry.name for entry in FORMATS if entry.writes and "" not in entry.endings}
+    texts = {entry.name for entry in FORMATS if "" not in entry.endings}
     assert {"view", "opengl", *FORMATS_OF.values()} == texts
     assert set(FORMATS_OF) < set(FORMS)
 
 
-@pytest.mark.parametrize("form", [form for form in FORMATS_OF if form not in ONLY_WRITTEN])
+@pytest.mark.parametrize("form", FORMATS_OF)
 @pytest.mark.parametrize("parallel", [False, True])
 def test_what_is_copied_for_others_comes_back_as_it_was_drawn(form: Form, parallel: bool) -> None:
     view = replace(WIDE, camera=replace(AIMED, projection="parallel")) if parallel else WIDE
@@ -47,14 +45,6 @@ def test_what_is_copied_for_others_comes_back_as_it_was_drawn(form: Form, parall
         assert copied.view.camera.distance == NOW.camera.distance
     assert copied.said.startswith("The camera is pasted from the clipboard: ")
     assert "\n" not in copied.said
-
-
-@pytest.mark.parametrize("form", ONLY_WRITTEN)
-def test_what_is_only_written_says_the_size(form: Form) -> None:
-    text = as_text(form, subject(WIDE))
-    assert all(re.search(rf"\b{side}\b", text) for side in SIZE)
-    with pytest.raises(LucidaError, match="clipboard: holds no camera"):
-        read_copied(text, NOW)
 
 
 def test_the_conventions_that_were_taken_are_said() -> None:

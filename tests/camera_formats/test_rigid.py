@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from renderer.camera_checks import told_apart
-from renderer.camera_formats.rigid import quaternion_of, rigid, rotation_of
+from renderer.camera_formats.rigid import rigid
+from renderer.camera_formats.rotations import quaternion_of, rotation_of
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])

@@ -15,35 +15,27 @@ def in_an_empty_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("ending", ["xml", "pbrt", "glb"])
-def test_a_scene_is_written_and_what_is_left_out_is_said(ending, capsys):
-    assert main(["export", "still-life", "-o", f"a.{ending}"]) == 0
+def test_a_scene_is_written_and_what_is_left_out_is_said(capsys):
+    assert main(["export", "still-life", "-o", "a.glb"]) == 0
     told = capsys.readouterr()
     first, *left_out = told.out.splitlines()
-    assert first == f"a.{ending}: 11 objects, 2 lights"
+    assert first == "a.glb: 11 objects, 2 lights"
     assert left_out and all(line.startswith("  ") for line in left_out)
     assert not told.err
-    assert Path(f"a.{ending}").stat().st_size
+    assert Path("a.glb").stat().st_size
 
 
 def test_what_is_hidden_does_not_count(capsys):
     text = '[[objects]]\ntype = "box"\n[[objects]]\ntype = "box"\nhidden = true\n'
     Path("a.toml").write_text("lights = []\n" + text)
-    assert main(["export", "a.toml", "-o", "a.xml"]) == 0
-    assert capsys.readouterr().out.splitlines()[0] == "a.xml: 1 object, 0 lights"
-
-
-def test_the_view_and_its_options_are_the_camera(capsys):
-    assert main(["export", "spheres", "-o", "a.pbrt", "--size", "64x32", "--eye", "1,2,9"]) == 0
-    text = Path("a.pbrt").read_text()
-    assert '"integer xresolution" [ 64 ] "integer yresolution" [ 32 ]' in text
+    assert main(["export", "a.toml", "-o", "a.glb"]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == "a.glb: 1 object, 0 lights"
 
 
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["-o", "a.obj"], "lucida: a.obj: ends in '.obj'; give one of .xml .pbrt .glb\n"),
-        (["-o", "a.pbrt", "--near", "1"], "lucida: near: 1 clips, and pbrt's cameras clip nothing"),
+        (["-o", "a.obj"], "lucida: a.obj: ends in '.obj'; give .glb\n"),
         (["-o", "a.glb", "--u=-1,0,0"], "lucida: u: (-1, 0, 0) is left-handed"),
         (
             ["-o", "a.glb", "--u=1,0.5,0", "--v=0,1,0"],

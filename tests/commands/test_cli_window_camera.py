@@ -12,8 +12,6 @@ from PIL import Image
 
 from app.cli import main
 from app.window import launch
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, written
 from renderer.lenses import Lens
 from renderer.scene.model import View
 
@@ -42,14 +40,6 @@ def test_what_is_ignored_is_said(begun: list[Any], capsys: pytest.CaptureFixture
     assert "brown, k1 = 0.5 ignored" in capsys.readouterr().err
     assert isinstance(begun[0]["view"], View) and begun[0]["view"].camera.lens is None
     assert begun[0]["cameras"] is None
-
-
-def test_a_script_for_blender_is_a_camera_and_no_program(begun: list[Any]) -> None:
-    camera = Camera((1, 2, 3))
-    Path("camera.py").write_bytes(written([PosedCamera(camera, (64, 48))], "blender")[""])
-    assert main(["camera.py"]) == 0
-    assert begun[0]["code"] == ""
-    assert begun[0]["view"].camera.eye == pytest.approx((1, 2, 3))
 
 
 def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> None:

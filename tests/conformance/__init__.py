@@ -3,9 +3,6 @@
     measured      how far apart the pixels were, and how far they may be
     cameras       random cameras and points, and the pixels that our camera says
     formats       a module each: what the real program says, of our files and of its own
-    float32       bounds for programs that compute in single precision
-    pbrt_grammar  pbrt's file format, read strictly, for want of pbrt
-    *_peer        what runs in another process: in Blender's Python, under node
     run           each format in a process of its own; what cannot be imported is left out
     report        the tables
 

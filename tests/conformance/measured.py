@@ -4,14 +4,11 @@ check.
 
 from __future__ import annotations
 
-import json
 import math
-import subprocess
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -100,20 +97,3 @@ def needed(module: str) -> ModuleType:
         return import_module(module)
     except ImportError as error:  # also of the system's libraries that it needs
         raise PeerMissing(str(error).split("\n")[0]) from None
-
-
-def asked(job: Job, question: object, command: list[str], **options: Any) -> Any:
-    """Return the answer of a program that reads its question from a file and writes its answer into
-    another.
-    """
-    paths = [job.folder / "asked.json", job.folder / "answer.json"]
-    paths[0].write_text(json.dumps(question))
-    done = subprocess.run(
-        [*command, *map(str, paths)], capture_output=True, text=True, check=False, **options
-    )
-    if done.returncode:
-        lines = done.stderr.strip().splitlines()
-        if lines and lines[-1].startswith("ImportError"):
-            raise PeerMissing(lines[-1])  # of the system's libraries
-        raise RuntimeError(f"{Path(command[0]).name}: {done.stderr.strip()}")
-    return json.loads(paths[1].read_text())

@@ -9,7 +9,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from renderer.camera_formats import format_named
 from renderer.errors import LucidaError
 from tests.conformance.cameras import MOST_SIDE, POINTS
 from tests.conformance.measured import Checked, Measured
@@ -18,25 +17,20 @@ BEGIN, END = "<!-- conformance:begin -->", "<!-- conformance:end -->"
 
 WHAT = {
     "view": "Lucida's [view file](files.md#view-files), .toml",
-    "opencv": "K, R, t or rvec, lens: FileStorage .yml and .json, ROS's camera_info",
+    "opencv": "K, R, t or rvec, lens: FileStorage .yml, .json and .xml, and what is listed below",
     "colmap": "cameras.txt and images.txt in a folder, with lenses; also .bin to read",
     "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio, with lenses",
     "gltf": "the cameras of a .gltf or .glb file at their nodes",
     "opengl": "view and projection matrix, .txt, by columns or rows",
-    "blender": "location, rotation, lens, sensor, shift, panoramas; written as a .py script",
-    "three": "three.js's camera, .json",
-    "mitsuba": "a sensor of Mitsuba 3, .xml",
-    "pbrt": "a camera of pbrt-v4, .pbrt, also its spherical one",
 }
-HEADER = ("format", "reads", "writes", "checked against", "cameras", "worst error", "bound")
+HEADER = ("format", "checked against", "cameras", "worst error", "bound")
 
 
 INTRO = """\
 `make conformance` made this table. In each direction (our file read by the real program, its own
 read by us) it takes at least {count} random cameras, off-axis and of any aspect ratio, skewed and
 parallel where the format has that, and {points} points each. An error is how far apart the two see
-a point, in pixels of images whose sides are up to {side}. Blender and Mitsuba compute in float32:
-there the bound is that point's own, its roundings counted (`tests/conformance/float32.py`)."""
+a point, in pixels of images whose sides are up to {side}."""
 
 
 @dataclass(frozen=True)
@@ -58,11 +52,7 @@ class Outcome:
     @property
     def row(self) -> tuple[str, ...]:
         """Under HEADER: the worst of the pixels, and all cameras that were checked."""
-        entry = format_named(self.format)
-        cells = (
-            f"`{self.format}`",
-            *("yes" if has else "-" for has in (entry.reads, entry.writes)),
-        )
+        cells = (f"`{self.format}`",)
         if self.checked is None:
             return (*cells, f"not checked here: {self.problem}", "-", "-", "-")
         of_pixels = [part for part in self.checked.measured if not part.beside]

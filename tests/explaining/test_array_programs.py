@@ -1,4 +1,4 @@
-"""The array page's program in Python, Julia and C: they say the same of memory."""
+"""The array page's program in Python and Julia: they say the same of memory."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from compilers import needs_c, needs_julia, run_c, run_julia
+from compilers import needs_julia, run_julia
 
 from app.laboratory import array_code, memory
 from app.state.options import Language
@@ -32,17 +32,6 @@ def test_the_array_in_python(order, one_based, capsys):
     assert offset == 12 * memory.pixel_number(*PIXEL, (37, 23), order)
     assert offset == int(np.dot((*PIXEL, 0), canvas.strides))
     assert f"from {int(one_based)}" in program
-
-
-@needs_c
-@pytest.mark.parametrize(("order", "one_based"), ARRAYS)
-def test_the_array_in_c(order, one_based, tmp_path):
-    program = array_code.program("c", listed("c", order, one_based))
-    where = 'printf("%ld %g\\n", (long)((char *)pixel - (char *)canvas), pixel[2]);\n    return 0;'
-    offset, place = run_c(program.replace("return 0;", where), tmp_path).splitlines()
-    told = 12 * memory.pixel_number(*PIXEL, (37, 23), order)
-    assert int(offset) == told
-    assert place == f"{told} 0.75"
 
 
 RGB = """struct RGB{T}; r::T; g::T; b::T; end

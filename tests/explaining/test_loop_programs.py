@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-import textwrap
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from compilers import CC, run_c
 
 from app.explaining.languages import julia
 from app.explaining.symbols import TABLE
@@ -92,7 +90,6 @@ def test_the_loops_draw_the_same_however_they_are_shown(order, language, indexin
         "box_around": lambda *given: from_one(raster_parts.box_around(*given)),
         "Canvas": lambda *given: array(loop_parts.Canvas(*given)),
         "DepthBuffer": lambda size: array(loop_parts.DepthBuffer(size)),
-        "bounding_box": lambda *given: from_one(loop_parts.bounding_box(*given)),
     }
     exec(compile(text, language, "exec"), names)
     scene = load_scene("canonical")
@@ -129,27 +126,6 @@ PROGRAMS = {
     if isinstance(block, texts.Code)
 }
 CAMERA = {"e": (1.0, 2.0, 3.0), "u": (1.0, 0.0, 0.5), "v": (0.0, 1.0, 0.25), "w": (0.5, 0, 1)}
-AROUND = """
-#include <stdio.h>
-typedef struct {{ double x, y, z; }} Vec;
-typedef struct {{ Vec e, u, v, w; double d; }} Camera;
-typedef double Hit;
-Vec toward(Camera c, double a, double b) {{
-    Vec r = {{ a*c.u.x + b*c.v.x - c.d*c.w.x, a*c.u.y + b*c.v.y - c.d*c.w.y,
-              a*c.u.z + b*c.v.z - c.d*c.w.z }};
-    return r;
-}}
-Hit closest(Vec p, Vec d) {{ return p.x + 10 * d.x + 100 * d.y + 1000 * d.z; }}
-double color(Hit hit) {{ return hit; }}
-int main(void) {{
-    enum {{ H = 3, W = 4 }};
-    double canvas[H][W];
-    Camera cam = {{ {e}, {u}, {v}, {w}, 1.5 }};
-{program}
-    for (int k = 0; k < H * W; k++) printf("%.17g\\n", (&canvas[0][0])[k]);
-    return 0;
-}}
-"""
 
 
 def drawn_by(program: str, canvas: Any) -> np.ndarray:
@@ -165,32 +141,29 @@ def drawn_by(program: str, canvas: Any) -> np.ndarray:
 
 
 def test_the_lectures_program_is_the_same_in_all_languages(tmp_path):
-    assert set(PROGRAMS) == {"python", "julia", "c"}
+    assert set(PROGRAMS) == {"python", "julia"}
     told = drawn_by(PROGRAMS["python"], np.full((3, 4), np.nan))
     assert np.isfinite(told).all() and len(np.unique(told)) == 12
     julias = loops_read_back(tuple(PROGRAMS["julia"].splitlines()))
     np.testing.assert_array_equal(drawn_by(julias, FromOne(np.full((3, 4), np.nan))), told)
-    if CC is not None:
-        parts = {name: f"{{ {', '.join(map(str, value))} }}" for name, value in CAMERA.items()}
-        program = textwrap.indent(PROGRAMS["c"], "    ")
-        out = run_c(AROUND.format(program=program, **parts), tmp_path)
-        np.testing.assert_allclose(np.array(out.split(), float).reshape(3, 4), told, rtol=1e-12)
 
 
 def test_one_of_a_texts_programs_is_shown():
-    blocks = texts.parse("a\n```python\nP\n```\n```c\nC\n```\nb\n```\nplain\n```\n```c\nD\n```")
-    assert texts.languages(blocks) == ("python", "c")
-    for language, shown in (("python", "PplainD"), ("c", "CplainD"), ("julia", "PplainD")):
+    blocks = texts.parse(
+        "a\n```python\nP\n```\n```julia\nJ\n```\nb\n```\nplain\n```\n```julia\nD\n```"
+    )
+    assert texts.languages(blocks) == ("python", "julia")
+    for language, shown in (("python", "PplainD"), ("julia", "JplainD")):
         kept = texts.in_language(blocks, language)
         code = [block.text for block in kept if isinstance(block, texts.Code)]
         assert "".join(code) == shown
         assert len(kept) == len(blocks) - 1
-    assert texts.languages(texts.parse("```c\nx\n```")) == ()
+    assert texts.languages(texts.parse("```julia\nx\n```")) == ()
 
 
 def test_the_language_stays_from_step_to_step():
     lecture = load_lecture(BUILTIN)
     step = lecture.steps[3]
-    base = AppState.for_scene(step.scene).with_options(language="c", shadows=True)
+    base = AppState.for_scene(step.scene).with_options(language="julia", shadows=True)
     options = state_of(step, base).options
-    assert options.language == "c" and not options.shadows
+    assert options.language == "julia" and not options.shadows

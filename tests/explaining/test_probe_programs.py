@@ -1,4 +1,4 @@
-"""The probe's program in Python, Julia and C: they compute the same.
+"""The probe's program in Python and Julia: they compute the same.
 
 Julia's text is also read back as Python, with vectors that refuse what Julia's vectors refuse.
 """
@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from compilers import needs_c, needs_julia, run_c, run_julia
+from compilers import needs_julia, run_julia
 
-from app.explaining.languages import c, julia
+from app.explaining.languages import julia
 from app.explaining.symbols import TABLE
-from app.probe.copying import as_c, as_julia, as_python
+from app.probe.copying import as_julia, as_python
 from app.probe.model import Probe
 from app.probe.reading import Reading
 from app.state.options import Notation
@@ -77,9 +77,9 @@ def test_a_copied_program_has_one_notation(notation):
     others = {one.letter if notation == "code" else one.code for one in TABLE}
     others -= {"w"} | {one.code if notation == "code" else one.letter for one in TABLE}
     for reading, indexing in readings():
-        for program in (as_python, as_julia, as_c):
-            code = program(reading, indexing, notation).removeprefix(c.HEAD).replace("%d", "")
-            bare = "\n".join(line.partition("#")[0].partition("//")[0] for line in code.split("\n"))
+        for program in (as_python, as_julia):
+            code = program(reading, indexing, notation)
+            bare = "\n".join(line.partition("#")[0] for line in code.split("\n"))
             assert not others & set(re.findall(r"(?<![\w.])(?:cam\.)?[A-Za-z_]\w*", bare))
         book, code = (expected(reading, indexing, one) for one in ("book", "code"))
         for one, other in zip(book.values(), code.values(), strict=True):
@@ -91,18 +91,6 @@ def test_the_pixels_show_every_part_of_the_program():
     for part in ("hits nothing", "np.cross", "radius**2", "shadowed", "mirrored", "shown = exposed",
                  "np.where", "origin = eye + ", "j + 0.5", "j - 0.5", "l /= "):  # fmt: skip
         assert part in text, part
-
-
-@needs_c
-@pytest.mark.parametrize("notation", RESULTS)
-def test_the_program_in_c(notation, tmp_path):
-    for reading, indexing in readings():
-        told = expected(reading, indexing, notation)
-        lines = run_c(as_c(reading, indexing, notation), tmp_path).splitlines()
-        found = {line.split()[0]: [float(x) for x in line.split()[1:]] for line in lines}
-        assert set(found) == set(told)
-        for name, values in told.items():
-            np.testing.assert_allclose(found[name], values, rtol=1e-11, atol=1e-14, err_msg=name)
 
 
 @needs_julia

@@ -12,7 +12,6 @@ from app.explaining.projected import (
     EVERYTHING,
     NOTHING,
     Extent,
-    mesh_extent,
     pixels_of,
     sphere_extent,
     whole_within,
@@ -24,7 +23,6 @@ PARALLEL = replace(CAMERA, projection="parallel")
 SKEWED = Camera(
     eye=(0.3, -0.2, 1.0), u=(1, 0.2, 0), v=(-0.3, 2, 0.1), w=(0.4, -0.1, 0.8), distance=1.7
 )
-ONE = np.array([[0, 1, 2]])
 
 
 def on_plane(camera: Camera, points: np.ndarray) -> np.ndarray:
@@ -62,57 +60,6 @@ def test_a_sphere_around_beside_and_behind_the_eye(camera):
     deep = replace(camera, near=2.0, far=5.0, distance=10.0)
     assert extent(-1.0, 1.0, deep) == extent(-6.0, 1.0, deep) == NOTHING
     assert extent(-1.1, 1.0, deep) != NOTHING != extent(-5.9, 1.0, deep)
-
-
-@pytest.mark.parametrize("camera", [CAMERA, SKEWED, replace(SKEWED, projection="parallel")])
-def test_a_meshs_extent_is_that_of_its_corners(camera):
-    points = np.random.default_rng(4).uniform((-2, -2, -6), (2, 2, -3), (9, 3))
-    seen = on_plane(camera, points)
-    (left, bottom), (right, top) = seen.min(axis=0), seen.max(axis=0)
-    found = mesh_extent(points, np.arange(9).reshape(3, 3), camera)
-    assert found == pytest.approx((left, right, bottom, top))
-
-
-def test_a_triangle_is_cut_where_rays_begin():
-    """The side from (2, 0, -1) to (0, 0, 1) crosses z = -1/2 at x = 3/2, seen at x = 3."""
-    corners = np.array([(0, 0, -1), (2, 1, -1), (0, 0, 1.0)])
-    near = replace(CAMERA, near=0.5)
-    assert mesh_extent(corners, ONE, near) == pytest.approx((0, 3, 0, 1.5))
-    for order in ([1, 2, 0], [2, 0, 1], [2, 1, 0]):
-        assert mesh_extent(corners[order], ONE, near) == pytest.approx((0, 3, 0, 1.5))
-    longer = replace(near, distance=2.0)
-    assert mesh_extent(corners, ONE, longer) == pytest.approx((0, 6, 0, 3))
-    for scale in (1, 10):
-        beyond = mesh_extent(scale * corners, ONE, CAMERA)
-        assert beyond.left == pytest.approx(0, abs=1e-6)
-        assert beyond.right == pytest.approx(1e9, rel=1e-6), "as far as the part that is cut off"
-    assert mesh_extent(corners, ONE, replace(near, projection="parallel")) == (0, 2, 0, 1)
-
-
-def test_of_several_triangles_the_sides_that_cross_are_cut():
-    """One lies before the eye, one behind it, one on both sides; corners on the plane are none."""
-    corners = np.array(
-        [(0, 0, -2), (1, 0, -2), (0, 1, -2), (5, 5, 1), (6, 5, 1), (5, 6, 1), (0, -1, -0.5)], float
-    )
-    faces = np.array([[0, 1, 2], [3, 4, 5], [0, 6, 1]])
-    found = mesh_extent(corners, faces, replace(CAMERA, near=0.5))
-    assert found == pytest.approx((0, 0.5, -2, 0.5))
-
-
-def test_meshes_behind_the_eye_and_beyond_the_clip_planes():
-    assert tuple(NOTHING) == (math.inf, -math.inf, math.inf, -math.inf)
-    corners = np.array([(0, 0, -2), (1, 0, -3), (0, 1, -4.0)])
-    touching = np.array([(0, 0, -1e-12), (1, 0, 1), (0, 1, 1.0)])
-    assert mesh_extent(touching, ONE, CAMERA) == NOTHING
-    for camera in (CAMERA, PARALLEL):
-        assert mesh_extent(corners * (1, 1, -1), ONE, camera) == NOTHING
-        assert mesh_extent(corners + np.array((0, 0, 2)), ONE, camera) != NOTHING
-        assert mesh_extent(corners, ONE, replace(camera, near=4.0)) == NOTHING
-        assert mesh_extent(corners, ONE, replace(camera, near=3.9)) != NOTHING
-        assert mesh_extent(corners, ONE, replace(camera, far=2.0)) == NOTHING
-        assert mesh_extent(corners, ONE, replace(camera, far=2.1)) == mesh_extent(
-            corners, ONE, camera
-        )
 
 
 def test_whole_numbers_within():

@@ -1,4 +1,4 @@
-"""The ray image of a changing camera: coarse first, newest wins, nothing is waited for."""
+"""The ray image of a changing camera: the newest wins, and nothing is waited for."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from app.images.agreement import Agreement, Verdict
 from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.request import ImageRequest
 from renderer.camera import Camera
-from renderer.coarseness import FACTORS
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
 from renderer.scene.model import Scene, SceneObject, Sphere
@@ -139,14 +138,13 @@ def request(x: float = 0.0, scene: Scene = SCENE) -> ImageRequest:
     return ImageRequest(scene, replace(Camera(), eye=(x, 0, 3)), SIZE)
 
 
-def test_coarse_then_full(rig):
-    rig.live.request(request())
-    image = rig.images()[-1]
-    assert image.factor == 1
-    assert image.frame.size == SIZE
-    jobs = rig.tracers[0].jobs
-    assert [job.size for job in jobs] == [(10, 8), SIZE]
-    assert [job.channels for job in jobs] == [("color",), CHANNELS]
+def test_an_image_is_as_coarse_as_it_is_requested(rig):
+    for factor, size, channels in ((8, (10, 8), ("color",)), (1, SIZE, CHANNELS)):
+        rig.live.request(request(), factor)
+        image = rig.images()[-1]
+        job = rig.tracers[0].jobs[-1]
+        assert (image.factor, job.size, job.channels) == (factor, size, channels)
+    assert len(rig.tracers[0].jobs) == 2
 
 
 def test_several_samples_a_pixel_come_after_the_full_image(rig):
@@ -154,10 +152,10 @@ def test_several_samples_a_pixel_come_after_the_full_image(rig):
     rig.live.request(replace(request(), samples=4))
     image = rig.images()[-1]
     (tracer,) = rig.tracers
-    assert rig.factors == [8, 1, 1, 1, 1, 1]
-    assert [job.channels for job in tracer.jobs[2:]] == [("color",)] * 4
-    assert tracer.cameras[1] == request().camera
-    assert {camera.viewport for camera in tracer.cameras[2:]} == {
+    assert rig.factors == [1, 1, 1, 1, 1]
+    assert [job.channels for job in tracer.jobs[1:]] == [("color",)] * 4
+    assert tracer.cameras[0] == request().camera
+    assert {camera.viewport for camera in tracer.cameras[1:]} == {
         request().camera.shifted(rows, columns, SIZE).viewport
         for rows in (-0.25, 0.25)
         for columns in (-0.25, 0.25)
@@ -173,42 +171,17 @@ def test_a_change_cancels_the_samples_that_are_still_to_come(rig):
     rig.live.request(replace(request(), samples=64))
     rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     jobs = rig.tracers[0].jobs
-    for number in range(3):
+    for number in range(2):
         rig.until(lambda: len(jobs) == number + 1)  # noqa: B023
         jobs[number].ended.set()
     rig.until(lambda: rig.live.progress == 1.5 / 64)  # one of 64 samples done, one half
     assert rig.live.busy
     rig.live.request(request(1.0))
-    rig.until(lambda: len(jobs) == 5)
-    assert jobs[3].cancelled and rig.tracers[0].cameras[4].eye[0] == 1.0
+    rig.until(lambda: len(jobs) == 4)
+    assert jobs[2].cancelled and rig.tracers[0].cameras[3].eye[0] == 1.0
     image = rig.live.poll()
     assert image is not None and image.factor == 1 and image.mean is None and not image.is_last
     rig.until(lambda: rig.live.progress == 0.5)  # of another image, with one sample
-
-
-def test_a_quick_tracer_goes_to_full_at_once(rig):
-    rig.live.request(request())
-    rig.images()
-    rig.live.request(request(1.0))
-    assert [image.factor for image in rig.images()] == [1]
-    assert rig.factors == [8, 1, 1]
-
-
-def test_beside_a_coarse_image_a_quick_tracer_begins_as_coarse(rig):
-    rig.live.request(request())
-    rig.images()
-    rig.live.request(request(1.0), begin_at=4)
-    assert rig.images()[-1].factor == 1  # in the end it is full all the same
-    rig.live.request(request(2.0))
-    rig.images()
-    assert rig.factors == [8, 1, 4, 1, 1]
-
-
-def test_a_slow_tracer_takes_more_steps(rig):
-    rig.settings = {"pixel_s": 1.0 / (SIZE[0] * SIZE[1])}
-    rig.live.request(request())
-    assert rig.images()[-1].factor == 1
-    assert rig.factors == [8, 2, 1]
 
 
 def test_the_same_request_is_traced_once(rig):
@@ -219,32 +192,30 @@ def test_the_same_request_is_traced_once(rig):
     assert rig.images() == []
 
 
-def test_nothing_is_waited_for_and_a_change_cancels_a_refinement(rig):
+@pytest.mark.parametrize("factor", [1, 4])
+def test_an_image_that_takes_too_long_is_cancelled_by_the_newest(rig, factor, monkeypatch):
     # The jobs never end by themselves: any call that waited for them would hang.
+    monkeypatch.setattr(live, "FULL_PATIENCE_S", 0.0)
+    monkeypatch.setattr(live, "COARSE_PATIENCE_S", 0.0)
     rig.settings = {"held": True}
-    rig.live.request(request())
+    rig.live.request(request(), factor)
     rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     tracer = rig.tracers[0]
-    assert rig.live.poll() is None
-    assert rig.live.busy
-    assert rig.live.progress == 0.5
-    tracer.jobs[0].ended.set()
-    rig.until(lambda: len(tracer.jobs) == 2)  # the refinement
-    rig.live.request(request(1.0))
-    rig.live.request(request(2.0))
-    rig.until(lambda: tracer.cameras[-1].eye[0] == 2.0)  # the newest
-    assert tracer.jobs[1].cancelled
-    image = rig.live.poll()
-    assert image is not None
-    assert image.factor == 8  # the coarse one of the first request stays on the screen
+    assert rig.live.poll() is None and rig.live.busy and rig.live.progress == 0.5
+    rig.until(lambda: rig.live.preparing_s > 0)
+    rig.live.request(request(1.0), factor)
+    rig.live.request(request(2.0), factor)
+    rig.until(lambda: tracer.cameras[-1].eye[0] == 2.0)
+    assert tracer.jobs[0].cancelled
+    assert rig.live.first_ever
 
 
 def test_a_coarse_image_is_finished_despite_changes(rig, monkeypatch):
-    monkeypatch.setattr(live, "PATIENCE_S", PATIENT_S)
+    monkeypatch.setattr(live, "COARSE_PATIENCE_S", PATIENT_S)
     rig.settings = {"held": True}
-    rig.live.request(request())
+    rig.live.request(request(), 4)
     rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
-    rig.live.request(request(1.0))
+    rig.live.request(request(1.0), 4)
     job = rig.tracers[0].jobs[0]
     assert not job.cancelled
     job.ended.set()
@@ -254,23 +225,11 @@ def test_a_coarse_image_is_finished_despite_changes(rig, monkeypatch):
     assert image.request == request()
 
 
-def test_a_coarse_image_that_takes_too_long_is_cancelled(rig, monkeypatch):
-    monkeypatch.setattr(live, "PATIENCE_S", 0.0)
-    rig.settings = {"held": True}
-    rig.live.request(request())
-    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
-    rig.until(lambda: rig.live.preparing_s > 0)
-    rig.live.request(request(1.0))
-    rig.until(lambda: rig.tracers[0].jobs[0].cancelled and len(rig.tracers[0].jobs) == 2)
-    assert rig.live.first_ever
-
-
 def test_another_scene_is_followed_by_the_same_tracer(rig):
     rig.live.request(request())
     rig.images()
     rig.live.request(request(scene=OTHER))
     images = rig.images()
-    # Its speed is known: the full image comes at once.
     assert [(image.request.scene, image.factor) for image in images] == [(OTHER, 1)]
     assert [(tracer.scene, tracer.closed) for tracer in rig.tracers] == [(OTHER, False)]
     assert not rig.live.first_ever
@@ -292,7 +251,7 @@ def test_a_scene_that_takes_long_is_being_prepared(rig):
     tracer.held = True
     rig.live.request(request(scene=OTHER))
     rig.until(lambda: rig.live.preparing_s > 0)
-    rig.until(lambda: len(tracer.jobs) == 3)
+    rig.until(lambda: len(tracer.jobs) == 2)
     tracer.jobs[-1].ended.set()
     rig.images()
     assert rig.live.preparing_s == 0
@@ -319,18 +278,6 @@ def test_closing_cancels_and_does_not_wait_for_ever():
     assert rig.tracers[0].closed
     rig.live.request(request(1.0))
     assert len(rig.tracers[0].jobs) == 1
-
-
-@pytest.mark.parametrize("size", [(1, 1), (7, 3), (1280, 720)])
-@pytest.mark.parametrize("full_s", [0.0, 1e-3, 0.1, 10.0])
-@pytest.mark.parametrize("factor", FACTORS)
-def test_refinement_ends_at_the_full_image(size, full_s, factor):
-    for _ in range(4):
-        assert min(live.reduced(size, factor)) >= 1
-        factor = live.next_factor(factor, full_s)
-        assert factor in FACTORS
-    assert factor == 1
-    assert live.reduced(size, 1) == size
 
 
 def agreeing(number: int = 0) -> Frame:

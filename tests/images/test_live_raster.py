@@ -1,4 +1,4 @@
-"""The raster image on its way to the window: over several frames, and never torn."""
+"""The raster image on its way to the window, together with the ray image."""
 
 from __future__ import annotations
 
@@ -10,40 +10,33 @@ import moderngl
 import numpy as np
 import pytest
 
-from app.images import progressive_raster as parts
+from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
 from app.images.request import ImageRequest
 from app.images.shown import Picture, whole
 from app.images.textures import ImageTextures
 from app.state.app_state import AppState
-from renderer.coarseness import Coarseness
+from renderer.coarseness import STILL_S
 from renderer.errors import LucidaError
 from renderer.frame import CHANNELS, Frame
+from renderer.navigation import moved
 from renderer.raster import Look, Rasterizer
 from renderer.raster.targets import Targets
 from renderer.scene import load_scene
 
 SIZE, OTHER_SIZE = (96, 64), (120, 90)
-PATIENT_FRAMES = 500
+SCENE = load_scene("still-life")
 
 
 @pytest.fixture
-def textures(gl, monkeypatch) -> Iterator[ImageTextures]:
-    """Their full images are refined at once, and take many strips."""
-    monkeypatch.setattr("app.images.live_raster.MOVING_S", 0.0)
-    monkeypatch.setattr(parts, "STRIP_PIXELS", 1)
-    monkeypatch.setattr(Coarseness, "full_s", lambda *_: 20 * parts.STRIP_S)
+def textures(gl) -> Iterator[ImageTextures]:
     made = ImageTextures(gl)
     yield made
     made.release()
 
 
-SCENE = load_scene("still-life")
-
-
 def wanted(dx: float = 0.0, size: tuple[int, int] = SIZE) -> ImageRequest:
-    camera = SCENE.view.for_size(size)
-    return ImageRequest(SCENE, replace(camera, eye=tuple(np.add(camera.eye, (dx, 0.0, 0.0)))), size)
+    return ImageRequest(SCENE, moved(SCENE.view.for_size(size), (dx, 0.0, 0.0)), size)
 
 
 def frame(textures: ImageTextures, of: ImageRequest, channel: str = "color") -> Picture:
@@ -54,129 +47,49 @@ def frame(textures: ImageTextures, of: ImageRequest, channel: str = "color") -> 
     return picture
 
 
-def full(textures: ImageTextures, of: ImageRequest) -> Picture:
-    for _ in range(PATIENT_FRAMES):
-        picture = frame(textures, of)
-        if textures.raster.full(of) is not None and not textures.raster.unfinished:
-            return picture
-        time.sleep(0.001)
-    raise AssertionError("never full")
-
-
 def pixels(picture: Picture) -> np.ndarray:
     return np.frombuffer(picture.texture.read(), np.uint8).copy()
 
 
-def read_back(textures: ImageTextures, of: ImageRequest) -> Frame:
-    for _ in range(PATIENT_FRAMES):
-        textures.begin_frame()
-        if (read := textures.raster.read_back(of)) is not None:
-            return read
-    raise AssertionError("never read")
-
-
-def begin_strips(textures: ImageTextures, of: ImageRequest) -> None:
-    """Some strips of a full image, by way of the comparison."""
-    for _ in range(5):
-        textures.begin_frame()
-        assert textures.raster.read_back(of) is None
-    # Nothing public says how far an image has come that nobody sees.
-    assert textures.raster._under_way is not None
-    drawing = textures.raster._under_way.drawing
-    assert drawing.factor == 1
-    assert 0 < drawing._first_row < of.size[1]
-
-
-@pytest.mark.parametrize("size", [SIZE, OTHER_SIZE])
-def test_the_shown_image_stays_whole_while_another_is_drawn_in_strips(textures, size):
-    first = wanted()
-    before = pixels(full(textures, first))
-    begin_strips(textures, wanted(0.5, size))
-    normal = frame(textures, first, "normal")  # drawn anew from the image's textures
-    assert (pixels(normal) != before).any()
-    np.testing.assert_array_equal(pixels(frame(textures, first)), before)
-    read = read_back(textures, first)
-    with Rasterizer(SCENE) as rasterizer:
-        expected = rasterizer.render(first.camera, first.size, CHANNELS)
-    for channel in CHANNELS:
-        np.testing.assert_array_equal(read.channel(channel), expected.channel(channel))
-
-
-def test_what_is_read_is_the_image_drawn_in_strips(textures):
-    full(textures, wanted())
-    for step in range(1, 4):  # from one place to the other, and back
+def test_what_is_read_is_what_a_rasterizer_draws(textures):
+    frame(textures, wanted())
+    for step in range(1, 4):
         of = wanted(0.2 * step)
-        read = read_back(textures, of)
+        read = textures.raster.read_back(of)
         with Rasterizer(SCENE) as rasterizer:
             expected = rasterizer.render(of.camera, of.size, CHANNELS)
-        np.testing.assert_array_equal(read.depth, expected.depth)
+        for channel in CHANNELS:
+            np.testing.assert_array_equal(read.channel(channel), expected.channel(channel))
         values = textures.raster.values(of, "depth", (3, 4, 9, 12))
-        assert values is not None
         np.testing.assert_array_equal(values, expected.depth[3:9, 4:12])
         for pixel in ((3, 4), (40, 50)):
             hit = expected.id[pixel], expected.depth[pixel]
             assert textures.raster.hit(of, pixel) == hit
 
 
-def test_a_motion_shows_something_new_in_each_frame_whatever_one_image_took(textures):
-    full(textures, wanted())
-    textures.raster.coarseness.changed = lambda *_: 1  # as fine as can be, though that is slow
-    for step in range(1, 6):
-        drawn = textures.raster.image.number
-        frame(textures, wanted(0.1 * step))
-        assert textures.raster.image.number == drawn + 1
-
-
-def test_a_motion_shows_something_new_though_an_image_takes_several_frames(textures):
-    full(textures, wanted())
-    textures.raster.pace.part_of = lambda triangles: -(-triangles // 3)
-    textures.raster.coarseness.changed = lambda *_: 1
-    numbers = []
-    for step in range(1, 16):
-        frame(textures, wanted(0.1 * step))
-        numbers.append(textures.raster.image.number)
-    assert numbers[-1] - numbers[0] >= 2
-
-
-def test_an_image_of_another_size_is_never_stretched(textures):
-    full(textures, wanted())
-    textures.raster.pace.part_of = lambda triangles: -(-triangles // 3)
-    for size in (OTHER_SIZE, SIZE, OTHER_SIZE):
-        frame(textures, wanted(0.3))  # several frames would draw it
-        frame(textures, wanted(0.6, size))
-        image = textures.raster.image
-        assert image.request.size == size
-
-
 def test_effects_that_only_the_tracer_has_draw_nothing_anew(textures):
     of = wanted()
-    full(textures, of)
+    frame(textures, of)
     image = textures.raster.image
-    for effects in ({"shadows": True}, {"mirrors": True}):
+    for effects in ({"shadows": True}, {"mirrors": True}, {"samples": 16}):
         asked = replace(of, **effects)
         frame(textures, asked)
-        assert textures.raster.image is image
-        assert textures.raster.full(asked) is image
-        assert not textures.raster.unfinished
-        assert read_back(textures, asked).size == of.size
-        assert textures.raster.image is image
+        assert textures.raster.read_back(asked).size == of.size
+        assert textures.raster.image is textures.raster.full(asked) is image
 
 
 def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch):
-    monkeypatch.setattr(Coarseness, "full_s", lambda *_: 0.0)
-    before = pixels(full(textures, wanted()))
+    before = pixels(frame(textures, wanted()))
     textures.begin_frame()
     with monkeypatch.context() as full_memory:
         # Only here does a GPU that is full say so.
         full_memory.setattr(Targets, "_build", lambda *_: (_ for _ in ()).throw(moderngl.Error()))
-        with pytest.raises(LucidaError, match="choose a smaller image"):  # where the shown one was
+        with pytest.raises(LucidaError, match="choose a smaller image"):
             textures.raster.read_back(wanted(size=OTHER_SIZE))
-    assert (pixels(frame(textures, wanted(), "normal")) != before).any()
-    np.testing.assert_array_equal(pixels(full(textures, wanted())), before)
+    np.testing.assert_array_equal(pixels(frame(textures, wanted())), before)
 
 
 def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(textures):
-    full(textures, wanted())
     frame(textures, wanted(), "depth")
     assert textures.unfinished  # the range's numbers come a frame later
     for _ in range(3):
@@ -185,23 +98,132 @@ def test_a_range_that_nobody_asks_for_is_nothing_to_wait_for(textures):
     assert textures.depths() is not None
 
 
-def test_the_ray_image_begins_no_finer_than_the_raster_image_beside_it(gl, monkeypatch):
-    both, state = Renderers(lambda: None), AppState.for_scene(SCENE)
-    both.size = SIZE
-    asked: list[int] = []
-    monkeypatch.setattr(both.live, "request", lambda _, begin_at=1: asked.append(begin_at))
-    both.begin(gl)
-    assert both.textures is not None
-    both.trace(state)
-    of = both.request(state)
-    assert of is not None
-    frame(both.textures, of)
-    both.trace(state)
-    assert both.textures.raster.image is not None
-    both.textures.raster.image = replace(both.textures.raster.image, factor=3)
-    both.trace(state)
+class Window:
+    """A window's frames: both images of a camera that moves. The test traces the ray image."""
+
+    def __init__(self, gl: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.both, self.state = Renderers(lambda: None), AppState.for_scene(SCENE)
+        self.both.size = SIZE
+        self.now_s, self.preparing_s = 100.0, 0.0
+        self.asked: list[tuple[ImageRequest, int]] = []
+        self.arrived: RayImage | None = None
+        live, window = self.both.live, self
+        monkeypatch.setattr(live, "request", lambda *what: self.asked.append(what))
+        monkeypatch.setattr(live, "poll", self._poll)
+        monkeypatch.setattr(
+            type(live), "preparing_s", property(lambda _: window.preparing_s), raising=True
+        )
+        monkeypatch.setattr(time, "monotonic", lambda: self.now_s)
+        self.both.begin(gl)
+
+    def _poll(self) -> RayImage | None:
+        image, self.arrived = self.arrived, None
+        return image
+
+    def trace(self) -> None:
+        """Let the newest ray image arrive."""
+        request, factor = self.asked[-1]
+        width, height = (-(-side // factor) for side in request.size)
+        color = np.zeros((height, width, 3), np.float32)
+        shown = Frame((width, height), color, time_s=1.0)
+        self.arrived = RayImage(request, shown, factor)
+
+    def move(self, dx: float = 0.1) -> None:
+        self.state = self.state.with_camera(moved(self.state.camera, (dx, 0.0, 0.0)))
+
+    def frame(self, has_ray: bool = True) -> tuple[ImageRequest, int, RayImage | None]:
+        """Draw a frame. Return the request and the factor of the raster image, and the ray
+        image.
+        """
+        self.now_s += 1 / 60
+        self.both.update(self.state, True)
+        request = self.both.request(self.state)
+        assert request is not None and self.both.textures is not None
+        place = whole(SIZE)
+        assert self.both.raster_picture(self.state, place, "pane") is not None
+        raster = self.both.textures.raster.image
+        assert raster is not None
+        ray = None
+        if has_ray:
+            if self.both.ray_picture(self.state, place, "pane") is not None:
+                ray = self.both.shown_ray(self.state)
+                assert ray is not None
+            self.both.trace(self.state)
+        return raster.request, raster.factor, ray
+
+
+@pytest.fixture
+def window(gl, monkeypatch) -> Iterator[Window]:
+    made = Window(gl, monkeypatch)
+    yield made
+    made.both.end()
+
+
+def begun(window: Window) -> None:
+    """Both images at rest."""
+    for _ in range(3):
+        window.frame()
+        window.trace()
+    request, factor, ray = window.frame()
+    assert factor == 1 and ray is not None and ray.request.without_effects == request
+
+
+def test_in_motion_both_images_have_one_camera_and_one_size(window):
+    begun(window)
+    seen = set()
+    for step in range(40):
+        window.move()
+        request, factor, ray = window.frame()
+        assert ray is not None
+        assert (ray.request.camera, ray.request.size) == (request.camera, request.size)
+        assert ray.factor == factor
+        seen.add((request, factor))
+        if step % 3:  # some images take two frames
+            window.trace()
+    assert len(seen) > 20
+    assert {factor for _, factor in seen} > {1}  # the tracer has said that it is slow
+
+
+def test_at_rest_both_become_full_and_the_raster_image_does_not_wait(window):
+    begun(window)
+    for _ in range(3):
+        window.move()
+        window.frame()
+        window.trace()
+    request, factor, ray = window.frame()
+    assert factor == ray.factor > 1 and request == window.both.request(window.state)
+    assert window.both.unfinished(window.state)
+    window.now_s += STILL_S
+    request, factor, ray = window.frame()
+    assert factor == 1 < ray.factor and request.camera == ray.request.camera
+    assert window.asked[-1] == (request, 1)
+    window.trace()
+    assert window.frame()[2].factor == 1
+
+
+def test_the_raster_image_goes_alone_while_the_tracer_prepares(window):
+    begun(window)
+    window.preparing_s = 1.0
+    window.move()
+    window.frame()
+    request, _, ray = window.frame()
+    assert request == window.both.request(window.state)
+    assert ray is None  # another camera's
+
+
+def test_the_raster_image_goes_alone_where_no_view_shows_the_ray_image(window):
+    begun(window)
     for _ in range(2):
-        both.textures.begin_frame()  # nobody has looked at it in the last one
-    both.trace(state)
-    both.end()
-    assert asked == [1, 1, 3, 1]
+        window.frame(has_ray=False)
+    window.move()
+    request, _, _ = window.frame(has_ray=False)
+    assert request == window.both.request(window.state)
+
+
+def test_several_samples_are_for_a_camera_at_rest(window):
+    window.state = window.state.with_options(images={"samples": 16})
+    begun(window)
+    assert window.asked[-1][0].samples == 16
+    window.move()
+    window.frame()
+    assert window.asked[-1][0].samples == 1

@@ -25,7 +25,7 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Label, RayEnd
 from app.outside.options import OutsideOptions
-from app.probe.copying import all_lines, as_c, as_julia, as_latex, as_python, as_text
+from app.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
 from app.probe.model import Probe
 from app.state.options import Notation
 from app.stepper import loop_parts, raster_parts
@@ -73,9 +73,8 @@ def probe(notation: Notation) -> Found:
             yield "probe", "plain", f"{line.name}: {line.text} {line.text_numbers}"
         yield "copied", "plain", as_text(reading, Indexing.ARRAY, notation).partition("\n")[2]
         yield "copied", "latex", as_latex(reading, Indexing.ARRAY, notation).partition("\n")[2]
-        for program in (as_python, as_julia, as_c):
-            code = program(reading, Indexing.LECTURE, notation)
-            yield "copied", "program", code.rpartition("int main")[2]
+        for program in (as_python, as_julia):
+            yield "copied", "program", program(reading, Indexing.LECTURE, notation)
 
 
 def mistakes(notation: Notation) -> Found:
@@ -109,7 +108,7 @@ def drawn(notation: Notation) -> Found:
 
 
 def others(notation: Notation) -> Found:
-    for language in ("python", "julia", "c"):
+    for language in ("python", "julia"):
         for line in array_code.lines(language, "row", True, (64, 48), (3, 4), (0.1, 0.2, 0.3)):
             yield "laboratory", "program", symbols.lettered(line, notation).partition("#")[0]
     tips = [*(tip for *_, tip in panel.ROLES.values()), panel.PERSPECTIVE, panel.PARALLEL]

@@ -21,6 +21,7 @@ from app.state.app_state import AppState, History
 from renderer.scene import load_scene
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.scene_editing import objects
+from renderer.scene_editing.changing import set_field
 
 
 @pytest.fixture
@@ -60,7 +61,7 @@ def test_what_is_chosen_already_is_the_same_state(state):
 
 def test_what_is_locked_is_as_background(state):
     row = rows_of(state.scene)[0]
-    locked = with_scene(state, objects.lock(state.scene, [row.item], True))
+    locked = with_scene(state, set_field(state.scene, [row.item], "locked", True))
     assert item_at(locked.scene, row.ids[0]) is None
     assert chosen(picked(locked, row.ids[0], more=False)) == ()
 
@@ -79,7 +80,7 @@ def test_walking_goes_round_in_the_order_of_the_list_both_ways(state):
 def test_walking_and_choosing_all_pass_over_hidden_and_locked(state):
     items = items_of(state)
     scene = objects.hide(state.scene, [items[0]], True)
-    state = with_scene(state, objects.lock(scene, [items[1]], True))
+    state = with_scene(state, set_field(scene, [items[1]], "locked", True))
     assert chosen(walked(state, 1)) == (items[2],)
     assert chosen(everything(state)) == tuple(items[2:])
 

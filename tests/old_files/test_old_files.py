@@ -127,12 +127,10 @@ def test_each_removed_option_of_the_lecture_is_reported_with_its_line():
             assert len(lines) == 2  # the step's options, and its link
 
 
-def test_a_session_reports_removed_options_that_were_in_use_and_no_others(monkeypatch):
-    monkeypatch.setitem(removed.REMOVED, "costs.triangles", removed.Removed("use X", 10_000))
-    monkeypatch.setitem(removed.REMOVED, "costs.pixels", removed.Removed("use Y", 76_800))
+def test_a_session_reports_removed_options_that_were_in_use_and_no_others():
     data = (FOLDER / "session.json").read_bytes()
     notes = from_bytes(data).notes
-    assert "costs.triangles is ignored: use X" in notes
+    assert any("costs.triangles is ignored: " in note for note in notes)
     assert not any("costs.pixels" in note for note in notes)
 
 
@@ -149,5 +147,7 @@ def test_no_removed_key_is_a_present_one():
 @pytest.mark.parametrize("path_value", removed.REPLACED)
 def test_a_replaced_value_is_refused_as_a_present_one(path_value):
     path, value = path_value
-    hint = {entry.name: entry.type for entry in msgspec.inspect.type_info(AllOptions).fields}[path]
-    assert value not in hint.values and removed.REPLACED[path_value].value in hint.values
+    kind = msgspec.inspect.type_info(AllOptions)
+    for part in path.split("."):
+        kind = next(field.type for field in kind.fields if field.name == part)
+    assert value not in kind.values and removed.REPLACED[path_value].value in kind.values

@@ -15,12 +15,12 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.text import formulas
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Arrow, Label, RayEnd, Segments, runs
+from app.outside.figure import Figure, figure_parts
 from app.outside.growing import STAGES, grown_diagram, growth, lit_in, shares, stage_at
 from app.outside.options import OutsideOptions
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.outside.svg import svg
-from app.outside.vector import Paint, drawing
 from renderer.camera import Camera
 
 CAMERA = Camera.look_at((3.0, 2.0, 4.0), (0.0, 0.0, 0.0), distance=1.5, aspect=4 / 3)
@@ -105,6 +105,7 @@ def test_a_label_s_vectors_are_bold_also_in_a_file() -> None:
     )
     looking = Camera.look_at((6.0, 4.0, 8.0), (2.0, 1.0, 3.0))
     screen = OutsideScreen(looking, (200, 150))
-    paint = Paint(lambda role, tint: (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
-    text = svg(drawing(project(items, screen), (), paint, screen))
+    t = np.full((150, 200), np.inf, np.float32)
+    parts = figure_parts(project(items, screen), lambda *_: (1.0, 1.0, 1.0), screen, t)
+    text = svg(Figure((200, 150), parts, 1.0, None))
     assert '>u <tspan font-weight="bold">u</tspan></text>' in text and "vec(" not in text

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.outside.diagram import Dot, Face, Item, Role, Segments
 from app.outside.frustum import pixel_corners, plane_corners
-from app.outside.paint import ground_of, layers, role_color, vector_paint
+from app.outside.paint import figure_color, ground_of, layers, role_color
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen
 from app.widgets import contrast, theme
@@ -58,7 +58,6 @@ def drawn(
     plane: Plane | None = None,
     unit_px: float = 1.0,
     coarse: int = 1,
-    upside_down: bool = False,
 ) -> NDArray[np.uint8]:
     """The view's pixels, (height, width, 3). coarse: how many are one of the scene's, a side."""
     rasterizer.set_scene(scene)
@@ -69,7 +68,7 @@ def drawn(
             picture = gl.texture((2, 2), 4, PICTURE.tobytes())
         try:
             primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
-            texture, _ = overlay.draw(
+            texture = overlay.draw(
                 rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
                 camera,
                 SIZE,
@@ -77,7 +76,6 @@ def drawn(
                 plane,
                 picture,
                 unit_px=unit_px,
-                upside_down=upside_down,
             )
             pixels = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert pixels[..., 3].min() == 255  # ImGui blends it
@@ -276,10 +274,6 @@ def test_over_a_coarse_scene_lines_and_the_picture_stay_sharp(rasterizer: Raster
         different = np.abs(coarse.astype(int) - full).max(axis=2) > 8
         # Along the ball's edge, and where that hides the line or the picture.
         assert 0 < different.mean() < 0.01 * factor
-        turned = drawn(rasterizer, BALL, camera, items, plane, coarse=factor, upside_down=True)
-        different = np.abs(turned[::-1].astype(int) - coarse).max(axis=2) > 2
-        assert different.mean() < 0.002  # edges of shapes: which pixels those cover
-        assert np.abs(turned.astype(int) - coarse).max() > 50
     assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid_color("extra")).max() < 4
 
 
@@ -315,6 +309,4 @@ def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presente
         own = role_color(name)
         if contrast.contrast((own.x, own.y, own.z), ground) >= 3.0:
             assert (color.x, color.y, color.z) == (own.x, own.y, own.z)
-    paint = vector_paint()
-    for name in "uvw":
-        assert contrast.contrast(paint.color(name, 0.0), paint.background) >= 3.0
+        assert contrast.contrast(figure_color(name, 0.0, ground), ground) >= 3.0

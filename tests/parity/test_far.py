@@ -14,8 +14,6 @@ from scenes import ODD, crowd, moved, placed
 from trace_reference import ball, reference
 
 from app.images.picking import object_on_ray
-from app.outside.outlines import Ellipse, outlines
-from app.outside.screen import OutsideScreen
 from app.probe.model import Probe
 from app.stepper import loop_parts
 from renderer import Camera, Rasterizer, Tracer
@@ -211,23 +209,6 @@ def test_probe_loops_and_picking_see_what_the_images_show(view):
             rows, columns = loop_parts.bounding_box(entry, camera, SIZE)
             assert hit is loop_parts.MISS or (i in rows and j in columns)
     assert off <= 2
-
-
-def test_outlines_of_a_translated_scene_are_those_at_the_origin():
-    by = 1e6 * ODD
-    drawn = [
-        outlines(shown, OutsideScreen(camera_of("perspective", shift), SIZE))[0]
-        for shown, shift in ((crowd(), 0.0 * by), (moved(crowd(), by), by))
-    ]
-    for here, there in zip(*drawn, strict=True):
-        assert type(here.form) is type(there.form)
-        if isinstance(here.form, Ellipse):
-            np.testing.assert_allclose(there.form.center, here.form.center, atol=1e-3)
-            np.testing.assert_allclose(there.form.radii, here.form.radii, rtol=1e-4)
-        elif here.name == "object 1":  # a box: no edge lies where rounding decides
-            np.testing.assert_allclose(
-                np.sort(there.form.points, axis=0), np.sort(here.form.points, axis=0), atol=1e-3
-            )
 
 
 def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far():

@@ -44,7 +44,7 @@ def noise(size=SIZE):
 
 def pictured(gl, upload, pixels):
     texture = upload(pixels)
-    return Picture(texture, gl.framebuffer([texture]), made=object())
+    return Picture(texture, made=object())
 
 
 def shown(picture):
@@ -57,19 +57,12 @@ def test_the_mean_is_of_display_values(gl, laying, upload, opacity):
     image, photo = noise(), noise()
     laying.take(photo)
     made = laying.laid(
-        "a", pictured(gl, upload, image), whole(SIZE), False, LaidPhotograph(WHOLE, opacity)
+        "a", pictured(gl, upload, image), whole(SIZE), LaidPhotograph(WHOLE, opacity)
     )
     wanted = (1 - opacity) * image.astype(float) + opacity * photo
     assert np.abs(shown(made)[..., :3] - wanted[..., :3]).max() <= 0.51
     if opacity == 1.0:
         assert np.array_equal(shown(made), photo)
-
-
-def test_a_picture_for_the_underlay_has_it_upside_down(gl, laying, upload):
-    photo = noise()
-    laying.take(photo)
-    made = laying.laid("a", pictured(gl, upload, noise()), whole(SIZE), True, LaidPhotograph(WHOLE))
-    assert np.array_equal(shown(made), photo[::-1])
 
 
 def test_behind_it_is_seen_where_nothing_is_hit(gl, laying, upload):
@@ -78,9 +71,9 @@ def test_behind_it_is_seen_where_nothing_is_hit(gl, laying, upload):
     laying.take(photo)
     picture = pictured(gl, upload, image)
     laid = LaidPhotograph(WHOLE, behind=True)
-    made = laying.laid("a", picture, whole(SIZE), False, laid, (upload(ids), 1))
+    made = laying.laid("a", picture, whole(SIZE), laid, (upload(ids), 1))
     assert np.array_equal(shown(made), np.where(ids[..., None] < 0, photo, image))
-    assert laying.laid("a", picture, whole(SIZE), False, laid) is picture  # not known what is hit
+    assert laying.laid("a", picture, whole(SIZE), laid) is picture  # not known what is hit
 
 
 def test_what_is_transparent_shows_the_image(gl, laying, upload):
@@ -88,7 +81,7 @@ def test_what_is_transparent_shows_the_image(gl, laying, upload):
     clear = RNG.random(SIZE[::-1]) < 0.5
     photo[clear] = 0
     laying.take(photo)
-    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), False, LaidPhotograph(WHOLE))
+    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), LaidPhotograph(WHOLE))
     assert np.array_equal(shown(made), np.where(clear[..., None], image, photo))
 
 
@@ -96,7 +89,7 @@ def test_it_covers_its_part_of_the_image(gl, laying, upload):
     image, photo = noise((12, 8)), noise((6, 4))
     laying.take(photo)
     laid = LaidPhotograph((0.25, 0.25, 0.75, 0.75))
-    made = laying.laid("a", pictured(gl, upload, image), whole((12, 8)), False, laid)
+    made = laying.laid("a", pictured(gl, upload, image), whole((12, 8)), laid)
     wanted = image.copy()
     wanted[2:6, 3:9] = photo
     assert np.abs(shown(made).astype(int) - wanted).max() <= 1
@@ -107,9 +100,7 @@ def test_of_a_magnified_image_what_is_seen_is_laid(gl, laying, upload):
     photo = noise()
     laying.take(photo)
     placement = Placement(SIZE, (9, 6), 2.0, (-4, -2), (26, 14))
-    made = laying.laid(
-        "a", pictured(gl, upload, noise((9, 6))), placement, False, LaidPhotograph(WHOLE)
-    )
+    made = laying.laid("a", pictured(gl, upload, noise((9, 6))), placement, LaidPhotograph(WHOLE))
     assert np.array_equal(shown(made), photo.repeat(2, 0).repeat(2, 1)[2:8, 4:13])
 
 
@@ -118,7 +109,7 @@ def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
     picture = pictured(gl, upload, noise())
 
     def laid(opacity=0.5):
-        return laying.laid("a", picture, whole(SIZE), False, LaidPhotograph(WHOLE, opacity))
+        return laying.laid("a", picture, whole(SIZE), LaidPhotograph(WHOLE, opacity))
 
     before, drawn = shown(laid()), laid().made
     assert laid().made is drawn  # which is another one each time
@@ -139,7 +130,6 @@ def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
         "opacity": (0.25, 0.5, 1.0),
         "behind": (False, True),
         "placement": (whole(SIZE), magnified),
-        "under": (False, True),
     }
     given = {name: values[0] for name, values in choices.items()}
     photos, number, seen = [noise(), noise((26, 14)), noise()], 0, set()
@@ -157,7 +147,7 @@ def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
         else:
             given[kind] = choices[kind][rng.integers(len(choices[kind]))]
         laid = LaidPhotograph(given["covered"], given["opacity"], given["behind"])
-        rest = given["placement"], given["under"], laid, (ids, number)
+        rest = given["placement"], laid, (ids, number)
         kept = shown(laying.laid("kept", picture, *rest))
         np.testing.assert_array_equal(
             kept, shown(laying.laid(step, picture, *rest)), err_msg=f"{kind} at {step}"
@@ -173,7 +163,5 @@ def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):
     laying.take(photo)
     placement = Placement((16, 16), (4, 4), 0.25, (0, 0), (4, 4))
     assert level((16, 16), placement, (4, 4), WHOLE) == pytest.approx(2.0)
-    made = laying.laid(
-        "a", pictured(gl, upload, noise((4, 4))), placement, False, LaidPhotograph(WHOLE)
-    )
+    made = laying.laid("a", pictured(gl, upload, noise((4, 4))), placement, LaidPhotograph(WHOLE))
     assert np.abs(shown(made)[..., :3].astype(int) - 64).max() <= 2

@@ -257,16 +257,11 @@ def test_a_lecture_names_a_set_beside_itself(tmp_path: Path, name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "is_camera"),
     [
-        ("a.py", "import bpy\nbpy.data.cameras.new('a')", True),
-        ("a.py", "  from bpy import data", True),
-        ("a.py", "resolution_x = 3  # bpy", False),
-        ("a.py", "import numpy", False),
         ("a.gltf", '{"asset": {}, "cameras": [{}]}', True),
         ("a.gltf", '{"asset": {}, "cameras": [{}], "meshes": [{}]}', False),
         ("a.gltf", '{"asset": {}, "cameras": [], "nodes": []}', False),
         ("a.gltf", "[1", False),
-        ("a.glb", "import bpy", False),
-        ("a.py", "import bpy" + " " * (1 << 20), False),
+        ("a.py", "import numpy", False),
     ],
 )
 def test_what_ends_as_programs_and_models_do_is_looked_into(

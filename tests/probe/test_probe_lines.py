@@ -19,10 +19,10 @@ from hard_readings import (
     on_the_floor,
 )
 
-from app.explaining.languages import c, julia
+from app.explaining.languages import julia
 from app.lecture.typesetting import mistake
 from app.probe.color_formulas import color_lines
-from app.probe.copying import all_lines, as_c, as_julia, as_latex, as_python, as_text
+from app.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
 from app.probe.formulas import LEAST_COSINE, hit_lines, ray_lines
 from app.probe.model import Probe
 from app.probe.reading import Reading
@@ -362,7 +362,6 @@ def test_a_copied_program_says_what_its_lines_are():
     ]
     arrays = as_python(reading, Indexing.ARRAY, "code")
     assert as_julia(reading, Indexing.ARRAY, "code") == julia.program(arrays)
-    assert as_c(reading, Indexing.ARRAY, "code") == c.program(arrays)
 
 
 def test_copied_formulas_stand_below_one_another():

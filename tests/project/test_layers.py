@@ -110,18 +110,17 @@ DRAW = {
     "pair": "boxes camera_drag choices dark_note footprint hatching image_mouse marks overlay pane "
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "against_photograph composed differences",
-    "outside": "cloud_layer extensions gizmo ground hosted looking mouse paint pixel_plane "
-    "parts scrubber tint tools vector_painting vector_view widening",
+    "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
+    "painting parts pixel_plane scrubber tint tools widening",
     "objects": "handles icons in_views inspector material_fields outliner outliner_row "
     "value_fields",
     "probe": "histogram",
     "stepper": "controls listing numbers plan",
-    "costs": "",
+    "costs": "plots",
     "your_code": "code_pictures",
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
     "mistakes": "pages",
     "poses": "",
-    "detective": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
     "typesetting watching_hidden",
 }

@@ -205,16 +205,14 @@ class TestScript:
         status, _, calls = self.setup(checkout, "tests")
         assert status == 0
         (installed,) = [call for call in calls if " install --yes " in call]
-        assert installed.endswith("xvfb openbox xdotool bubblewrap chromium")
+        assert installed.endswith("xvfb openbox xdotool chromium")
         assert self.setup(checkout, "tests") == (0, "", [])
 
     def test_without_the_right_to_install_a_display_it_goes_on(self, checkout):
         self.with_apt()
         status, told, _ = self.setup(checkout, "tests")
         assert status == 0
-        assert (
-            "sudo apt-get install --no-install-recommends xvfb openbox xdotool bubblewrap" in told
-        )
+        assert "sudo apt-get install --no-install-recommends xvfb openbox xdotool" in told
 
     def with_apt(self) -> None:
         self.stand_in("apt-get", APT_GET)

@@ -63,7 +63,7 @@ def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> boo
 def drive_every_format_is_copied_in_panel_and_menu(d: Driver) -> None:
     only_sections(d, "Copy and paste")
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
-    for number, form in enumerate(("OpenCV", "Blender", "pbrt")):
+    for number, form in enumerate(("OpenCV", "glTF")):
         imgui.set_clipboard_text("")
         if number % 2:
             d.ctx.menu_click(f"//##MainMenuBar/Edit/Copy camera as/{form}")
@@ -72,8 +72,6 @@ def drive_every_format_is_copied_in_panel_and_menu(d: Driver) -> None:
         d.ctx.yield_(2)
         assert len(imgui.get_clipboard_text()) > 100, form
         assert said(d).endswith(f"{form}.")
-        if form == "pbrt":
-            continue
         d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
         d.ctx.item_click(f"{PANEL}/Paste")
         d.ctx.yield_(2)
@@ -110,6 +108,21 @@ def drive_a_pasted_lens_is_kept(d: Driver) -> None:
     assert len(d.window.history.past) == 1
 
 
+def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
+    pose = np.linalg.inv(AIMED.camera_from_world) * (1, -1, -1, 1)
+    imgui.set_clipboard_text(str(pose.tolist()))
+    d.press(CTRL | int(Key.v))
+    question = d.window.files.question
+    assert question is not None and len(question.answers) == 4
+    d.picture()
+    opencv = "camera to world, y down"
+    answer(d, next(words for words in question.answers if opencv in words))
+    d.until(lambda: not d.window.travelling)
+    assert np.allclose(d.window.state.camera.u, AIMED.u)
+    assert np.allclose(d.window.state.camera.eye, AIMED.eye)
+    assert len(d.window.history.past) == 1
+
+
 def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
     plain, bent = d.folder / "plain.yml", d.folder / "bent.json"
     plain.write_bytes(written([PosedCamera(AIMED, SIZE)], "opencv")[""])
@@ -126,15 +139,14 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
     d.ctx.yield_(3)
     assert d.window.state.camera.lens == Lens("brown", {"k1": 0.5})
     assert said(d).startswith("The camera is bent.json's: ")
-    # What ends as programs and models do: a script for Blender, a glTF file of a camera alone.
-    for form, ending in (("blender", "py"), ("gltf", "gltf")):
-        path = d.folder / f"alone.{ending}"
-        path.write_bytes(written([PosedCamera(AIMED, SIZE)], form)[""])
-        d.window.change(d.start)
-        d.drop([str(path)])
-        d.until(lambda: same_camera(d.window.state.camera, AIMED))
-        d.ctx.yield_(3)
-        assert said(d).startswith(f"The camera is alone.{ending}'s: ")
+    # A glTF file of a camera alone, which ends as models do.
+    path = d.folder / "alone.gltf"
+    path.write_bytes(written([PosedCamera(AIMED, SIZE)], "gltf")[""])
+    d.window.change(d.start)
+    d.drop([str(path)])
+    d.until(lambda: same_camera(d.window.state.camera, AIMED))
+    d.ctx.yield_(3)
+    assert said(d).startswith("The camera is alone.gltf's: ")
     d.window.change(d.start)
     # A folder of COLMAP with one image, and no points.
     folder = d.folder / "one"
@@ -152,7 +164,6 @@ def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
     saved = {
         "OpenCV (.yml, .json)...": d.folder / "saved.json",
         "COLMAP (a folder)...": d.folder / "model",
-        "pbrt (.pbrt)...": d.folder / "saved.pbrt",
     }
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
@@ -162,7 +173,6 @@ def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
         posed = read_cameras(path).cameras[0]
         assert posed.size == size
         assert same_camera(posed.camera, shown, size)
-    assert (d.folder / "saved.pbrt").read_text().count("Camera") == 1
 
 
 def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d: Driver) -> None:
@@ -184,11 +194,6 @@ def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d: Driver) -> None:
     d.ctx.yield_(2)
     assert exports.listing is None
     assert str(path) in said(d)
-    for ending in ("xml", "pbrt"):
-        save_as(d, "Export...", d.folder / f"out.{ending}")
-        d.until(lambda: exports.listing is not None)
-        d.press(int(Key.escape))
-        assert exports.listing is None
 
 
 def drive_a_long_export_is_cancelled(d: Driver) -> None:

@@ -333,18 +333,18 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
 
 
 def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:
-    text = "```python\\nx = 1\\n```\\n```c\\nint x = 1;\\n```\\n\\nA **number**."
+    text = "```python\\nx = 1\\n```\\n```julia\\ny = 1\\n```\\n\\nA **number**."
     give(d, SMALL.replace("One **ball** at $z = -3$.", text))
     d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
     d.ctx.yield_(2)
     before = d.picture()
-    d.ctx.item_click(item(d, "C##language"))
+    d.ctx.item_click(item(d, "Julia##language"))
     d.settle()
     d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
     d.ctx.yield_(2)
-    assert d.window.state.options.language == "c"
+    assert d.window.state.options.language == "julia"
     assert changed(before, d.picture()) > 0.0005
     d.ctx.key_press(int(Key.page_down))
     d.settle()
-    assert d.window.state.options.language == "c"  # the reader's own
+    assert d.window.state.options.language == "julia"  # the reader's own
     d.window.change(d.window.state.with_options(language="python"))

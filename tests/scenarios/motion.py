@@ -7,21 +7,17 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui
 from window_driver import Driver
 
 from app.compare.view import CompareView
 from app.host.view import DockedView
-from app.images import live_raster as module
+from app.images import renderers as module
 from app.images.live_raster import LiveRaster
 from app.images.request import ImageRequest
-from app.images.shown import WHOLE
-from app.images.textures import PANE
 from app.pair.view import RASTER, RAY
-from app.widgets import theme
 from app.widgets.surface import Target
 from renderer.coarseness import Coarseness
-from renderer.frame import CHANNELS
 from renderer.navigation import moved
 
 
@@ -43,81 +39,55 @@ def factor(found: LiveRaster) -> int:
 
 @contextmanager
 def slow(d: Driver) -> Iterator[None]:
-    """OpenGL seems to run on a slow CPU; and nothing is refined."""
-    found = live_raster(d)
-    before = found.coarseness, module.MOVING_S
-    found.coarseness = Coarseness(1e-9, 1e-9, module.COARSEST)
-    found.coarseness.measured(1, 1, 1e-3)
-    module.MOVING_S = 1e9
+    """Let all images in motion be coarse, and let nothing rest."""
+    both = d.window.renderers
+    before = both._coarseness, module.STILL_S
+    both._coarseness = Coarseness(1e-9, unknown=4)
+    both._factor, module.STILL_S = 1, 1e9
     try:
         yield
     finally:
-        found.coarseness, module.MOVING_S = before
+        both._coarseness, module.STILL_S = before
 
 
-def drive_a_drag_is_coarse_then_full_then_compared(d: Driver) -> None:
+def drive_a_drag_shows_one_camera_and_one_size_in_each_frame(d: Driver) -> None:
     found, both = live_raster(d), d.window.renderers
+    d.settle()
+    frames: list[tuple[ImageRequest, int]] = []
+
+    def look(_: Target) -> None:
+        raster, ray = found.image, both.shown_ray(d.window.state)
+        assert raster is not None and ray is not None
+        assert ray.request.camera == raster.request.camera
+        assert (ray.request.size, ray.factor) == (raster.request.size, raster.factor)
+        frames.append((raster.request, raster.factor))
+
     x, y = d.point(RAY, 0.5, 0.5)
     d.ctx.mouse_teleport_to_pos((x, y))
     d.ctx.yield_()
     with slow(d):
         d.ctx.mouse_down(0)
-        factors, before = set(), d.window.state.camera
-        for step in range(1, 9):
-            drawn = number(found)
-            d.ctx.mouse_teleport_to_pos((x + 9 * step, y + 3 * step))
-            d.until(lambda drawn=drawn: number(found) > drawn)
-            factors.add(factor(found))
-            assert both.verdict(d.window.state) is None
+        d.run.on_drawn = look
+        try:
+            for step in range(1, 9):
+                before = len({request for request, _ in frames})
+                d.ctx.mouse_teleport_to_pos((x + 9 * step, y + 3 * step))
+                d.until(lambda before=before: len({request for request, _ in frames}) > before)
+        finally:
+            d.run.on_drawn = None
         d.stay = True
         coarse = d.picture()
         d.ctx.mouse_up(0)
-        assert factors == {module.COARSEST}
-        assert d.window.state.camera != before
-        assert found.unfinished
+    assert len(frames) >= 8 and {factor for _, factor in frames} <= {1, 4, 8}
     raster, _ = d.agreeing_images()
-    assert factor(found) == 1
     assert both.ray_image is not None
-    assert both.ray_image.factor == 1
+    assert factor(found) == both.ray_image.factor == 1
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
     assert (coarse[top:bottom, left:right] != raster).any()
     last = number(found)
     d.ctx.yield_(20)
     assert number(found) == last  # at rest
     assert d.window.settled
-
-
-def drive_an_image_drawn_in_parts_is_the_same(d: Driver) -> None:
-    """One frame has no time for all triangles."""
-    found, both = live_raster(d), d.window.renderers
-    parts = []
-
-    def part_of(triangles: int) -> int:
-        parts.append(triangles)
-        return max(triangles // 5, 1)
-
-    found.pace.part_of = part_of  # type: ignore[method-assign]
-    try:
-        x, y = d.point(RASTER, 0.5, 0.5)
-        d.drag((x, y), (x + 60, y + 20))
-        for _ in range(3):  # a motion that goes on shows something new
-            drawn = number(found)
-            d.drag((x, y), (x + 20, y - 10))
-            d.until(lambda drawn=drawn: number(found) > drawn)
-        d.agreeing_images()
-    finally:
-        del found.pace.part_of
-    assert len(parts) >= 6
-    assert both.agreement.pair is not None
-    in_parts, here = both.agreement.pair[1], d.window.state
-    d.window.change(here.with_camera(d.start.camera))
-    d.settle()
-    d.window.change(here)
-    d.settle()
-    at_once = both.agreement.pair[1]
-    assert at_once is not in_parts
-    for channel in CHANNELS:
-        np.testing.assert_array_equal(in_parts.channel(channel), at_once.channel(channel))
 
 
 def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> None:
@@ -148,33 +118,6 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
     assert len(others) == 1
 
 
-def shown(d: Driver, under: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the pixels in the raster image's place on the screen, and those made for it; int, row
-    0 at the top, and as it was made.
-
-    under: it is in the underlay.
-    """
-    d.settle()
-    found: list[tuple[np.ndarray, np.ndarray]] = []
-    textures = d.window.renderers.textures
-    assert textures is not None
-    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
-
-    def look(target: Target) -> None:  # in the window's thread, unlike drives
-        # What was made: asked for in the public way, it would be made anew.
-        picture = textures._shown_raster._pictures[WHOLE if under else PANE, under].texture
-        rows = np.frombuffer(picture.read(), np.uint8).reshape(picture.height, picture.width, 4)
-        seen = target.read()[top:bottom, left:right]
-        found.append((seen.astype(int), rows[..., :3].astype(int)))
-
-    d.run.on_drawn = look
-    try:
-        d.until(lambda: bool(found))
-    finally:
-        d.run.on_drawn = None
-    return found[0]
-
-
 def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) -> None:
     d.settle()
     events: list[str] = []
@@ -182,10 +125,10 @@ def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) ->
     request, drawn = live.request, d.window.draw_view
     wanted = moved(d.window.state.camera, (0.05, 0.0, 0.0))
 
-    def asked(what: ImageRequest, begin_at: int) -> None:
+    def asked(what: ImageRequest, factor: int = 1) -> None:
         if what.camera == d.window.renderers.camera(d.window.state):
             events.append("request")
-        request(what, begin_at)
+        request(what, factor)
 
     def drawing(view: DockedView) -> None:
         events.append(view.name)
@@ -200,49 +143,6 @@ def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) ->
         del live.request, d.window.draw_view
     first = events.index("request")
     assert not {view.name for view in views} & set(events[:first])
-    d.agreeing_images()
-
-
-def drive_a_floating_image_is_drawn_over_what_is_under_it(d: Driver) -> None:
-    underlay = d.window.renderers.underlay
-    docked, made = shown(d, under=True)
-    assert len(underlay._placed) == 2
-    assert (np.abs(docked - made[::-1]).max(axis=2) > 0).mean() < 0.05  # but for its legend
-    d.ctx.undock_window(f"//###{RASTER}")
-    d.ctx.yield_(5)
-    floating, made = shown(d, under=False)
-    assert len(underlay._placed) == 1
-    assert floating.shape == made.shape
-    assert (np.abs(floating - made).max(axis=2) > 0).mean() < 0.05
-    hello_imgui.get_runner_params().docking_params.layout_reset = True
-    d.ctx.yield_(5)
-    d.until(lambda: len(underlay._placed) == 2)
-    d.agreeing_images()
-
-
-def drive_a_docked_panels_ground_stands_under_it_and_a_floating_ones_does_not(d: Driver) -> None:
-    underlay, panel = d.window.renderers.underlay, "Camera"
-    d.settle()
-
-    def ground() -> tuple[int, int, int]:
-        """Beside the panel's first line."""
-        window = imgui.internal.find_window_by_name(d.window.views[panel].label)
-        at, picture = window.inner_rect.min, d.picture()
-        red, green, blue = picture[round(at.y) + 4, round(at.x) + 4, :3].tolist()
-        return red, green, blue
-
-    color = theme.PANEL
-    wanted = tuple(round(255 * part) for part in (color.x, color.y, color.z))
-    docked = len(underlay.grounds)
-    assert docked > 0 and ground() == wanted
-    d.ctx.undock_window(f"//###{panel}")
-    d.ctx.yield_(5)
-    assert len(underlay.grounds) == docked - 2  # and of its tab bar
-    assert ground() == wanted
-    hello_imgui.get_runner_params().docking_params.layout_reset = True
-    d.ctx.yield_(5)
-    d.until(lambda: len(underlay.grounds) == docked)
-    assert ground() == wanted
     d.agreeing_images()
 
 
@@ -281,7 +181,7 @@ def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
         hello_imgui.switch_layout("Side by side")
         d.ctx.yield_(5)
     images = dict(reversed(seen))  # by factor: the full one before the change, and a coarse one,
-    full, coarse = images[1], images[module.COARSEST]  # which the statistics may soon refine
+    full, coarse = images[1], images[4]  # which the statistics may soon refine
     middle = full.shape[1] // 2
     before, after = full[:, : middle - 20], coarse[:, : middle - 20]
     assert (before != after).any()

@@ -1,15 +1,13 @@
-"""The scene in hand: choosing, the list, the inspector; adding, copying, deleting."""
+"""The scene in hand: choosing, the list, the inspector; adding, deleting."""
 
 from __future__ import annotations
 
 import numpy as np
-from imgui_bundle import imgui
 from objects_window import (
     CTRL,
     SHIFT,
     ball,
     click,
-    drag_handle,
     enter,
     held,
     in_list,
@@ -27,7 +25,6 @@ from app.objects.view import InspectorView
 from app.outside.view import OUTSIDE
 from app.state.app_state import History
 from renderer.scene_editing import objects
-from renderer.scene_editing.materials import material_of
 
 # Choosing.
 
@@ -139,13 +136,13 @@ def drive_a_name_is_typed_in_its_row(d: Driver) -> None:
 
 
 def drive_what_is_typed_edits_no_object(d: Driver) -> None:
-    """Delete, Ctrl+A, C, V and D are the text's while a field has the keyboard."""
+    """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
     enter(d)
     d.ctx.item_click(in_list(d, "box"))
     before = d.window.state.scene
     d.ctx.item_click("//###Objects/##search")
     d.ctx.key_chars("box")
-    for chord in (CTRL | int(Key.a), CTRL | int(Key.c), CTRL | int(Key.v), CTRL | int(Key.d)):
+    for chord in (CTRL | int(Key.a), CTRL | int(Key.d)):
         d.press(chord)
     d.press(int(Key.delete))
     d.press(CTRL | int(Key.a))
@@ -184,10 +181,10 @@ def drive_the_search_leaves_what_matches(d: Driver) -> None:
     assert d.ctx.item_exists(in_list(d, "box"))
 
 
-def drive_the_eye_hides_from_both_images(d: Driver) -> None:
+def drive_a_checkbox_hides_from_both_images(d: Driver) -> None:
     enter(d)
     before = d.agreeing_images()
-    d.ctx.item_click(in_list(d, "matte sphere", "eye"))
+    d.ctx.item_click(in_list(d, "matte sphere", "##shown"))
     d.ctx.yield_(3)
     assert next(r for r in rows_of(d.window.state.scene) if r.shown == "matte sphere").hidden
     after = d.agreeing_images()
@@ -196,35 +193,6 @@ def drive_the_eye_hides_from_both_images(d: Driver) -> None:
     )
     d.window.undo()
     d.settle()
-
-
-def drive_what_is_locked_is_left_alone(d: Driver) -> None:
-    enter(d)
-    window = d.window
-    d.ctx.item_click(in_list(d, "matte sphere", "lock"))
-    d.ctx.yield_(3)
-    scene = window.state.scene
-    click(d, seen_at(d, RASTER, "matte sphere"), double=True)
-    assert now(d) == ()
-    d.ctx.item_click(in_list(d, "matte sphere"))  # in the list it can be chosen
-    assert now(d) == ("matte sphere",)
-    window.change(window.state.with_options(objects={"handle": "move"}))
-    drag_handle(d, RASTER, "matte sphere", 1)
-    d.press(int(Key.delete))
-    assert window.state.scene is scene
-    window.undo()
-    d.settle()
-
-
-def drive_rows_are_dragged_into_another_order(d: Driver) -> None:
-    enter(d)
-    names = [row.shown for row in rows_of(d.window.state.scene)]
-    d.ctx.item_drag_and_drop(in_list(d, names[3]), in_list(d, names[1]))
-    d.ctx.yield_(3)
-    after = [row.shown for row in rows_of(d.window.state.scene)]
-    assert after == [names[0], names[3], *names[1:3], *names[4:]]
-    d.window.undo()
-    assert [row.shown for row in rows_of(d.window.state.scene)] == names
 
 
 # The inspector.
@@ -246,32 +214,21 @@ def drive_a_number_that_is_dragged_is_one_step(d: Driver) -> None:
     assert now(d) == ("matte sphere",)
 
 
-def drive_a_material_is_changed_for_all_or_for_one(d: Driver) -> None:
+def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
     enter(d)
     window = d.window
-    row = next(
-        row
-        for row in rows_of(window.state.scene)
-        if row.material and len(material_of(window.state.scene, row.item).users) > 1
-    )
-    users = material_of(window.state.scene, row.item).users
-    count = len(users)
+    row = next(row for row in rows_of(window.state.scene) if row.material)
+    before = {entry.material.shininess for entry in window.state.scene.objects}
     d.ctx.item_click(in_list(d, row.shown))
     d.ctx.yield_(3)
     d.picture()
     d.ctx.item_double_click("//###Inspector/##shininess")
     d.ctx.key_chars_replace_enter("7")
     d.ctx.yield_(3)
-    assert {material_of(window.state.scene, key).material.shininess for key in users} == {7.0}
-    d.ctx.item_click(f"//###Inspector/for all {count} that have it")
-    d.ctx.item_double_click("//###Inspector/##shininess")
-    d.ctx.key_chars_replace_enter("9")
-    d.ctx.yield_(3)
-    shine = [material_of(window.state.scene, key).material.shininess for key in users]
-    assert sorted(shine) == [7.0] * (count - 1) + [9.0]
+    assert {e.material.shininess for e in window.state.scene.objects} == {7.0, *before}
     d.ctx.item_click("//###Inspector/checker")
     d.ctx.yield_(3)
-    assert material_of(window.state.scene, row.item).material.checker is not None
+    assert window.state.scene.objects[row.ids[0]].material.checker is not None
 
 
 def drive_what_a_number_is_refused_for_is_told_of_that_object_alone(d: Driver) -> None:
@@ -301,7 +258,7 @@ def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
     assert after[1:] == before[1:]
 
 
-# Adding, copying, deleting.
+# Adding.
 
 
 def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> None:
@@ -319,29 +276,6 @@ def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> Non
     assert len(rows_of(window.state.scene)) == len(rows_of(d.start.scene)) + len(
         (*objects.SHAPES, *objects.LIGHTS)
     )
-
-
-def drive_the_chosen_are_copied_pasted_and_deleted(d: Driver) -> None:
-    enter(d)
-    window = d.window
-    count = len(rows_of(window.state.scene))
-    window.amend(choose(window.state, (item(d, "shiny sphere"),)))
-    d.ctx.yield_(2)
-    d.press(CTRL | int(Key.d))
-    assert len(rows_of(window.state.scene)) == count + 1
-    d.press(CTRL | int(Key.c))
-    assert "[[objects]]" in imgui.get_clipboard_text()
-    d.press(CTRL | int(Key.v))
-    assert len(rows_of(window.state.scene)) == count + 2
-    assert len(chosen(window.state)) == 1
-    d.press(int(Key.delete))
-    assert len(rows_of(window.state.scene)) == count + 1
-    assert now(d) == ()
-    window.undo()
-    window.undo()
-    window.undo()
-    assert len(rows_of(window.state.scene)) == count
-    window.shell.toasts.clear()
 
 
 # Many objects, large type.

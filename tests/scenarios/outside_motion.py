@@ -18,7 +18,7 @@ from app.outside import looking
 from app.outside.ground import Ground
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE
-from renderer.coarseness import Coarseness
+from renderer.coarseness import FACTORS, Coarseness
 
 
 def ground(d: Driver) -> Ground:
@@ -42,7 +42,7 @@ def pace(d: Driver, frame_s: float) -> Iterator[None]:
     """
     found = ground(d)
     before = found.coarseness, outside_ground.STILL_S
-    found.coarseness = Coarseness(frame_s, frame_s, outside_ground.COARSEST)
+    found.coarseness = Coarseness(frame_s)
     found.coarseness.measured(1, 1, 1e-3)
     outside_ground.STILL_S = 1e9
     try:
@@ -80,7 +80,7 @@ def drive_only_a_slow_scene_is_coarse_while_the_view_moves(d: Driver) -> None:
         assert drag(d) == [(1, full[0])] * 5  # fast enough
     d.settle()
     with pace(d, 1e-9):
-        assert drag(d) == [(outside_ground.COARSEST, full[0])] * 5
+        assert drag(d) == [(FACTORS[-1], full[0])] * 5
         assert not view(d).settled
         coarse = d.picture()
     d.settle()

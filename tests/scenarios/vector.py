@@ -1,4 +1,4 @@
-"""The diagram as a vector drawing: its page in the laboratory, and its file."""
+"""The outside view as a figure: its page in the laboratory, and its file."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from maximised import Maximised
 from window_driver import Driver, Key
 
+from app.laboratory.diagram import magnified
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.vector_view import PIXEL_PX, Both
 from app.laboratory.view import LaboratoryView
-from app.outside.bitmap import magnified
+from app.outside.figure import Polygon
 from app.outside.svg import svg
-from app.outside.vector import Arc
 from app.state.bounds import range_of
 
 LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
@@ -57,9 +57,9 @@ def _middle(d: Driver, number: int) -> tuple[float, float]:
 def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
     view = _page(d)
     made = _made(view)
-    width, height = made.drawing.size
+    width, height = made.figure.size
     assert made.picture.shape == (height // PIXEL_PX, width // PIXEL_PX, 3)
-    assert made.svg_bytes == len(svg(made.drawing).encode())
+    assert made.svg_bytes == len(svg(made.figure).encode())
     shades = []
     for zoom in (1.0, 8.0, LARGEST_ZOOM):
         d.ctx.item_input_value(ALONE.item("zoom##zoom"), zoom)
@@ -67,10 +67,10 @@ def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
         options = d.window.state.options.laboratory
         assert options.zoom == zoom
         # A place with an edge in it: the eye's.
-        eye = next(p.form for p in made.drawing.parts if p.group == "eye")
-        assert isinstance(eye, Arc)
-        (x, y), (radius, _) = eye.ellipse[:2]
-        at = (x + radius) / width, y / height
+        eye = next(p for p in made.figure.parts if p.name == "eye")
+        assert isinstance(eye, Polygon)
+        x, y = eye.points[0]  # its rightmost corner
+        at = float(x / width), float(y / height)
         d.window.change(d.window.state.with_options(laboratory={"zoom_center": at}))
         d.settle()
         raster, vector = _panes(d)
@@ -127,12 +127,12 @@ def drive_the_mouse_magnifies_and_moves_both(d: Driver) -> None:
 def drive_the_drawing_follows_the_camera_and_the_switches(d: Driver) -> None:
     view = _page(d)
     first = _made(view)
-    names = {part.name for part in first.drawing.parts}
+    names = {part.name for part in first.figure.parts}
     assert {"u", "v", "w", "grid", "ray", "pixel"} <= names
     d.window.change(d.window.state.with_options(outside={"basis": False, "bundle": (2, 2)}))
     d.settle()
     second = _made(view)
-    names = {part.name for part in second.drawing.parts}
+    names = {part.name for part in second.figure.parts}
     assert "u" not in names and any(name.startswith("bundle") for name in names)
     assert (second.picture != first.picture).any()
     d.window.change(d.window.state.with_camera(d.window.state.camera.shifted(0, 9, (100, 100))))
@@ -162,22 +162,17 @@ def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
     d.ctx.key_press(int(Key.mod_ctrl) | int(Key.mod_shift) | int(Key.e))
     root = _store(d, d.folder / "first")
     assert root.tag == f"{SPACE}svg"
-    groups = {part.get("id") for part in root.findall(f"{SPACE}g")}
-    assert {"outlines", "frustum", "image-plane", "rays", "basis", "letters"} <= groups
-    (image,) = root.iter(f"{SPACE}image")  # the raster image, pixel by pixel
-    assert (image.get("width"), image.get("height")) == tuple(map(str, d.window.renderers.size))
-    assert "live-image" in groups
-    outlines = root.find(f"{SPACE}g[@id='outlines']")
-    assert outlines is not None
-    names = {entry.name for entry in d.window.state.scene.objects}
-    assert {part.get("data-name") for part in outlines} <= names
-    # From the laboratory's button too: what is drawn there, which has no pixels.
+    (image,) = root.iter(f"{SPACE}image")
+    assert (image.get("width"), image.get("height")) == (root.get("width"), root.get("height"))
+    names = {part.get("data-name") for part in root.iter()}
+    assert {"edges", "image plane", "ray", "u", "eye"} <= names, names
+    # From the laboratory's button: what is drawn there, which has no pixels.
     _page(d)
     d.ctx.item_click(ALONE.item("Export as SVG..."))
     again = _store(d, d.folder / "second")
     assert again.get("viewBox")
     assert not list(again.iter(f"{SPACE}image"))
     ALONE.close(d)
-    d.ctx.menu_click("//##MainMenuBar/File/Picture/Export diagram as SVG without the live image...")
+    d.ctx.menu_click("//##MainMenuBar/File/Picture/Export figure as SVG without a ground...")
     third = _store(d, d.folder / "third")
-    assert not list(third.iter(f"{SPACE}image"))
+    assert list(third.iter(f"{SPACE}image")) and not list(third.iter(f"{SPACE}rect"))

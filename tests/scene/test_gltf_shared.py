@@ -77,37 +77,19 @@ def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> 
     assert len(built) == 1
 
 
-@pytest.mark.parametrize(
-    ("limit", "message"),
-    [
-        ("TRIANGLES", "has 12 triangles; stay within 11"),
-        ("MADE_TRIANGLES", "makes 12 triangles by repeating the 1 that it holds; stay within 10 "),
-        ("SHARED_VERTICES", "has 2 primitives that name 10 vertices; stay within 9: join"),
-    ],
-)
-def test_what_is_too_much_is_refused_before_it_is_read(
-    limit: str, message: str, tmp_path: Path, monkeypatch
-) -> None:
-    tree = shared(CORNERS, FACES if limit == "SHARED_VERTICES" else FACES[:1] * 4, instances=3)
-    value = {"TRIANGLES": 11, "MADE_TRIANGLES": 10, "SHARED_VERTICES": 9}[limit]
+def test_what_is_too_much_is_refused_before_it_is_read(tmp_path: Path, monkeypatch) -> None:
+    tree = shared(CORNERS, FACES[:1] * 4, instances=3)
     load_gltf(tree, tmp_path)
-    monkeypatch.setattr(f"renderer.scene.gltf_shared.{limit}", value)
+    monkeypatch.setattr("renderer.scene.gltf_shared.TRIANGLES", 11)
     monkeypatch.setattr("renderer.scene.gltf_file.OpenGltf.view", None)
-    with pytest.raises(LucidaError) as caught:
+    with pytest.raises(LucidaError, match="has 12 triangles; stay within 11"):
         load_gltf(tree, tmp_path)
-    assert str(caught.value).startswith(f"{tmp_path / 't.gltf'}: {message}")
 
 
-@pytest.mark.parametrize("field", ["bufferViews", "accessors"])
-def test_views_and_accessors_cannot_name_one_buffer_without_end(field: str, tmp_path: Path) -> None:
+def test_accessors_cannot_name_one_buffer_without_end(tmp_path: Path) -> None:
     tree = shared(np.zeros((300_000, 3)), [FACES[0]] * 30, own=True)
-    if field == "bufferViews":
-        tree["bufferViews"] += [dict(tree["bufferViews"][0]) for _ in range(30)]
-        for number, accessor in enumerate(tree["accessors"][::2]):
-            accessor["bufferView"] = 2 + number
     for number, accessor in enumerate(tree["accessors"][::2]):
         accessor["count"] -= number  # no two are the same
-    with pytest.raises(LucidaError) as caught:
+    with pytest.raises(LucidaError, match=r"name 103 MiB of buffers of 3\.43 MiB; give each"):
         load_gltf(tree, tmp_path)
-    assert f"{field}: name 103 MiB of buffers of 3.43 MiB; give each" in str(caught.value)
     assert SHARED_BYTES < 103 << 20

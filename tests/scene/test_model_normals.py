@@ -64,18 +64,7 @@ def test_faces_without_area_and_repeated_faces_go() -> None:
     assert len(mesh.faces) == 1
     assert len(mesh.vertices) == 3
     assert build_mesh(Part("p", points, [[0, 1, 3]])) is None
-    assert build_mesh(Part("p", np.zeros((0, 3)), None)) is None
-
-
-def test_polygons_become_fans() -> None:
-    angles = np.arange(7) * 2 * np.pi / 7
-    points = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
-    mesh = build_mesh(Part("p", points, np.arange(7)[None]))
-    assert mesh is not None
-    area = (
-        np.linalg.norm(face_normals(mesh.vertices, mesh.faces.astype(np.int64)), axis=1).sum() / 2
-    )
-    assert area == pytest.approx(7 / 2 * math.sin(2 * math.pi / 7), rel=1e-6)
+    assert build_mesh(Part("p", np.zeros((0, 3)), np.zeros((0, 3), int))) is None
 
 
 def test_normals_of_the_file_are_kept_and_made_unit(tmp_path: Path) -> None:

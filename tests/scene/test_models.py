@@ -16,6 +16,7 @@ from renderer.scene import Mesh, SceneObject, framing, load_scene, shapes
 from renderer.scene.models import load_model
 from renderer.scene.normals import merge_positions
 from renderer.scene.parts import Part, build_mesh, linear_colors
+from renderer.scene.polygons import triangulated
 from renderer.scene.texts import tidy
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -320,8 +321,72 @@ def test_hostile_colours_are_usable_without_a_warning(value: float, linear: bool
     assert np.isfinite(rgb).all()
 
 
-def test_faces_that_are_not_whole_numbers_are_refused_without_a_warning() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        with pytest.raises(LucidaError, match="are not rows of whole numbers"):
-            build_mesh(Part("", np.eye(3), [[0.0, np.nan, 1e300]]))
+# Polygons.
+
+
+def area_of(mesh: Mesh) -> float:
+    a, b, c = mesh.vertices[mesh.faces].transpose(1, 0, 2)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+@pytest.mark.parametrize(
+    ("ending", "text", "area"),
+    [
+        (
+            "obj",
+            "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 2 2 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+            "f 1 2 3 4 5 6 7 8\n",
+            5,
+        ),
+        (
+            "obj",
+            "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv .5 .5 0\nv .5 1.5 0\nv 1.5 1.5 0\n"
+            "v 1.5 .5 0\nf 1 2 3 4 1 5 6 7 8 5\n",
+            3,
+        ),
+        ("off", "OFF\n4 1 0\n0 0 0\n1 1 0\n2 0 0\n1 2 0\n4 0 1 2 3\n", 1),
+        (
+            "ply",
+            PLY_HEADER.format(vertex="", face="")
+            .replace("vertex 3", "vertex 5")
+            .replace("face 1", "face 2")
+            + "0 0 0\n1 1 0\n2 0 0\n1 2 0\n3 2 0\n4 0 1 2 3\n3 2 4 3\n",
+            3,
+        ),
+    ],
+)
+def test_concave_polygons_and_holes_are_cut_right(
+    ending: str, text: str, area: float, tmp_path: Path
+) -> None:
+    assert area_of(load_one(write(tmp_path / f"t.{ending}", text))) == pytest.approx(area)
+
+
+def test_a_random_simple_polygon_is_cut_into_triangles_of_its_area() -> None:
+    dice = np.random.default_rng(5)
+    for _ in range(200):
+        angles = np.sort(dice.random(dice.integers(4, 30))) * 2 * np.pi
+        if np.diff(np.append(angles, angles[0] + 2 * np.pi)).max() > 3:
+            continue  # the origin is outside
+        x, y = dice.uniform(0.1, 1, len(angles)) * (np.cos(angles), np.sin(angles))
+        area = abs((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) / 2
+        turn = np.linalg.qr(dice.normal(size=(3, 3)))[0]
+        points = np.stack([x, y, 0 * x], axis=1)[:: dice.choice([-1, 1])] @ turn
+        count = len(points)
+        places, owner = triangulated(points, np.arange(count), np.array([count]))
+        assert len(places) == count - 2 and not owner.any()
+        a, b, c = points[places.T]
+        pieces = np.cross(b - a, c - a) / 2
+        assert np.linalg.norm(pieces.sum(axis=0)) == pytest.approx(area)  # none is turned over
+        assert np.linalg.norm(pieces, axis=1).sum() == pytest.approx(area)
+
+
+def test_binary_ply_of_triangles_and_quads(tmp_path: Path) -> None:
+    header = PLY_HEADER.format(vertex="", face=RGB).replace("ascii", "binary_little_endian")
+    header = header.replace("vertex 3", "vertex 5").replace("face 1", "face 2")
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0]], "<f4")
+    faces = [b"\4" + np.array([0, 1, 2, 3], "<i4").tobytes() + b"\xff\0\0"]
+    faces.append(b"\3" + np.array([1, 4, 2], "<i4").tobytes() + b"\0\xff\0")
+    data = header.encode() + points.tobytes() + b"".join(faces)
+    mesh = load_one(write(tmp_path / "t.ply", data))
+    assert area_of(mesh) == pytest.approx(1.5) and mesh.colors is not None
+    assert mesh.colors[mesh.faces][:, 0].tolist() == [[1, 0, 0], [1, 0, 0], [0, 1, 0]]

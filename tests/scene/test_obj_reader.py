@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from renderer.scene import numerals
+from renderer.scene import numerals, polygons
 from renderer.scene.images import ModelImages
 from renderer.scene.obj import read_obj
 from renderer.scene.parts import Part
@@ -116,8 +116,9 @@ def of_part(part: Part) -> Triangles:
 @pytest.mark.parametrize("negative", [False, True])
 @pytest.mark.parametrize("forms", [[form] for form in FORMS] + [list(FORMS)], ids="/".join)
 def test_random_files_are_read_as_a_plain_reader_does(
-    forms: list[str], negative: bool, tmp_path: Path
+    forms: list[str], negative: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(polygons, "TURNED", np.inf)  # all polygons are fans
     dice = random.Random(f"{forms} {negative}")
     for _ in range(25):
         text = random_text(dice, forms, negative)

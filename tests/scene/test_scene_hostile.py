@@ -111,7 +111,7 @@ def test_noise_is_no_text(ending: str, tmp_path: Path) -> None:
     [
         (TRIANGLE, "holds no triangle"),
         ("f 1 2 3\n", "line 1: 'f 1 2 3' uses vertex 1 of 0"),
-        (TRIANGLE + "f 1 2\n", "line 4: 'f 1 2', the last one, is not a whole face"),
+        (TRIANGLE + "f 1 2\n", "line 4: 'f 1 2' is not a whole face: the file is cut off"),
         (TRIANGLE + "f 1 1 2\n", "holds no triangle"),
         (TRIANGLE + "f 1 2 9\n", "line 4: 'f 1 2 9' uses vertex 9 of 3"),
         (TRIANGLE + "f 0 1 2\n", "line 4: 'f 0 1 2' uses vertex 0 of 3"),
@@ -144,15 +144,11 @@ def test_obj(text: str, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.obj", text)).startswith(message)
 
 
-@pytest.mark.parametrize(
-    "end", ["f", "f 2", "f 2/1", "f 1/1 2/1", "f 1/1 2/1 3", "f 1/1 2/1 3\n\n"]
-)
+@pytest.mark.parametrize("end", ["f 2", "f 2/1", "f 1/1 2/1", "f 1/1 2/1 3", "f 1/1 2/1 3\n\n"])
 def test_an_obj_that_ends_within_a_face_is_refused(end: str, tmp_path: Path) -> None:
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
-    last = end.strip()
-    assert refusal(write(tmp_path / "x.obj", text + end)) == (
-        f"line 6: {last!r}, the last one, is not a whole face; the file is cut off; export it again"
-    )
+    problem = f"{end.strip()!r} is not a whole face: the file is cut off; repair the line"
+    assert refusal(write(tmp_path / "x.obj", text + end)) == f"line 6: {problem}"
     assert load_scene(write(tmp_path / "x.obj", text + "f 1/1 2/1 3/1")).objects
 
 
@@ -176,41 +172,42 @@ def ply(vertices: int | str, faces: int | str, form: str = "ascii") -> str:
 
 POINTS = "0 0 0\n1 0 0\n0 1 0\n"
 BINARY = "binary_little_endian"
+UNLIKE = "does not hold what its PLY header declares"
 BINARY_POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
 
 
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (ply(3, 4_000_000_000) + POINTS, "declares 4000000003 lines of data and has 3"),
-        (ply(3_000_000_000, 1, BINARY) + "x" * 99, "declares 36000000001 bytes of data and has 99"),
-        (ply(3, 2) + POINTS + "3 0 1 2\n", "declares 5 lines of data and has 4"),
-        (ply(-3, 1) + POINTS, "declares a count that is not a whole number"),
-        (ply("1e9", 1) + POINTS, "declares a count that is not a whole number"),
-        (ply("9" * 5000, 1) + POINTS, "declares a count that is not a whole number"),
+        (ply(3, 4_000_000_000) + POINTS, UNLIKE),
+        (ply(3_000_000_000, 1, BINARY) + "x" * 99, UNLIKE),
+        (ply(3, 2) + POINTS + "3 0 1 2\n", UNLIKE),
+        (ply(-3, 1) + POINTS, UNLIKE),
+        (ply("1e9", 1) + POINTS, UNLIKE),
+        (ply("9" * 5000, 1) + POINTS, UNLIKE),
         (ply(3, 0) + POINTS, "holds no triangle"),
         (ply(3, 1) + POINTS + "3 0 1 7\n", "faces: use vertex 7 of 3"),
         (ply(3, 1) + POINTS + "3 0 1 -1\n", "faces: use vertex -1 of 3"),
-        (ply(3, 1) + POINTS + "-3 0 1 2\n", ""),
+        (ply(3, 1) + POINTS + "-3 0 1 2\n", UNLIKE),
         (ply(3, 1) + POINTS.replace("1", "nan") + "3 0 1 2\n", "vertices: 2 of 3 are NaN"),
-        (ply(3, 1) + POINTS.replace("1", "x") + "3 0 1 2\n", "cannot be read as PLY"),
-        (ply(3, 1).replace("float x", "foo x") + POINTS + "3 0 1 2\n", "cannot be read as PLY"),
-        (ply(3, 1).replace("float x", "float q") + POINTS + "3 0 1 2\n", "cannot be read as PLY"),
+        (ply(3, 1) + POINTS.replace("1", "x") + "3 0 1 2\n", UNLIKE),
+        (ply(3, 1).replace("float x", "foo x") + POINTS + "3 0 1 2\n", UNLIKE),
+        (ply(3, 1).replace("float x", "float q") + POINTS + "3 0 1 2\n", "holds no triangle"),
         (ply(3, 1).replace("end_header", ""), "has no PLY header"),
-        ("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "cannot be read as PLY"),
-        ("ply\nend_header\n", ""),
-        ("ply\nformat ascii 1.0\nelement vertex 1000000000000\nend_header\n1\n", "declares"),
+        ("ply\nformat ascii 1.0\nproperty float x\nend_header\n", UNLIKE),
+        ("ply\nend_header\n", "holds no triangle"),
+        ("ply\nformat ascii 1.0\nelement vertex 1000000000000\nend_header\n1\n", UNLIKE),
         (
             ply(3, 1, BINARY).replace("uchar int", "int int").encode()
             + BINARY_POINTS
             + struct.pack("<4i", -5, 0, 1, 2),
-            "cannot be read as PLY",
+            UNLIKE,
         ),
         (
             ply(3, 1, BINARY).replace("uchar int", "uint int").encode()
             + BINARY_POINTS
             + struct.pack("<I3i", 4_000_000_000, 0, 1, 2),
-            "cannot be read as PLY",
+            UNLIKE,
         ),
     ],
     ids=range(20),
@@ -243,11 +240,14 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
         (stl(1, 1)[:60], "is too short to be STL"),
         (b"solid" + stl(4_000_000_000, 1)[5:], "has no 'endsolid'"),
         (f"solid x\n{FACET}", "has no 'endsolid'"),
-        (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex 1 0')}endsolid\n", "cannot be read"),
-        (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex a b c')}endsolid\n", "cannot be read"),
+        (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex 1 0')}endsolid\n", "has a vertex"),
+        (
+            f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex a b c')}endsolid\n",
+            "has a vertex that",
+        ),
         ("solid\nendsolid\n" * 5000, "holds no triangle"),
         ("solid\nendsolid\n" * 10_001, "has 10001 solids; stay within 10000"),
-        ("endsolid solid\n", ""),
+        ("solid endsolid solid\n", "holds no triangle"),
     ],
     ids=range(14),
 )
@@ -261,15 +261,15 @@ def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("OFF\n-3 -1 0\n0 0 0\n", "declares a count that is not a whole number"),
-        ("OFF\n3.5 1 0\n", "declares a count that is not a whole number"),
-        ("OFF\n" + "9" * 5000 + " 1 0\n", "declares a count that is not a whole number"),
-        ("OFF\n3000000000 1000000000 0\n0 0 0\n", "declares 4000000000 lines of data and has 1"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", "declares 4 lines of data and has 3"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n", "cannot be read as OFF"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "cannot be read as OFF"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "holds no triangle"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n", "cannot be read as OFF"),
+        ("OFF\n-3 -1 0\n0 0 0\n", "does not hold what its OFF header"),
+        ("OFF\n" + "9" * 5000 + " 1 0\n", "does not hold what its OFF header"),
+        ("OFF\n3000000000 1000000000 0\n0 0 0\n", "does not hold what its OFF header"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", "does not hold what its OFF header"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n", "faces: use vertex 9 of 3"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "faces: use vertex -1 of 3"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "does not hold what its OFF header"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n", "does not hold what its OFF header"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n", "does not hold what its OFF header"),
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 inf 0\n3 0 1 2\n", "vertices: 1 of 3 are NaN or too large"),
         ("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "does not begin with OFF"),
         ("OFF BINARY\n", "is of the kind OFF"),

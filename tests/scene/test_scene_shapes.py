@@ -82,7 +82,7 @@ def test_placement_scales_then_rotates_about_x_y_z_then_translates() -> None:
 
 def test_moving_a_mesh_moves_it_in_world_space() -> None:
     mesh = shapes.translate(shapes.box(), (1, 0, 0))
-    mesh = shapes.rotate(mesh, (0, 90, 0))
+    mesh = shapes.transformed(mesh, shapes.placement(rotate_deg=(0, 90, 0)))
     mesh = shapes.scale(mesh, 2)
     np.testing.assert_array_equal(mesh.transform[:3, 3], [0, 0, -2])
     np.testing.assert_array_equal(mesh.transform[:3, :3], [[0, 0, 2], [0, 2, 0], [-2, 0, 0]])

@@ -70,7 +70,6 @@ CHANGES = {
     "delete": lambda s: objects.delete(s, [item(s, "first")]),
     "add": lambda s: objects.add(s, objects.new_table(s, "cone"))[0],
     "duplicate": lambda s: objects.duplicate(s, [item(s, "ring")], (0, 1, 0))[0],
-    "reorder": lambda s: objects.reorder(s, [item(s, "ball")], item(s, "first")),
     "shape": lambda s: changing.set_field(s, [item(s, "first")], "size", 0.3),
 }
 SAME_LAYOUT = ("move", "turn", "move a sphere", "material", "light", "rename")

@@ -12,7 +12,7 @@ from renderer.errors import LucidaError
 from renderer.scene import flatten, load_scene
 from renderer.scene.model import Scene
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, clipping, materials, moving, objects
+from renderer.scene_editing import changing, materials, moving, objects
 from renderer.scene_editing.outline import outline
 
 
@@ -47,8 +47,7 @@ def test_a_model_of_several_parts_is_one_item(tmp_path):
     (tmp_path / "two.obj").write_text("mtllib two.mtl\n" + obj)
     scene = load_scene(tmp_path / "two.obj")
     row = outline(scene)[0]
-    assert [part.name for part in row.parts] == [entry.name for entry in scene.objects]
-    assert len(row.parts) == 2 and row.ids == range(2)
+    assert row.ids == range(2)
     assert changing.item_of(scene, 1) == row.item
     hidden = objects.hide(scene, [row.item])
     assert [entry.hidden for entry in hidden.objects] == [True, True]
@@ -104,13 +103,6 @@ def test_a_new_light_shines_from_its_place_to_the_origin_or_else_down(scene):
     assert objects.new_table(scene, "directional")["direction"] == [0.5, -0.8, -0.6]
 
 
-def test_items_are_locked_and_unlocked(scene):
-    ball = item(scene, "ball")
-    locked = objects.lock(scene, [ball])
-    assert [row.shown for row in outline(locked) if row.locked] == ["ball"]
-    assert table(objects.lock(locked, [ball], False), "ball") == table(scene, "ball")
-
-
 def test_a_model_is_added_and_its_file_is_watched(scene, tmp_path):
     (tmp_path / "more").mkdir()
     file = tmp_path / "more" / "roof.obj"
@@ -120,22 +112,6 @@ def test_a_model_is_added_and_its_file_is_watched(scene, tmp_path):
     assert file in found.origin.files
     with pytest.raises(LucidaError, match=r"objects\[4\].*nothing\.obj.*does not exist"):
         objects.add(scene, objects.model_table(scene, "nothing.obj"))
-
-
-def test_reordering_changes_ids_and_nothing_else(scene):
-    floor, box = item(scene, "rectangle 0"), item(scene, "box")
-    moved = objects.reorder(scene, [floor], None)
-    assert [row.item for row in outline(moved)][:4] == [
-        *[r.item for r in outline(scene)][1:4],
-        floor,
-    ]
-    assert moved.objects == (*scene.objects[1:], scene.objects[0])
-    back = objects.reorder(moved, [floor], item(moved, "ball"))
-    assert back.objects == scene.objects
-    both = objects.reorder(scene, [box, floor], box)
-    assert both.objects == tuple(scene.objects[k] for k in (1, 0, 2, 3))
-    with pytest.raises(LucidaError, match="lists of their own"):
-        objects.reorder(scene, [floor], item(scene, "point light 1"))
 
 
 def test_a_selection_survives_what_happens_to_others(scene):
@@ -189,96 +165,21 @@ def test_of_what_is_hidden_nothing_is_left_in_bounds_or_reasons(scene):
 # Materials.
 
 
-def test_a_shared_material_changes_for_all_or_for_one(scene):
+def test_an_object_that_shares_a_material_gets_its_own_once_it_is_changed(scene):
     ball, box = item(scene, "ball"), item(scene, "box")
-    scene = materials.use_material(scene, [box], "red")
-    assert materials.material_of(scene, ball).users == (ball, box)
-    everyone = materials.set_material(scene, [ball], "diffuse", [0, 1, 0], for_all=True)
-    assert {everyone.objects[k].material.diffuse for k in (1, 2)} == {(0, 1, 0)}
-    one = materials.set_material(scene, [ball], "diffuse", [0, 1, 0], for_all=False)
+    scene = changing.set_field(scene, [box], "material", "red")
+    one = materials.set_material(scene, [ball], "diffuse", [0, 1, 0])
     assert one.objects[1].material.diffuse == (0, 1, 0) and one.objects[2] is scene.objects[2]
     assert one.objects[1].material.specular == scene.objects[1].material.specular
-    assert materials.material_of(one, ball).name == ""
-    named = materials.share_material(one, ball, "green")
-    assert materials.material_names(named) == ("red", "floor", "green")
-    assert named.objects[1].material == one.objects[1].material
+    assert "material" in table(one, "ball") and table(one, "box")["material"] == "red"
 
 
 def test_of_a_model_the_material_of_its_file_is_begun_with(scene):
-    tent = item(scene, "tent")
-    use = materials.material_of(scene, tent)
-    assert use.is_models and use.name == ""
-    shiny = materials.set_material(scene, [tent], "shininess", 100.0, for_all=False)
-    assert shiny.objects[3].material.diffuse == use.material.diffuse
-    back = materials.use_material(shiny, [tent], None)
-    assert back.objects[3].material == use.material
-
-
-def test_shared_materials_are_renamed_and_deleted_with_care(scene):
-    renamed = materials.rename_material(scene, "red", "crimson")
-    assert table(renamed, "ball")["material"] == "crimson"
-    assert renamed.objects[1].material == scene.objects[1].material
-    with pytest.raises(LucidaError, match=r"materials\.red: is used by 1 object"):
-        materials.delete_material(scene, "red")
-    with pytest.raises(LucidaError, match="'floor' is taken"):
-        materials.rename_material(scene, "red", "floor")
-    with pytest.raises(LucidaError, match="has no name"):
-        materials.add_material(scene, "", {})
-    free = materials.use_material(scene, [item(scene, "ball")], None)
-    assert materials.material_names(materials.delete_material(free, "red")) == ("floor",)
-    tiled = materials.set_shared_material(scene, "floor", "checker.size", 2.0)
-    assert tiled.objects[0].material.checker.size == 2.0
-
-
-# As text.
-
-
-def test_what_is_copied_is_pasted_into_another_window(scene, tmp_path):
-    items = [item(scene, name) for name in ("ball", "tent", "point light 1")]
-    text = clipping.copy_text(scene, items)
-    assert "[materials.red]" in text and str(tmp_path / "tent.obj") in text
-    other = load_scene("still-life")
-    found, pasted = clipping.paste_text(other, text)
-    assert len(found.objects) == len(other.objects) + 2 and len(found.lights) == 3
-    assert found.objects[-2].material == scene.objects[1].material
-    assert found.objects[: len(other.objects)] == other.objects
-    assert changing.present(found, pasted) == pasted and len(pasted) == 3
-
-
-def test_a_pasted_material_of_the_same_name_gets_another_one_unless_it_is_the_same(scene):
-    text = clipping.copy_text(scene, [item(scene, "ball")])
-    again, _ = clipping.paste_text(scene, text)
-    assert materials.material_names(again) == ("red", "floor")
-    assert names(again)[4] == "ball 2"
-    changed = materials.set_shared_material(scene, "red", "diffuse", [0, 0, 1])
-    both, (key,) = clipping.paste_text(changed, text)
-    assert materials.material_names(both) == ("red", "floor", "red 2")
-    assert changing.table_of(both, key)["material"] == "red 2"
-
-
-@pytest.mark.parametrize(
-    ("text", "problem"),
-    [
-        ("hello", "line 1"),
-        ("", "no objects and no lights"),
-        ("[camera]\neye = [0, 0, 1]", "camera: cannot be pasted"),
-        ("objects = 3", "objects: is not a list"),
-        ("objects = [3]", "objects: is not a list"),
-        ("materials = 3\n[[objects]]\ntype = 'box'", "materials: is not a table"),
-        ("[[objects]]\ntype = 'point'", r"objects\[0\]\.type: 'point'"),
-        ("[[lights]]\ntype = 'box'", r"lights\[0\]\.type: 'box'"),
-        ("[[objects]]\ntype = ['box']", r"objects\[4\]"),
-        ("[[objects]]\ntype = 'box'\nname = ['a']", r"objects\[4\]\.name"),
-        ("[[objects]]\ntype = 'box'\nmaterial = ['a']", r"objects\[4\]\.material"),
-        ("[[objects]]\ntype = 'box'\nmaterial = 'gold'", "'gold' is unknown"),
-        ("[[objects]]\ntype = 'model'\nfile = 'no.obj'", "does not exist"),
-        ("[[objects]]\ntype = 'box'\n[materials]\na = 3", "materials.a"),
-    ],
-)
-def test_a_text_that_is_no_object_is_refused_in_one_line(scene, text, problem):
-    with pytest.raises(LucidaError, match=problem) as caught:
-        clipping.paste_text(scene, text)
-    assert "\n" not in str(caught.value)
+    tent, own = item(scene, "tent"), scene.objects[3].material
+    shiny = materials.set_material(scene, [tent], "shininess", 100.0)
+    assert shiny.objects[3].material.diffuse == own.diffuse
+    back = changing.set_field(shiny, [tent], "material", None)
+    assert back.objects[3].material == own
 
 
 def test_lights_are_the_default_ones_until_one_is_changed():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from random_edits import item, table
+from random_edits import item, stretched, table
 
 from renderer.errors import LucidaError
 from renderer.scene.shapes import placement
@@ -65,9 +65,7 @@ def test_what_a_move_leaves_alone_stays_as_it_is_written(scene):
         moving.transform(scene, [box], placement((0, 0, 0), (0, 15, 0))), box
     )
     assert turned["rotate_deg"] == [0, 45, 0] and "scale" not in turned
-    mirrored = moving.place_at(
-        scene, box, moving.matrix_of(scene, box) @ placement(scale=(-1, 1, 1))
-    )
+    mirrored = stretched(scene, box, placement(scale=(-1, 1, 1)))
     assert table(mirrored, "box")["scale"] == [-1.0, 1.0, 1.0]
     assert table(mirrored, "box")["rotate_deg"] == [0, 30, 0]
     same = moving.transform(scene, [box, item(scene, "ball")], np.eye(4))

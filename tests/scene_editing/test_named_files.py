@@ -1,4 +1,4 @@
-"""The files that a scene names: found, and named shortly, wherever it is read, pasted and saved."""
+"""The files that a scene names: found, and named shortly, wherever it is read and saved."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from textured import noise, saved
 
 from renderer.errors import LucidaError
 from renderer.scene import load_scene, save_scene
-from renderer.scene_editing import changing, clipping, materials
+from renderer.scene_editing import changing
 from renderer.scene_editing.documents import ChangedOnDiskError, file_of, save
 from renderer.scene_editing.outline import outline
 
@@ -46,19 +46,6 @@ def folder(tmp_path):
 
 def items(scene):
     return [row.item for row in outline(scene) if not row.is_light]
-
-
-def test_what_is_copied_and_pasted_in_one_scene_names_its_files_as_before(folder):
-    scene = load_scene(folder / "scene.toml")
-    text = clipping.copy_text(scene, items(scene))
-    assert text.startswith("[materials.tiles]") and "lights" not in text
-    found, _ = clipping.paste_text(scene, text)
-    assert materials.material_names(found) == ("tiles",)
-    save(found)  # textures of absolute paths could not be
-    tables = tomllib.loads((folder / "scene.toml").read_text())
-    assert tables["objects"][3]["material"] == {"texture": "tiles.png"}
-    assert tables["objects"][5]["file"] == "tent.obj"
-    assert len(load_scene(folder / "scene.toml").objects) == 6
 
 
 def test_an_image_of_an_absolute_path_is_refused_although_the_scene_has_it(folder):

@@ -1,25 +1,21 @@
-"""Scenes written for other programs: what each file holds, and what it says it does not."""
+"""Exported scenes: what a .glb file holds, and what it does not."""
 
 from __future__ import annotations
 
 import json
-import re
 import sys
-from dataclasses import replace
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from scenes import crowd, placed
+from scenes import crowd
 
 from renderer.camera import Camera
 from renderer.camera_formats import read_cameras
 from renderer.errors import LucidaError
 from renderer.scene import BUILTIN_SCENES, Scene, load_scene, shapes
 from renderer.scene.cancelling import cancelled_by
-from renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject, Sphere
-from renderer.scene.readers import read_ply
+from renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject
 from renderer.scene.subprocess_reader import CancelledError
 from renderer.scene_export import export_scene
 from renderer.scene_export.checkers import with_checker_uv
@@ -42,9 +38,6 @@ def scene_of(*shapes_: object, **material: object) -> Scene:
 
 def files_in(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
-
-
-# glTF, which is read back.
 
 
 @pytest.mark.parametrize("name", BUILTIN_SCENES)
@@ -126,52 +119,6 @@ def test_trimesh_finds_a_glb_s_parts(tmp_path: Path):
     assert found.has_camera
 
 
-# Mitsuba and pbrt.
-
-
-def test_mitsuba_s_file_names_each_mesh_once(tmp_path: Path):
-    box = shapes.box()
-    scene = scene_of(placed(box, 0, 0, 0), placed(box, 2, 0, 0), Sphere())
-    exported(scene, tmp_path / "two.xml")
-    assert files_in(tmp_path) == {"two.xml", "two_meshes/0-o0.ply"}
-    root = ElementTree.parse(tmp_path / "two.xml").getroot()
-    kinds = [shape.get("type") for shape in root.findall("shape")]
-    assert kinds == ["ply", "ply", "sphere"]
-    (part,) = read_ply(tmp_path / "two_meshes/0-o0.ply")
-    np.testing.assert_array_equal(np.asarray(part.vertices, np.float32), box.vertices)
-
-
-def test_names_break_no_comment_and_no_quotation(tmp_path: Path):
-    odd = SceneObject(shapes.box(), Material(checker=Checker()), '--"<&> -- \\ name-')
-    for ending in ("xml", "pbrt"):
-        exported(Scene((odd,), name="-->"), tmp_path / f'a"b & c.{ending}')
-    ElementTree.parse(tmp_path / 'a"b & c.xml')
-    text = (tmp_path / 'a"b & c.pbrt').read_text()
-    for line in text.splitlines():
-        assert line.lstrip().startswith("#") or line.count('"') % 2 == 0
-    (named,) = re.findall(r'"string filename" \[ "(.*ply)" \]', text)
-    assert (tmp_path / named).is_file()
-
-
-def test_the_list_stands_in_the_files(tmp_path: Path):
-    for ending in ("xml", "pbrt"):
-        told = exported(crowd(), tmp_path / f"a.{ending}")
-        text = (tmp_path / f"a.{ending}").read_text()
-        assert told and all(line in text for line in told)
-
-
-def test_checkers_of_solids_are_pbrt_s_own_and_mitsuba_s_where_faces_are_flat(tmp_path: Path):
-    scene = scene_of(shapes.rectangle(4, 4), Sphere(), checker=Checker())
-    told = exported(scene, tmp_path / "a.xml")
-    assert [line for line in told if line.startswith("checker")] == [
-        next(line for line in told if line.startswith("checker of 'o1': mitsuba"))
-    ]
-    assert "checkerboard" in (tmp_path / "a.xml").read_text()
-    told = exported(scene, tmp_path / "a.pbrt")
-    assert not [line for line in told if line.startswith("checker")]
-    assert (tmp_path / "a.pbrt").read_text().count('"integer dimension" [ 3 ]') == 2
-
-
 def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
     box = shapes.box((3, 2, 1))
     for size in (0.37, 1.0):
@@ -193,10 +140,8 @@ def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
 def test_a_name_that_is_no_text(tmp_path: Path):
-    for ending in ("xml", "pbrt", "glb"):
-        exported(scene_of(shapes.box()), tmp_path / f"\udcff\n.{ending}")
-    named = ElementTree.parse(tmp_path / "\udcff\n.xml").find("shape/string")
-    assert named is not None and (tmp_path / (named.get("value") or "")).is_file()
+    exported(scene_of(shapes.box()), tmp_path / "\udcff\n.glb")
+    assert (tmp_path / "\udcff\n.glb").is_file()
 
 
 # Meshes.
@@ -226,37 +171,22 @@ def test_the_sphere_of_triangles_is_closed_and_faces_outward():
 # What cannot be written.
 
 
-@pytest.mark.parametrize(
-    ("ending", "change", "field"),
-    [
-        ("glb", {"viewport": (-0.5, 0.7, -0.5, 0.5)}, "viewport"),
-        ("xml", {"viewport": (-0.5, 0.5, -0.5, 0.5)}, "viewport"),
-        ("pbrt", {"near": 0.1}, "near"),
-    ],
-)
-def test_a_camera_that_does_not_fit_leaves_nothing(ending, change, field, tmp_path: Path):
-    scene = load_scene("still-life")
+def test_a_camera_that_does_not_fit_leaves_nothing(tmp_path: Path):
+    off_axis = Camera(viewport=(-0.5, 0.7, -0.5, 0.5))
     with pytest.raises(LucidaError) as caught:
-        exported(scene, tmp_path / f"a.{ending}", replace(Camera.canonical(), **change))
-    assert caught.value.field == field and caught.value.remedy
+        exported(load_scene("still-life"), tmp_path / "a.glb", off_axis)
+    assert caught.value.field == "viewport" and caught.value.remedy
     assert not list(tmp_path.iterdir())
 
 
 def test_other_endings_are_told(tmp_path: Path):
-    for name, told in (("a.obj", r"ends in '\.obj'; give one of \.xml"), ("a", "has no ending")):
+    for name, told in (("a.obj", r"ends in '\.obj'; give \.glb"), ("a", "has no ending")):
         with pytest.raises(LucidaError, match=told):
             exported(Scene(()), tmp_path / name)
 
 
-def test_a_file_in_the_meshes_way_is_told(tmp_path: Path):
-    (tmp_path / "a_meshes").write_text("mine")
-    with pytest.raises(LucidaError, match="cannot be made: file exists"):
-        exported(scene_of(shapes.box()), tmp_path / "a.xml")
-    assert files_in(tmp_path) == {"a_meshes"}
-
-
 class GivenUp:
-    """Asks of an export, as who no longer waits at one of them. asked: how many there were."""
+    """Counts an export's checks, and cancels it at one of them."""
 
     def __init__(self, at: int) -> None:
         self.at, self.asked = at, 0
@@ -267,12 +197,11 @@ class GivenUp:
             raise CancelledError
 
 
-@pytest.mark.parametrize("ending", ["xml", "pbrt", "glb"])
-def test_an_export_that_nobody_waits_for_leaves_nothing(tmp_path: Path, ending: str):
-    scene, path = load_scene("still-life"), tmp_path / f"a.{ending}"
+def test_a_cancelled_export_leaves_nothing(tmp_path: Path):
+    scene, path = load_scene("still-life"), tmp_path / "a.glb"
     whole = GivenUp(at=0)
     with cancelled_by(whole.check):
-        exported(scene, tmp_path / f"whole.{ending}")
+        exported(scene, tmp_path / "whole.glb")
     assert whole.asked > len(scene.objects)  # each of them, and what is written
     before = files_in(tmp_path)
     for at in range(1, whole.asked + 1):

@@ -31,7 +31,7 @@ TWO_BOXES = Scene(
     (PointLight((2, 3, 1)),),
     background=(0.25, 0.5, 0.75),
 )
-SCENES = {Order.RASTER: TWO_BOXES, Order.OBJECT: TWO_BALLS, Order.IMAGE: TWO_BALLS}
+SCENES = {Order.RASTER: TWO_BOXES, Order.IMAGE: TWO_BALLS}
 
 
 def recorded(scene: Scene, order: Order, camera: Camera | None = None, size=SIZE) -> Recording:

@@ -58,7 +58,7 @@ def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> Non
 
 def test_a_failing_run_says_why(monkeypatch) -> None:
     monkeypatch.setattr(loops, "intersect", lambda *_: 1 / 0)
-    run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.OBJECT)
+    run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.IMAGE)
     with pytest.raises(ZeroDivisionError):
         run.run()
     assert moment_at(run, len(run)).line == run.source.test

@@ -12,8 +12,8 @@ from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, last, rec
 
 from app.stepper import loops
 from app.stepper import model as stepper
-from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay, bounding_box
-from app.stepper.loops import image_order, object_order, rasterization
+from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay
+from app.stepper.loops import image_order, rasterization
 from app.stepper.model import moment_at
 from app.stepper.raster_parts import Corner, triangles
 from app.stepper.recording import Order, Recording
@@ -37,10 +37,9 @@ def test_all_loops_end_in_the_renderers_image(name: str, rasterizer) -> None:
     hits = 0
     with Tracer(scene) as tracer, Tracer(scene, method="reference") as reference:
         for number, camera in enumerate((own, *others, *mirrored)):
-            by_triangles, by_object, by_image = (
-                run(model, camera, SIZE).array for run in (rasterization, object_order, image_order)
+            by_triangles, by_image = (
+                run(model, camera, SIZE).array for run in (rasterization, image_order)
             )
-            assert np.array_equal(by_object, by_image)
             exact = reference.render(camera, SIZE, channels=CHANNELS)
             np.testing.assert_allclose(by_image, exact.color, rtol=1e-6, atol=1e-7)
             if camera not in (own, mirrored[0]):
@@ -96,21 +95,6 @@ def test_lines_are_run_in_the_loops_order(order: Order) -> None:
 # Steps.
 
 
-def test_object_order_tests_the_boxes_and_overwrites_what_was_in_front() -> None:
-    """The far ball comes first: the near one is drawn over it."""
-    run = recorded(TWO_BALLS, Order.OBJECT)
-    boxes = [bounding_box(one, run.camera, SIZE) for one in run.model.objects]
-    counters = last(run).counters
-    assert counters.tests == sum(len(rows) * len(columns) for rows, columns in boxes)
-    with Tracer(TWO_BALLS) as tracer:
-        seen = tracer.render(Camera.canonical(), SIZE).id
-    assert counters.writes - counters.overwrites == (seen >= 0).sum()
-    assert counters.overwrites == (seen == 1).sum() > 0
-    # The other way round, nothing is drawn twice.
-    other = recorded(Scene(TWO_BALLS.objects[::-1], TWO_BALLS.lights), Order.OBJECT)
-    assert last(other).counters.overwrites == 0
-
-
 @pytest.mark.parametrize("order", Order)
 def test_of_two_things_in_one_place_the_first_is_seen(order: Order) -> None:
     for place in (TWO_BALLS.objects[0].shape, TWO_BOXES.objects[0].shape):
@@ -162,7 +146,7 @@ def test_every_moment_follows_from_the_one_before(order: Order) -> None:
 
 def test_what_is_not_yet_set_shows() -> None:
     """Image order has no background until the ray has been found to hit nothing."""
-    by_image, by_object = (recorded(TWO_BALLS, order) for order in (Order.IMAGE, Order.OBJECT))
+    by_image, by_object = (recorded(SCENES[order], order) for order in (Order.IMAGE, Order.RASTER))
     halfway = moment_at(by_image, len(by_image) // 2)
     unset = np.isnan(halfway.canvas).all(axis=2).ravel()
     assert np.array_equal(unset, np.arange(300) >= halfway.counters.writes)
@@ -173,11 +157,10 @@ def test_what_is_not_yet_set_shows() -> None:
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-@pytest.mark.parametrize("order", [Order.OBJECT, Order.IMAGE])
-def test_variables_are_the_lectures(order: Order, projection: str) -> None:
+def test_variables_are_the_lectures(projection: str) -> None:
     """u = (j - 0.5) / W - 0.5, v = -((i - 0.5) / H - 0.5) with 1-based i, j; the ray from them."""
     camera = Camera(projection=projection)
-    run = recorded(TWO_BALLS, order, camera)
+    run = recorded(TWO_BALLS, Order.IMAGE, camera)
     checked = 0
     for step in range(0, len(run), 7):
         now = moment_at(run, step)
@@ -230,7 +213,7 @@ def test_values_of_the_turn_before_are_stale_until_they_are_set(order: Order) ->
                 assert one.stale == (one.name not in seen) or one.name == "hit", (step, one)
 
 
-def test_the_tests_of_a_pixel_and_of_an_object() -> None:
+def test_the_tests_of_a_pixel() -> None:
     by_image = recorded(TWO_BALLS, Order.IMAGE)
     middle = stepper.step_of_pixel(by_image, (7, 10), 0)
     assert middle is not None
@@ -240,20 +223,6 @@ def test_the_tests_of_a_pixel_and_of_an_object() -> None:
     assert [(test.pixel, test.object) for test in moment.tests] == [((7, 10), 0), ((7, 10), 1)]
     far, near = moment.tests
     assert near.t < far.t < math.inf
-    by_object = recorded(TWO_BALLS, Order.OBJECT)
-    second = int(by_object.object_steps[1])
-    moment = moment_at(by_object, len(by_object) - 4)
-    assert moment.object == 1
-    rows, columns = bounding_box(by_object.model.objects[1], by_object.camera, SIZE)
-    assert moment.box == (rows, columns)
-    assert moment_at(by_object, second).box is None
-    assert moment_at(by_object, 1).tests == moment_at(by_image, 1).tests == ()
-    assert [test.pixel for test in moment.tests] == [(i, j) for i in rows for j in columns]
-    with Tracer(TWO_BALLS) as tracer:
-        seen = tracer.render(Camera.canonical(), SIZE).id
-    assert {test.pixel for test in moment.tests if test.t < math.inf} == set(
-        zip(*np.nonzero(seen == 1), strict=True)
-    )
 
 
 # Ways to go on.
@@ -272,27 +241,20 @@ def test_going_to_the_next_pixel_and_object() -> None:
         step = stepper.next_object(run, step)
         objects.append((moment_at(run, step).pixel, moment_at(run, step).object))
     assert objects == [((0, 0), 0), ((0, 0), 1), ((0, 1), 0), ((0, 1), 1)]
-    run = recorded(TWO_BALLS, Order.OBJECT, size=(4, 3))
-    step = stepper.next_object(run, stepper.next_object(run, 0))
-    assert moment_at(run, step).object == 1
-    assert stepper.next_object(run, step) == len(run) - 1
-    assert stepper.step_of_pixel(run, (0, 0), 0) is None or moment_at(
-        run, stepper.step_of_pixel(run, (0, 0), 0)
-    ).pixel == (0, 0)
 
 
 def test_a_pixel_s_next_turn_is_after_the_step_or_else_its_first() -> None:
-    """In object order a pixel has one in each object's box."""
-    run = recorded(TWO_BALLS, Order.OBJECT)
-    first = stepper.step_of_pixel(run, (7, 10), 0)
-    assert first is not None and moment_at(run, first).object == 0
-    second = stepper.step_of_pixel(run, (7, 10), first)
-    assert second is not None and moment_at(run, second).object == 1
-    assert moment_at(run, first).pixel == moment_at(run, second).pixel == (7, 10)
-    assert stepper.step_of_pixel(run, (7, 10), first - 1) == first
-    assert stepper.step_of_pixel(run, (7, 10), second) == first
+    """In object order a pixel has one in each triangle's box."""
+    run = recorded(TWO_BOXES, Order.RASTER)
+    turns = [stepper.step_of_pixel(run, (7, 10), 0)]
+    while (step := stepper.step_of_pixel(run, (7, 10), turns[-1])) != turns[0]:
+        assert step > turns[-1]
+        turns.append(step)
+    assert {moment_at(run, step).object for step in turns} == {0, 1}
+    assert all(moment_at(run, step).pixel == (7, 10) for step in turns)
+    assert stepper.step_of_pixel(run, (7, 10), turns[0] - 1) == turns[0]
     assert stepper.step_of_pixel(run, (0, 0), 0) is None  # in no box
-    begun = Recording(run.model, run.camera, SIZE, Order.OBJECT)
+    begun = Recording(run.model, run.camera, SIZE, Order.RASTER)
     assert stepper.step_of_pixel(begun, (7, 10), 0) is None
 
 

@@ -24,7 +24,7 @@ def edited(tmp_path):
     rows = outline(scene)
     scene = changing.set_field(scene, [rows[1].item], "radius", 0.9)
     scene, _ = objects.add(scene, objects.new_table(scene, "cone"))
-    return objects.reorder(objects.delete(scene, [rows[4].item]), [rows[3].item], rows[0].item)
+    return objects.delete(scene, [rows[4].item])
 
 
 def restored(scene):

@@ -58,7 +58,7 @@ def install(monkeypatch: Any) -> None:
     """Both formats, beside the real ones, until the test ends."""
     herd, den = ModuleType("herd"), ModuleType("den")
     herd.recognises, herd.read, herd.write = recognises, read, write  # type: ignore[attr-defined]
-    den.write = write_den  # type: ignore[attr-defined]
+    den.recognises, den.write = lambda given: False, write_den  # type: ignore[attr-defined]
     for module in (herd, den):
         monkeypatch.setitem(sys.modules, f"renderer.camera_formats.{module.__name__}", module)
     own = (Format("herd", "cameras in a herd", (".herd",)), Format("den", "a den", ("",)))

@@ -10,7 +10,7 @@ import numpy as np
 from renderer.errors import LucidaError
 from renderer.scene import Scene, flatten
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, clipping, materials, moving, objects
+from renderer.scene_editing import changing, materials, moving, objects
 from renderer.scene_editing.outline import Item, outline
 
 Random = np.random.Generator
@@ -177,11 +177,16 @@ def _transform(rng: Random, scene: Scene) -> Scene:
     return moving.transform(scene, _items(rng, scene), matrix)
 
 
+def stretched(scene: Scene, item: Item, matrix: Any) -> Scene:
+    """The scene with an item transformed along its own axes, as handles do it."""
+    now = moving.matrix_of(scene, item)
+    return moving.transform(scene, [item], now @ matrix @ np.linalg.inv(now))
+
+
 def _stretch(rng: Random, scene: Scene) -> Scene:
-    """Along the item's own axes, as handles do it."""
     item = _items(rng, scene)[0]
     own = placement(scale=tuple(rng.choice([0.6, 1.0, 1.5, -1.0], 3)))
-    return moving.place_at(scene, item, moving.matrix_of(scene, item) @ own)
+    return stretched(scene, item, own)
 
 
 def _add(rng: Random, scene: Scene) -> Scene:
@@ -194,12 +199,6 @@ def _add(rng: Random, scene: Scene) -> Scene:
     return objects.add(scene, table)[0]
 
 
-def _reorder(rng: Random, scene: Scene) -> Scene:
-    rows = outline(scene)
-    before = rows[int(rng.integers(len(rows)))].item if rng.random() < 0.8 else None
-    return objects.reorder(scene, _items(rng, scene)[:1], before)
-
-
 def _set_material(rng: Random, scene: Scene) -> Scene:
     field, value = (
         ("diffuse", _color(rng)),
@@ -210,36 +209,12 @@ def _set_material(rng: Random, scene: Scene) -> Scene:
         ("checker", None),
     )[rng.integers(6)]
     items = _items(rng, scene, lights=False)
-    return materials.set_material(scene, items, field, value, bool(rng.random() < 0.5))
-
-
-def _use_material(rng: Random, scene: Scene) -> Scene:
-    names = [*materials.material_names(scene), None]
-    return materials.use_material(scene, _items(rng, scene, False), names[rng.integers(len(names))])
-
-
-def _name_material(rng: Random, scene: Scene) -> Scene:
-    names = materials.material_names(scene)
-    new = f"material {rng.integers(1000)}"
-    if rng.random() < 0.4 or not names:
-        return materials.add_material(scene, new, {"diffuse": _color(rng)})
-    if rng.random() < 0.4:
-        return materials.delete_material(scene, str(rng.choice(names)))
-    return materials.rename_material(scene, str(rng.choice(names)), new)
-
-
-def _share_material(rng: Random, scene: Scene) -> Scene:
-    item = _items(rng, scene, False)[0]
-    return materials.share_material(scene, item, f"own {rng.integers(1000)}")
+    return materials.set_material(scene, items, field, value)
 
 
 def _set_scene(rng: Random, scene: Scene) -> Scene:
     field = str(rng.choice(["ambient", "background"]))
     return changing.set_scene_field(scene, field, _color(rng) if rng.random() < 0.8 else None)
-
-
-def _paste(rng: Random, scene: Scene) -> Scene:
-    return clipping.paste_text(scene, clipping.copy_text(scene, _items(rng, scene)))[0]
 
 
 EDITS: dict[str, Callable[[Random, Scene], Scene]] = {
@@ -250,17 +225,11 @@ EDITS: dict[str, Callable[[Random, Scene], Scene]] = {
     "add": _add,
     "delete": lambda rng, scene: objects.delete(scene, _items(rng, scene)),
     "duplicate": lambda rng, s: objects.duplicate(s, _items(rng, s), rng.normal(size=3))[0],
-    "reorder": _reorder,
     "rename": lambda rng, s: objects.rename(s, _items(rng, s)[0], f"n {rng.integers(99)}"),
     "hide": lambda rng, s: objects.hide(s, _items(rng, s), bool(rng.random() < 0.6)),
-    "lock": lambda rng, s: objects.lock(s, _items(rng, s), bool(rng.random() < 0.5)),
     "material": _set_material,
-    "use material": _use_material,
-    "name material": _name_material,
-    "share material": _share_material,
     "light": lambda rng, s: changing.set_field(s, _items(rng, s), "color", _color(rng)),
     "scene": _set_scene,
-    "paste": _paste,
 }
 
 

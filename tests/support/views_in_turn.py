@@ -7,8 +7,6 @@ from typing import get_args, get_type_hints
 
 from window_driver import Driver
 
-from app.detective import example
-from app.detective.readings import Convention
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.view import LABORATORY
 from app.mistakes.options import Mode
@@ -19,7 +17,6 @@ from app.storage.paths import stored
 PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
 MODES = get_args(Mode)
 
-ODD = Convention("world-to-camera", True, "OpenCV", turned=True)
 CODE = """\
 def viewing_ray(i, j, width, height, camera):
     x = camera.left + j / width * (camera.right - camera.left)
@@ -37,7 +34,6 @@ def with_content(d: Driver) -> AppState:
         marked=(60, 80),
         objects={"chosen": (2,)},
         probe={"pins": ((10, 20), (300, 400))},
-        detective={"text": example.printed_matrix(example.matrix_of(d.start.camera, ODD, "y"))},
         your_code={"file": stored(str(code))},
     )
 

@@ -21,11 +21,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from app.window import quick_start
-
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the program does
 os.environ.pop("DISPLAY", None)
 os.environ.pop("WAYLAND_DISPLAY", None)
-quick_start.begin()  # as the program does: before anything else is imported
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui

@@ -87,7 +87,7 @@ PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
         ("ortho", "Parallel projection"),
         ("about", "Mouse and keys"),
         ("grid", "Pixel grid and values"),
-        ("wireframe", "Export diagram as SVG..."),
+        ("diagram", "Export figure as SVG..."),
         ("screenshot", "Save a picture of the window"),
         ("zoom", "Magnify"),
         ("zoom out", "Reduce"),

@@ -222,13 +222,14 @@ def look(target):
         return
     picture = target.read()
     assert picture.shape[1::-1] == sizes[0], picture.shape
-    placed = run.window.renderers.underlay._placed
-    assert len(placed) == 2, "the images do not stand under ImGui's windows"
-    for image, (left, top, right, bottom) in placed:
-        assert image.texture.size == (right - left, bottom - top)
-        rows = np.frombuffer(image.texture.read(), np.uint8)
-        image = rows.reshape(bottom - top, right - left, -1)[::-1, :, :3].astype(int)
-        seen = picture[top:bottom, left:right]
+    textures = run.window.renderers.textures
+    for name, shown in (("Raster", textures._shown_raster), ("Ray", textures._shown_ray)):
+        texture = shown._pictures["pane"].texture
+        width, height = texture.size
+        right, bottom = (round(edge) for edge in run.window.shell.stage.rects[name][2:])
+        rows = np.frombuffer(texture.read(), np.uint8)
+        image = rows.reshape(height, width, -1)[..., :3].astype(int)
+        seen = picture[bottom - height : bottom, right - width : right]
         assert image.std() > 20, f"no image at {sizes[0]}"
         differ = (np.abs(seen - image).max(axis=2) > 2).mean()
         assert differ < 0.01, f"{differ:.1%} of the pixels differ at {sizes[0]}"

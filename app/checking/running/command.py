@@ -9,17 +9,17 @@ import shutil
 import sys
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
 from app.checking.calls import Call, Failure, Kind, Limits, Run
-from app.checking.running.isolation import Access, command_plan
+from app.checking.running.account import Account
 from app.checking.running.program import ProgramOverError, StudentProgram
 from app.checking.running.told import told_call, told_over, whole_number
 from renderer.errors import LucidaError, one_line, shortened
 
-_FAREWELL = 1.0  # seconds for a program to end after its last answer
+_FAREWELL_S = 1.0  # for a program to end after its last answer
 
 
 class CommandStudent:
@@ -28,13 +28,14 @@ class CommandStudent:
     Each run restarts the program, writes all calls and closes its input.
 
     command: words and quotes as in a shell, without a shell's other features.
+    account: the user that it runs as; None for this process's own.
     survived: True if something that it started may still be running.
     """
 
     def __init__(
-        self, command: str, limits: Limits | None = None, access: Access | None = None
+        self, command: str, limits: Limits | None = None, account: Account | None = None
     ) -> None:
-        self._limits, self._access = limits or Limits(), access or Access()
+        self._limits, self._account = limits or Limits(), account
         self._words = _words(command)
         self._name = os.path.basename(self._words[0])
         self.survived = False
@@ -62,10 +63,11 @@ class CommandStudent:
             values: list[Any] = []
             try:
                 failure = self._run(program, calls, values, end)
+                program.end()
+                output = program.output()
             finally:
-                if not program.end():
-                    self.survived = True
-            return Run(tuple(values), program.output.take(), failure)
+                self.survived |= not program.close()
+            return Run(tuple(values), output, failure)
 
     def stop(self) -> None:
         with self._change:
@@ -80,52 +82,40 @@ class CommandStudent:
     def _started(self) -> StudentProgram:
         if self._closed:
             raise LucidaError("", "it is closed", source=self._name)
-        limits = self._limits
         try:
-            plan = command_plan(self._words, self._access, limits)
-            return StudentProgram(plan, limits.output)
-        except FileNotFoundError:
-            # Also raised if the interpreter in the file's first line is missing.
-            raise _not_found(self._words[0]) from None
-        except PermissionError:
-            remedy = "make it executable, or name what runs it first"
-            raise LucidaError("", "it is not executable", remedy, self._name) from None
+            return StudentProgram(self._words, os.getcwd(), self._limits, self._account)
         except OSError as error:
-            reason = error.strerror or str(error)
-            remedy = "name what runs it first: sh, python, node"
-            raise LucidaError("", f"it cannot be started: {reason}", remedy, self._name) from None
+            raise LucidaError("", f"cannot be started: {error.strerror}", "", self._name) from None
 
     def _run(
         self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
     ) -> Failure | None:
         """Append the answers to `values`. Return the reason if the run ended early."""
-        program.send("".join(map(_line, calls)).encode())
-        program.send(None)
-        lines = _numbered(program.lines(end, self._limits.memory_mb))
+        program.send("".join(map(_line, calls)).encode(), last=True)
         try:
             for call in calls:
-                number, line = next(lines)
+                line = _next_line(program, end)
                 try:
                     values.append(json.loads(line, parse_int=whole_number))
                 except (ValueError, RecursionError):
                     text = shortened(one_line(line.decode("utf-8", "replace")), 80)
-                    told = f"line {number} of what it answers is no JSON: {text}"
+                    told = f"answer {len(values) + 1} is no JSON: {text}"
                     remedy = f"answer to {told_call(call)}; print other things to standard error"
                     return self._failure("answer", f"{told}; {remedy}", len(values))
         except ProgramOverError as over:
             return self._over(over, calls, len(values))
         with suppress(ProgramOverError):
-            for number, _ in _numbered(program.lines(time.monotonic() + _FAREWELL, 1 << 40)):
-                told = f"it answers more than the {len(calls)} calls (line {number} after them)"
-                return self._failure("answer", f"{told}; one line for each call", None)
+            _next_line(program, time.monotonic() + _FAREWELL_S)
+            told = f"it answers more than the {len(calls)} calls; one line for each call"
+            return self._failure("answer", told, None)
         return None
 
     def _over(self, over: ProgramOverError, calls: Sequence[Call], number: int) -> Failure:
-        kind, text = told_over(over, self._limits, "it ", "it ")
+        kind, text = told_over(over, self._limits, "it")
         text += f", with {number} of {len(calls)} answers"
         if kind == "time":
             text += "; does it read to the end of its input, and flush what it prints?"
-        elif kind == "ended":
+        elif over.why == "ended":
             text += f"; the next was {told_call(calls[number])}"
         return self._failure(kind, text, number)
 
@@ -146,11 +136,8 @@ def _words(command: str) -> list[str]:
 
 
 def _not_found(word: str) -> LucidaError:
-    there = os.path.isfile(word)
-    if there and not os.access(word, os.X_OK):
+    if os.path.isfile(word):
         return LucidaError("", "it is not executable", "name what runs it first", word)
-    if there:
-        return LucidaError("", "what runs it is not there", "see its first line, #!...", word)
     return LucidaError("", "there is no such program", "is it installed, and on the PATH?", word)
 
 
@@ -158,9 +145,8 @@ def _line(call: Call) -> str:
     return json.dumps({"function": call.function, **dict(call.arguments)}) + "\n"
 
 
-def _numbered(lines: Iterator[bytes]) -> Iterator[tuple[int, bytes]]:
-    """Yield the lines that are not blank, with their numbers from 1."""
-    for number, line in enumerate(lines, 1):
-        text = line.removeprefix(b"\xef\xbb\xbf").strip()
-        if text:
-            yield number, text
+def _next_line(program: StudentProgram, end: float) -> bytes:
+    """Return the next answer that is not blank."""
+    while not (line := program.line(end).removeprefix(b"\xef\xbb\xbf").strip()):
+        pass
+    return line

@@ -1,274 +1,192 @@
-"""A program that runs a student's code: start it, feed it, watch it, and end it with all it
-started.
-
-A supervisor, in a separate process, starts the program and outlives everything that the program
-starts, on Linux even daemons. It also ends them if this process is killed. Windows has no
-supervisor: there, this process ends the program's tree of processes.
-"""
+"""A student's program: one child process, whose answers are lines of text, read here as data."""
 
 from __future__ import annotations
 
 import contextlib
-import errno
-import json
 import os
 import queue
-import shutil
+import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
-from collections import deque
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
-from typing import IO, Any, Literal
+from typing import Literal
 
-from app.checking.running.captured import CapturedOutput
-from app.checking.running.isolation import Plan, interpreter
-from app.checking.running.memory import kill_tree, memory_of
+from app.checking.calls import Limits
+from app.checking.running.account import Account
 
-# Runs the Python code at the start of its input, after its length. This keeps our paths out of the
-# command line.
-RUN_INPUT = """\
-import io
-file = io.FileIO(0, closefd=False)
-length, source = int(file.read(8)), b""
-while len(source) < length:
-    source += file.read(length - len(source))
-exec(compile(source, "<lucida>", "exec"), {"__name__": "__main__", "__file__": "<lucida>"})
-"""
-_WAIT = 0.1  # seconds at most between checks of the program
-_LOOK = 0.2 if sys.platform == "linux" else 1.0  # seconds between checks of its memory
-_GATHER = 0.002  # seconds between reads, to read many answers at once
-_CHASE = 15.0  # seconds at most to end processes that keep starting others
-_ENDING = 5.0  # seconds at most for a process to end after closing its pipes
-_FAREWELL = 1.0  # seconds for the remaining answers and output to arrive
-_MOST_ANSWERS = 1 << 28  # bytes
+_MOST_ANSWERS = 1 << 28  # bytes of one request's answers
+_LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too
+_MOST_PROCESSES = 256  # of a user of its own
+_ENDING_S = 1.0  # for a program to end once it has closed its answers
+# For such small calls, threads of libraries only cost time. And no window.
+_ENVIRONMENT = {
+    **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
+    "MALLOC_ARENA_MAX": "2",
+    "MPLBACKEND": "Agg",
+}
 
+DISHONEST = (
+    "The program has your rights: a dishonest one could read the right answers, change its "
+    "results, end this check or leave processes behind; and network = false is not enforced. "
+    "Run strangers' programs in a container, or as root with --as USER."
+)
 
-def as_input(source: bytes) -> bytes:
-    """Return Python code in the form that RUN_INPUT reads."""
-    return b"%8d" % len(source) + source
-
-
-_Why = Literal["time", "memory", "ended", "stopped", "length"]
+_Why = Literal["time", "ended", "stopped", "length"]
 
 
 class ProgramOverError(Exception):
     """No more answers will come.
 
-    why: time, memory, ended, stopped or length.
-    status: the exit status if it ended by itself; None if it was still running but had closed its
-    answers.
+    status: the exit status if the program ended by itself; None if it only closed its answers.
     """
 
-    def __init__(
-        self,
-        why: _Why,
-        status: int | None = None,
-    ) -> None:
+    def __init__(self, why: _Why, status: int | None = None) -> None:
         super().__init__(why)
         self.why, self.status = why, status
 
 
 class StudentProgram:
-    """A running program. Raises OSError if it cannot be started."""
+    """A running program, in a process group of its own. Raises OSError if it cannot be started.
 
-    def __init__(self, plan: Plan, output: int) -> None:
-        self.mark = f"\0{os.urandom(8).hex()}\0"
-        self._scratch = plan.orders.get("scratch", "")
-        self._in_bubblewrap = "bubblewrap" in plan.orders
-        self._ended, self._survived, self._stopped, self._closed = False, False, False, False
-        self._status: int | None = None
-        try:
-            answers, printed = self._start(plan.orders)
-        except BaseException:
-            self._remove_scratch()
-            raise
-        self.output = CapturedOutput(printed, output, self.mark.encode())
-        self._chunks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-        self._requests: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
-        self._pending: list[bytes] = []
-        self._lines: deque[bytes] = deque()
-        self._received = 0
+    Exit status 126 or 127: there is no such program, or it is not executable.
+
+    folder: its working directory.
+    account: the user that it runs as; None for this process's own.
+    stopped: True after stop().
+    """
+
+    def __init__(
+        self, command: Sequence[str], folder: Path | str, limits: Limits, account: Account | None
+    ) -> None:
+        self._limits, self._account = limits, account
+        self.stopped = self._too_long = self._ended = self._survived = False
+        self._received = self._told = 0
         self._ending = threading.Lock()
-        threading.Thread(target=self._read, args=(answers,), daemon=True).start()
-        threading.Thread(target=self._write, args=(self._input,), daemon=True).start()
+        kept = dict(os.environ)
+        if account is not None:
+            kept = {name: kept[name] for name in ("PATH", "LANG") if name in kept}
+        with tempfile.TemporaryDirectory(prefix="lucida-") as scratch:
+            path = Path(scratch) / "printed"
+            with path.open("wb") as printed:
+                self._process = subprocess.Popen(
+                    _limited(command, limits, account is not None),
+                    cwd=folder,
+                    env=kept | _ENVIRONMENT,
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=printed,
+                    start_new_session=True,
+                    creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+                    **(account.options if account is not None else {}),
+                )
+            self._printed = path.open("rb")
+        self._lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._requests: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        threading.Thread(target=self._read, daemon=True).start()
+        threading.Thread(target=self._write, daemon=True).start()
 
-    def _start(self, orders: dict[str, Any]) -> tuple[IO[bytes], IO[bytes]]:
-        """Start the program, and return the pipes of its answers and of its output."""
-        if sys.platform == "win32":
-            self._process = subprocess.Popen(
-                orders["command"],
-                cwd=orders["folder"],
-                env=orders["environment"],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                creationflags=subprocess.CREATE_NO_WINDOW | subprocess.CREATE_NEW_PROCESS_GROUP,
-            )
-            pipes = (self._process.stdin, self._process.stdout, self._process.stderr)
-            self._input, answers, printed = pipes
-            assert self._input and answers and printed
-            return answers, printed
-        (read, to), (answers_from, write), (printed_from, also) = (os.pipe() for _ in range(3))
-        theirs, ours = (read, write, also), (to, answers_from, printed_from)
-        try:
-            self._process = subprocess.Popen(
-                [interpreter() or "python3", "-I", "-S", "-B", "-c", RUN_INPUT],
-                cwd="/",
-                env={},
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                pass_fds=theirs,
-                start_new_session=True,
-            )
-            control = self._process.stdin
-            assert control and self._process.stdout
-            source = Path(__file__).with_name("supervisor.py").read_bytes()
-            control.write(as_input(source))
-            control.write(json.dumps({**orders, "files": theirs}).encode() + b"\n")
-            control.flush()
-            said = self._process.stdout.readline().strip().decode()
-            if said != "started":
-                self._end_processes()
-                self._process.stdout.close()
-                number = int(said or errno.ECHILD)
-                raise OSError(number, os.strerror(number))
-        except BaseException:
-            for file in ours:
-                os.close(file)
-            raise
-        finally:
-            for file in theirs:
-                os.close(file)
-        threading.Thread(target=self._hear_status, daemon=True).start()
-        self._input = os.fdopen(to, "wb")
-        return os.fdopen(answers_from, "rb"), os.fdopen(printed_from, "rb")
-
-    def _hear_status(self) -> None:
-        """Wait for the supervisor to report the program's end."""
-        assert self._process.stdout
-        with self._process.stdout as pipe:
-            said = pipe.readline()
-        if said.strip():
-            status = int(said)
-            self._status = 128 - status if self._in_bubblewrap and status > 128 else status
-
-    def send(self, data: bytes | None) -> None:
-        """Queue data for the program, without waiting. None ends its input."""
+    def send(self, data: bytes, last: bool = False) -> None:
+        """Queue data for the program, without waiting. last: close its input afterwards."""
+        self._received = 0
         self._requests.put(data)
+        if last:
+            self._requests.put(None)
 
-    def lines(self, end: float, memory_mb: int) -> Iterator[bytes]:
-        """Yield its answers on demand. end: in time.monotonic's seconds. Raises
-        ProgramOverError.
-        """
-        why: _Why | None = None
-        look = 0.0
-        gone: float | None = None
-        while True:
-            while self._lines:
-                yield self._lines.popleft()
-            now = time.monotonic()
-            if why is None:
-                if self._stopped:
-                    why = "stopped"
-                elif now >= end:
-                    why = "time"
-                elif self._received > _MOST_ANSWERS:
-                    why = "length"
-                elif now >= look:
-                    look = now + _LOOK
-                    if memory_of(self._process.pid) > memory_mb << 20:
-                        why = "memory"
-                if why:  # answers so far count, and show how far it came
-                    self.end()  # may take long
-                    end = time.monotonic() + _FAREWELL
-            if self._closed or (why and now >= end and self._chunks.empty()):
-                raise ProgramOverError(why or "ended", None if why else self._final_status())
-            try:
-                chunk = self._chunks.get(timeout=max(0, min(_WAIT, end - now)))
-            except queue.Empty:
-                status = None if why else self._status_now()
-                gone = None if status is None else gone or now
-                if gone and now > gone + _FAREWELL:  # its children keep the answers' pipe open
-                    raise ProgramOverError("ended", status) from None
-                continue
-            self._closed = not chunk
-            self._received += len(chunk)
-            if why and self._closed:
-                self._pending.clear()  # an unfinished line
-            self._split(chunk)
+    def line(self, end_s: float) -> bytes:
+        """Wait for the next answer until time.monotonic() is end_s. Raises ProgramOverError."""
+        try:
+            line = self._lines.get(timeout=max(0.0, end_s - time.monotonic()))
+        except queue.Empty:
+            self.end()
+            raise ProgramOverError("time") from None
+        if line:
+            return line.rstrip(b"\r\n")
+        self._lines.put(line)  # for the next call
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(_ENDING_S)
+        status = self._process.poll()
+        self.end()
+        if self.stopped or self._too_long:
+            raise ProgramOverError("stopped" if self.stopped else "length")
+        raise ProgramOverError("ended", status)
+
+    def output(self) -> str:
+        """Return what was printed since the last call, shortened in the middle."""
+        if self._printed.closed:
+            return ""
+        size, most = os.fstat(self._printed.fileno()).st_size, self._limits.output
+        self._printed.seek(self._told)
+        left, self._told = size - self._told, size
+        if left <= most:
+            return self._printed.read(left).decode("utf-8", "replace")
+        first = self._printed.read(most // 2)
+        self._printed.seek(size - most // 2)
+        last = self._printed.read(most // 2)
+        parts = [part.decode("utf-8", "replace") for part in (first, last)]
+        return f"\n... {left - 2 * (most // 2):,} bytes left out ...\n".join(parts)
 
     def stop(self) -> None:
-        """End the program, from any thread. `lines` then raises ProgramOverError."""
-        self._stopped = True
+        """End the program, from any thread. `line` then raises ProgramOverError."""
+        self.stopped = True
         self.end()
 
     def end(self) -> bool:
-        """Kill the program and all that it started. Return False if some of it may still be
-        running.
+        """Kill the program with its process group, and all processes of its own user.
+
+        Return False if some of that user's are still running.
         """
         with self._ending:
             if not self._ended:
                 self._ended = True
-                self._survived = not self._end_processes()
+                if sys.platform == "win32":
+                    self._process.kill()
+                else:
+                    with contextlib.suppress(OSError):  # all have ended
+                        os.killpg(self._process.pid, signal.SIGKILL)
+                self._survived = self._account is not None and not self._account.kill()
+                self._process.wait()
                 self._requests.put(None)
-                self.output.wait_for_end(_FAREWELL)
-                self._remove_scratch()
             return not self._survived
 
-    def _end_processes(self) -> bool:
-        if sys.platform == "win32":
-            kill_tree(self._process.pid)
-            self._process.wait()
-            return True
-        assert self._process.stdin
-        with contextlib.suppress(OSError):  # already ended
-            self._process.stdin.close()
-        try:
-            return self._process.wait(_CHASE) == 0
-        except subprocess.TimeoutExpired:
-            kill_tree(self._process.pid)
-            self._process.wait()
-            return False
+    def close(self) -> bool:
+        """End the program, and forget what it printed. Return end()'s result."""
+        has_ended = self.end()
+        self._printed.close()
+        return has_ended
 
-    def _remove_scratch(self) -> None:
-        if self._scratch:  # the supervisor has removed it, unless it was killed
-            with contextlib.suppress(RecursionError):  # folders in one another
-                shutil.rmtree(self._scratch, ignore_errors=True)
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        with self._process.stdout as pipe:
+            while line := pipe.readline(_MOST_ANSWERS):
+                self._received += len(line)
+                if self._received > _MOST_ANSWERS:
+                    self._too_long = True
+                    break
+                self._lines.put(line)
+        self._lines.put(b"")
 
-    def _split(self, chunk: bytes) -> None:
-        *lines, rest = chunk.split(b"\n")
-        for line in lines:
-            self._lines.append(b"".join([*self._pending, line]))
-            self._pending = []
-        if rest:
-            self._pending.append(rest)
-        elif not chunk and self._pending:  # a last line without a line break
-            self._lines.append(b"".join(self._pending))
-            self._pending = []
-
-    def _final_status(self) -> int | None:
-        """Return the exit status, once the program has ended."""
-        end = time.monotonic() + _ENDING
-        while (status := self._status_now()) is None and time.monotonic() < end:
-            time.sleep(0.002)
-        return status
-
-    def _status_now(self) -> int | None:
-        return self._process.poll() if sys.platform == "win32" else self._status
-
-    def _read(self, pipe: IO[bytes]) -> None:
-        with pipe:
-            while chunk := pipe.read1(1 << 16):  # type: ignore[attr-defined]
-                self._chunks.put(chunk)
-                time.sleep(_GATHER)
-        self._chunks.put(b"")
-
-    def _write(self, pipe: IO[bytes]) -> None:
-        with contextlib.suppress(OSError), pipe:  # it may have stopped reading
+    def _write(self) -> None:
+        assert self._process.stdin is not None
+        with contextlib.suppress(OSError), self._process.stdin as pipe:  # it may have ended
             while (data := self._requests.get()) is not None:
                 pipe.write(data)
                 pipe.flush()
+
+
+def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Sequence[str]:
+    """Return the command, run by a shell that limits it and what it starts."""
+    if sys.platform == "win32":
+        return command
+    orders = [
+        "ulimit -c 0",
+        f"ulimit -f {_LARGEST_FILE >> 9}",  # blocks of 512 bytes
+        f"ulimit -d {limits.memory_mb << 10}",  # KiB; not what is only reserved, as by Node.js
+    ]
+    if has_account:  # otherwise, all processes of this process's user would count
+        orders.append(f"ulimit -u {_MOST_PROCESSES} || ulimit -p {_MOST_PROCESSES}")  # bash, dash
+    script = "".join(f"{{ {order}; }} 2>/dev/null; " for order in orders)
+    return ["/bin/sh", "-c", f'{script}exec "$@"', "sh", *command]

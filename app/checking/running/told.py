@@ -40,15 +40,12 @@ def _joined(parts: Iterable[str], most: int) -> str:
     return text
 
 
-def told_over(over: ProgramOverError, limits: Limits, it: str, its: str) -> tuple[Kind, str]:
-    """Return the kind of failure, and what ended a program. it, its: the words before it."""
-    return {
-        "time": ("time", f"the time limit of {limits.seconds:g} s is over"),
-        "memory": ("memory", f"{it}needs more than the memory limit of {limits.memory_mb} MB"),
-        "stopped": ("ended", f"{it}was stopped"),
-        "length": ("ended", f"{it}answered too much"),
-        "ended": ("ended", f"{its}{_told_status(over.status)}"),
-    }[over.why]  # type: ignore[return-value]
+def told_over(over: ProgramOverError, limits: Limits, it: str) -> tuple[Kind, str]:
+    """Return the kind of failure, and what ended a program. it: "it" or "its process"."""
+    if over.why == "time":
+        return "time", f"the time limit of {limits.seconds:g} s is over"
+    ends = {"stopped": "was stopped", "length": "answered too much"}
+    return "ended", f"{it} {ends.get(over.why) or _told_status(over.status)}"
 
 
 def _told_status(status: int | None) -> str:

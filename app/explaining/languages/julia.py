@@ -7,47 +7,127 @@ takes a function of loops over pixels, whose rows and columns then count from 1 
 from __future__ import annotations
 
 import ast
+import io
 import textwrap
+import tokenize
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from app.explaining.languages.expressions import (
-    ATOM,
-    OPERATORS,
-    POWER,
-    SIGN,
-    SUM,
-    VECTOR,
-    Expressions,
-    comment_of,
-    kind_of,
-)
 from renderer.pixels import Indexing
 
 INDENT = "    "
+VECTOR, SCALAR = "vector", "scalar"
+# How tightly operators bind.
+OR, AND, COMPARE, SUM, PRODUCT, SIGN, POWER, ATOM = range(8)
+OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
+    ast.Add: ("+", SUM),
+    ast.Sub: ("-", SUM),
+    ast.Mult: ("*", PRODUCT),
+    ast.Div: ("/", PRODUCT),
+    ast.Lt: ("<", COMPARE),
+    ast.LtE: ("<=", COMPARE),
+    ast.Gt: (">", COMPARE),
+    ast.GtE: (">=", COMPARE),
+    ast.Eq: ("==", COMPARE),
+    ast.NotEq: ("!=", COMPARE),
+}
 
 
-class _Julia(Expressions):
-    """counted: the variables that Python counts from 0, and Julia here as `indexing`."""
+def function_of(node: ast.Call) -> str:
+    """Return the name of the called function as written; without the module if it is NumPy's:
+    `cross`.
+    """
+    name = ast.unparse(node.func)
+    return name.rpartition(".")[2] if name.startswith("np.") else name
+
+
+def kind_of(node: ast.expr, kinds: Mapping[str, str]) -> str:
+    """Return the kind of a value, vector or scalar. kinds: of the variables; others are scalars."""
+    match node:
+        case ast.Name(id=name):
+            return kinds.get(name, SCALAR)
+        case ast.BinOp(op=ast.MatMult()):
+            return SCALAR
+        case ast.BinOp(left=left, right=right):
+            return _any(kinds, left, right)
+        case ast.UnaryOp(operand=operand):
+            return kind_of(operand, kinds)
+        case ast.Compare(left=left, comparators=others):
+            return _any(kinds, left, *others)
+        case ast.Call(func=ast.Attribute(value=value, attr="astype")):
+            return kind_of(value, kinds)
+        case ast.Call():
+            name = function_of(node)
+            if name in ("array", "cross"):
+                return VECTOR
+            if name in ("clip", "where", "floor"):
+                return _any(kinds, *node.args)
+    return SCALAR
+
+
+def _any(kinds: Mapping[str, str], *nodes: ast.expr) -> str:
+    return VECTOR if any(kind_of(node, kinds) == VECTOR for node in nodes) else SCALAR
+
+
+class _Julia:
+    """Writes expressions, with as few parentheses as possible.
+
+    counted: the variables that Python counts from 0, and Julia here as `indexing`.
+    """
 
     def __init__(
         self, counted: frozenset[str] = frozenset(), indexing: Indexing = Indexing.LECTURE
     ) -> None:
-        super().__init__()
+        self.kinds: dict[str, str] = {}  # of the variables so far
         self._counted, self._from_one = counted, indexing is Indexing.LECTURE
 
+    def text(self, node: ast.expr, least: int = OR) -> str:
+        """Return the expression, in parentheses if it binds less tightly than `least`."""
+        written, binds = self.written(node)
+        return f"({written})" if binds < least else written
+
     def written(self, node: ast.expr) -> tuple[str, int]:
+        """Return the expression without parentheses around it, and its precedence."""
         match node:
             case ast.BinOp(left=ast.Name(id=name), op=ast.Add(), right=ast.Constant(value=0.5)) if (
                 name in self._counted and self._from_one
             ):
-                return super().written(ast.BinOp(node.left, ast.Sub(), node.right))
+                return self.binary(node.left, ast.Sub(), node.right)
             case ast.Call(func=ast.Attribute(value=ast.Call() as inner, attr="astype")):
                 return f"floor.(Int, {self.text(inner.args[0])})", ATOM
             case ast.Subscript(value=value, slice=ast.Tuple(elts=places)) if not self._from_one:
                 return f"{self.text(value, ATOM)}[{', '.join(map(self._from_next, places))}]", ATOM
             case ast.Subscript(value=value, slice=place):
                 return f"{self.text(value, ATOM)}[{self.text(place, -2)}]", ATOM
-        return super().written(node)
+            case ast.BinOp(left=left, op=ast.Pow(), right=right):
+                return self.power(left, right)
+            case ast.BinOp(left=left, op=ast.MatMult(), right=right):
+                return self.call("dot", [left, right]), ATOM
+            case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
+                return self.binary(left, op, right)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return f"-{self.text(operand, SIGN)}", SIGN
+            case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in OPERATORS:
+                return self.binary(left, op, right)
+            case ast.BoolOp(op=op, values=values):
+                word, binds = ("||", OR) if isinstance(op, ast.Or) else ("&&", AND)
+                return f" {word} ".join(self.text(value, binds + 1) for value in values), binds
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                return f"!{self.text(operand, SIGN)}", SIGN
+            case ast.Tuple(elts=parts):
+                return ", ".join(self.text(part) for part in parts), OR - 1
+            case ast.Attribute(value=value, attr=name):
+                return f"{self.text(value, ATOM)}.{name}", ATOM
+            case ast.Call():
+                return self.call(function_of(node), node.args), ATOM
+        return ast.unparse(node), ATOM
+
+    def binary(self, left: ast.expr, op: ast.AST, right: ast.expr) -> tuple[str, int]:
+        """Return two operands with the operator between them; associates to the left."""
+        sign, binds = OPERATORS[type(op)]
+        if self.is_elementwise(left, sign, right):
+            sign = f".{sign}"
+        return f"{self.text(left, binds)} {sign} {self.text(right, binds + 1)}", binds
 
     def _from_next(self, place: ast.expr) -> str:
         """Return an index of an array, which Julia counts from 1, if the variables count from 0."""
@@ -71,7 +151,15 @@ class _Julia(Expressions):
             last = self.text(arguments[0], ATOM)
             return f"1:{last}" if self._from_one else f"0:{last} - 1"
         renamed = {"clip": "clamp.", "where": "ifelse.", "arctan": "atan", "arcsin": "asin"}
-        return super().call(renamed.get(name, name), arguments)
+        return f"{renamed.get(name, name)}({', '.join(self.text(one) for one in arguments)})"
+
+
+def comment_of(line: str) -> tuple[str, str]:
+    """Split a line of Python into the code and the words of its comment."""
+    for token in tokenize.generate_tokens(io.StringIO(line).readline):
+        if token.type == tokenize.COMMENT:
+            return line[: token.start[1]].rstrip(), token.string.lstrip("# ")
+    return line, ""
 
 
 def program(python: str) -> str:

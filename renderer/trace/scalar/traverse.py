@@ -46,7 +46,7 @@ class Tree(NamedTuple):
 
 
 @inlined
-def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
+def closest_hit(tree, stack, origin, direction, t_min, t_max):
     """Return the closest hit along a ray: (t, primitive, b1, b2), or (inf, -1, 0, 0).
 
     origin, direction: (3,) float64, world space; the direction need not be unit length; if
@@ -55,8 +55,6 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
     number wins, whatever the tree. b1, b2: barycentrics of a triangle's second and third corner.
     stack: scratch of the calling thread, int32 and float64 (tree.stack_size,): the nodes that wait,
     and the parameters at which the ray enters them.
-    counts: None, or int64 (2,), to which the nodes visited and the shapes tested are added; the
-    compiler leaves the counting out where there is none.
     Source: Pharr, Jakob and Humphreys, Physically Based Rendering, "Bounding Volume Hierarchies".
     """
     bounds, links, order = tree.bounds, tree.links, tree.order
@@ -70,9 +68,6 @@ def closest_hit(tree, stack, origin, direction, t_min, t_max, counts=None):
     node, top = np.int64(0), 0
     while True:
         count = links[node, 1]
-        if counts is not None:
-            counts[0] += 1
-            counts[1] += count
         if count == 0:
             # Enter the nearer child; the other waits.
             near = np.int64(links[node, 0])

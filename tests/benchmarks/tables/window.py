@@ -89,7 +89,7 @@ def measure(run: Run) -> list[Table]:
             run.say(f"window: {subject.name}, {case.name}")
             given = run.file or subject.name, *case.size, case.layout, seconds, steps
             command = [sys.executable, "-m", __name__, *map(str, given)]
-            # As `lucida` begins, see quick_start.py: before NumPy is imported.
+            # As `lucida` begins.
             environment = {"OPENBLAS_NUM_THREADS": "1", **os.environ}
             done = subprocess.run(command, capture_output=True, text=True, env=environment)
             if done.returncode:
@@ -280,9 +280,6 @@ class Script:
 
 
 def _worker(mesh: str, width: str, height: str, layout: str, seconds: str, steps: str) -> None:
-    from app.window import quick_start
-
-    quick_start.begin()
     from app.state.app_state import AppState
     from app.window.platform import start_platform
     from app.window.viewer import WindowRun

@@ -5,23 +5,14 @@ from __future__ import annotations
 import textwrap
 
 import pytest
-from students import adopting, called
-from waiting import wait_for
+from students import called
 
 from app.checking.calls import Limits
 from app.checking.running.file import FileStudent
 
 
 @pytest.fixture
-def nothing_left():
-    """At the end of the test, no process that it started lives. Gives those that live now."""
-    with adopting() as left:
-        yield left
-        wait_for(lambda: not left())
-
-
-@pytest.fixture
-def student(tmp_path, nothing_left):
+def student(tmp_path):
     """Makes a student of a file's text. limits: by name."""
     made = []
 
@@ -40,7 +31,7 @@ def student(tmp_path, nothing_left):
 def answer(student):
     """Return the answer of a file's function f, called once with arguments by name."""
 
-    def ask(source: str | bytes, vectorised: bool = False, /, **arguments):
+    def ask(source: str, vectorised: bool = False, /, **arguments):
         run = student(source).call([called("f", vectorised, **arguments)])
         assert run.failure is None, run.failure
         return run.values[0]

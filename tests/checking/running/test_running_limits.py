@@ -1,7 +1,4 @@
-"""Code that does not end, takes all memory, prints without end, or leaves processes behind.
-
-Nothing here depends on how fast it goes: what is to be stopped would never end by itself.
-"""
+"""Code that does not end, takes all memory, prints without end, or leaves processes behind."""
 
 from __future__ import annotations
 
@@ -11,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import pytest
 from students import called
@@ -20,7 +18,7 @@ from app.checking.calls import Failure, Limits, Run
 from app.checking.running.file import FileStudent, endless
 
 F = called("f")
-LINUX = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux says who lives")
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="Linux limits memory")
 SHORT = 0.5  # seconds: for code that never ends
 
 
@@ -41,25 +39,24 @@ def hasty(student):
     "body",
     [
         "while True: pass",
-        "import time; time.sleep(10**6)",
         "sum(__import__('itertools').count())",  # lets no other thread run
-        "__import__('threading').Event().wait()",
         "import os, signal; os.kill(os.getpid(), signal.SIGSTOP)",
-        "while True: print('x' * 10**6)",
-        "import os\n    while True: os.write(2, b'y' * 10**6)",
-        "import signal\n    signal.signal(signal.SIGTERM, signal.SIG_IGN)\n    while True: pass",
+        "while True: print('x' * 10**6) if i < 10 else None; i += 1",
     ],
 )
 def test_a_call_that_never_ends(hasty, body):
-    run = hasty(f"def f(i):\n    {body}\n", output=500).call([called("f", i=2), F])
-    assert run.values == ()
+    one = hasty(f"def f(i):\n    while i == 0: return i\n    {body}\n", output=500)
+    run = one.call([called("f", i=0), called("f", i=2)])
+    assert run.values == (0,)
     assert run.failure == Failure(
         "time",
-        "rays.py: the time limit of 0.5 s is over in call 1 of 2: f(i=2); "
+        "rays.py: the time limit of 0.5 s is over in call 2 of 2: f(i=2); "
         "is there a loop that does not end?",
-        call=0,
+        call=1,
     )
     assert len(run.output) < 700
+    one.limits = Limits(60)
+    assert one.call([called("f", i=0)]).values == (0,)
 
 
 def test_calls_that_are_only_slow_are_no_loop():
@@ -75,44 +72,21 @@ def test_a_file_that_never_ends_while_it_is_imported(student):
     assert one.call([F]) == run  # it is not waited for twice
 
 
-def test_after_the_time_limit_the_next_run_has_a_process_of_its_own(hasty):
-    one = hasty("def f(i):\n    while i: pass\n    return i\n")
-    assert one.call([called("f", i=1)]).failure.kind == "time"
-    one.limits = Limits(60)
-    assert one.call([called("f", i=0)]).values == (0,)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere it is ended, without its line")
-@pytest.mark.parametrize(
-    "body",
-    ["[0] * 10**10", "bytearray(10**10)", "'x' * 10**10", "while True: a = [a, *range(10**5)]"],
-)
+@LINUX
+@pytest.mark.parametrize("body", ["bytearray(10**10)", "while True: a = [a, *range(10**5)]"])
 def test_too_much_memory_in_a_call(student, body):
     one = student(f"def f(i):\n    a = 0\n    if i:\n        {body}\n    return i\n", memory_mb=200)
     failure, right = one.call([called("f", i=1), called("f", i=0)]).values
     assert failure.kind == "memory"
-    assert "it needs more than the memory limit of 200 MB (MemoryError)" in failure.text
-    assert "rays.py, line 4" in failure.text
+    assert "rays.py, line 4: it needs more than the memory limit of 200 MB" in failure.text
     assert right == 0
 
 
 @LINUX
-def test_too_much_memory_while_importing(student):
-    failure = student("a = [0] * 10**10\n", memory_mb=200).call([F]).failure
-    assert failure.kind == "memory"
-    assert failure.text.startswith("rays.py, line 1: it needs more than the memory limit")
-
-
-def test_an_end_without_memory_to_report_it(student):
-    failure = student("import os\ndef f(): os._exit(86)\n", memory_mb=200).call([F]).failure
-    assert failure.kind == "memory"
-    assert "needs more than the memory limit of 200 MB in call 1 of 1" in failure.text
-
-
-def test_an_answer_without_end(student):
-    one = student("import itertools\ndef f(): return itertools.count()\n", memory_mb=200)
-    (failure,) = one.call([F]).values
-    assert failure.kind == "memory"
+def test_a_file_that_fills_the_disk_is_ended(student):
+    source = "def f():\n    with open('large', 'wb') as file:\n        file.truncate(1 << 27)\n"
+    (failure,) = student(source).call([F]).values
+    assert "File too large" in failure.text
 
 
 @pytest.mark.parametrize(
@@ -120,9 +94,6 @@ def test_an_answer_without_end(student):
     [
         ("import os; os._exit(3)", "its process ended with exit status 3 in call 2 of 2"),
         ("import os, signal; os.kill(os.getpid(), 9)", "its process was ended by SIGKILL in call"),
-        ("import os, signal; os.killpg(0, 15)", "its process was ended by SIGTERM"),
-        ("import ctypes; ctypes.string_at(0)", "its process was ended by SIGSEGV"),
-        ("import os; os.abort()", "its process was ended by SIGABRT"),
         (
             "import os; os.closerange(0, 99)\n    while True: pass",
             "its process closed what it answers through",
@@ -139,34 +110,26 @@ def test_a_process_that_ends(student, body, told):
     assert one.call([called("f", i=0)]).values == (None,)  # another process
 
 
-@pytest.mark.parametrize("when", ["def f(): pass\n", ""])
-def test_what_is_written_between_the_answers(student, when):
+@pytest.mark.parametrize("where", ["def f(): pass\nif 1:", "def f():"])
+def test_what_is_written_between_the_answers(student, where):
     write = "    for number in range(3, 30):\n        try: os.write(number, b'\\xff\\nzz\\n')"
-    source = f"import os\n{when}if 1:\n{write}\n        except OSError: pass\n"
-    if not when:
-        source = source.replace("if 1:", "def f():")
-    failure = student(source).call([F]).failure
-    assert failure.kind == "ended"
-    assert "it wrote into a file of ours" in failure.text
+    failure = student(f"import os\n{where}\n{write}\n        except OSError: pass\n").call([F])
+    assert failure.failure.kind == "ended"
+    assert "it wrote into a file of ours" in failure.failure.text
 
 
 @pytest.mark.parametrize(
     "source",
     [
         "import sys\nsys.stdout = None\ndef f(): print(1)\n",
-        "import sys\ndef f(): sys.stdout.close()\n",
         "import os\ndef f(): os.close(1); os.close(2); os.close(0)\n",
-        "import sys, io\nsys.stdout = sys.stderr = io.StringIO()\ndef f(): print(1)\n",
         "import builtins, json\nbuiltins.print = json.dumps = None\ndef f(): return None\n",
-        "import sys\nsys.stdout.write = lambda text: 1 / 0\ndef f(): return None\n",
-        "import sys\ndef f(): sys.settrace(lambda *a: None); sys.modules.clear()\n",
-        "import gc, threading\ndef f(): threading.stack_size(0); gc.freeze()\n",
+        "import os\ndef f(): os.fork()\n",
     ],
 )
 def test_what_is_done_to_the_output_disturbs_no_answer(student, source):
     run = student(source).call([F, F])
-    assert run.failure is None
-    assert run.values[0] is None
+    assert (run.failure, run.values[0]) == (None, None)
 
 
 def test_all_that_is_printed_is_captured_in_its_order(student):
@@ -188,62 +151,21 @@ def test_all_that_is_printed_is_captured_in_its_order(student):
 
 
 def test_of_much_output_the_ends_are_kept(student):
-    source = "def f():\n    print('first')\n    print('ü' * 10**7)\n    print('last')\n"
+    source = "def f():\n    print('first')\n    print('y' * 10**7)\n    print('last')\n"
     output = student(source, output=1000).call([F]).output
-    assert output.startswith("first\nüüü")
-    assert output.endswith("üüü\nlast\n")
-    assert "... about 19,9" in output
-    assert len(output) < 1100
-    output = student("def f(): print('x' * 1200)\n", output=1000).call([F]).output
-    assert "x\n... 201 characters left out ...\nx" in output
+    assert output.startswith("first\nyyy")
+    assert "y\n... 9,999,012 bytes left out ...\ny" in output
+    assert output.endswith("yyy\nlast\n")
 
 
-STARTED = {
-    "fork": "os.fork() or time.sleep(10**6)",
-    "fork that comes back": "os.fork()",
-    "session": "os.fork() or (os.setsid(), os.fork(), time.sleep(10**6))",
-    "program": "subprocess.Popen(['sleep', '1000000'])",
-    "program in a session": "subprocess.Popen(['sleep', '1000000'], start_new_session=True)",
-    "shell": "os.system('nohup sleep 1000000 >/dev/null 2>&1 &')",
-    "thread": "threading.Thread(target=time.sleep, args=(10**6,)).start()",
-    "multiprocessing": "context('fork').Process(target=time.sleep, args=(10**6,)).start()",
-    "spawned": "context('spawn').Process(target=time.sleep, args=(10**6,)).start()",
-    "pool": "held.append(context('fork').Pool(2)) or held[0].map(abs, [1, 2])",
-}
-STARTS = """
-    import multiprocessing, os, subprocess, threading, time
-    context, held = multiprocessing.get_context, []
-    def f():
-        {started}
-        return 7
-"""
-
-
-@LINUX
-@pytest.mark.parametrize("name", STARTED)
-def test_what_is_started_ends_with_the_check(student, nothing_left, name):
-    one = student(STARTS.format(started=STARTED[name]))
-    run = one.call([F])
-    assert run.failure is None
-    assert run.values == (7,)
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no process groups")
+def test_what_it_starts_ends_with_the_check(student, tmp_path):
+    source = "import subprocess\ndef f(): return subprocess.Popen(['sleep', '1000000']).pid\n"
+    one = student(source)
+    (process,) = one.call([F]).values
     one.close()
-    assert not nothing_left()
-
-
-@LINUX
-def test_forks_without_end_are_ended(student):
-    """Few at a time: each is replaced by another, in a session of its own."""
-    one = student(
-        """
-        import os
-        def f():
-            while True:
-                if os.fork():
-                    os._exit(0)
-                os.setsid()
-        """
-    )
-    assert one.call([F]).failure.kind == "ended"
+    status = Path(f"/proc/{process}/stat")
+    wait_for(lambda: not status.exists() or status.read_text().split()[2] == "Z")
 
 
 def stopped(one, calls, begun) -> Run:
@@ -272,9 +194,9 @@ def test_a_stop_from_another_thread(student, tmp_path):
     )
     run = stopped(one, [called("f", i=i) for i in range(5)], begun)
     assert run.values == (0, 1)
-    assert run.failure == Failure("ended", "rays.py: was stopped in call 3 of 5: f(i=2)", call=2)
+    told = "rays.py: its process was stopped in call 3 of 5: f(i=2)"
+    assert run.failure == Failure("ended", told, call=2)
     assert run.output == "printed\n"
-    one.stop()
 
 
 def test_a_stop_while_importing_and_another_run_then(student, tmp_path):
@@ -292,29 +214,6 @@ def test_a_stop_while_importing_and_another_run_then(student, tmp_path):
     assert one.call([F]).values == (7,)
 
 
-@pytest.mark.parametrize("ask", ["functions", "call"])
-def test_ctrl_c_ends_the_process_and_another_run_starts_anew(student, monkeypatch, ask):
-    one = student("def f(): return 7\n")
-
-    def pressed(*_):
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr("app.checking.running.program.StudentProgram.lines", pressed)
-        with pytest.raises(KeyboardInterrupt):
-            one.functions() if ask == "functions" else one.call([F])
-    assert one._program is None  # a process is nobody's business but its own
-    assert one.call([F]).values == (7,)
-
-
-def test_closed_while_it_starts(student, monkeypatch):
-    one = student("def f(): return 7\n")
-    source = one._source  # the moment between reading and starting, which nothing else reaches
-    monkeypatch.setattr(one, "_source", lambda: one._closed.set() or source())
-    assert one.call([F]).failure.text == "rays.py: it is closed"
-    assert one._program is None
-
-
 def test_closed_is_closed(student):
     one = student("def f(): return 7\n")
     assert one.call([F]).values == (7,)
@@ -324,26 +223,18 @@ def test_closed_is_closed(student):
 
 
 @LINUX
-@pytest.mark.parametrize(
-    "loop",
-    ["while True: pass", "sum(__import__('itertools').count())", "os.fork(); time.sleep(9**9)"],
-)
-def test_it_ends_with_lucida_however_that_ends(tmp_path, nothing_left, loop):
+def test_it_ends_with_lucida_however_that_ends(tmp_path):
     begun, path = tmp_path / "begun", tmp_path / "rays.py"
-    source = f"import os, time\ndef f():\n    open({str(begun)!r}, 'w').close()\n    {loop}\n"
+    source = "import os\ndef f():\n"
+    source += f"    open({str(begun)!r}, 'w').write(str(os.getpid()))\n    while True: pass\n"
     path.write_text(source, "utf-8")
-    lucida = subprocess.Popen(
-        [
-            sys.executable,
-            "-c",
-            "import sys\n"
-            "from app.checking.calls import Call, Limits\n"
-            "from app.checking.running.file import FileStudent\n"
-            "FileStudent(sys.argv[1], Limits(1e6)).call([Call('f', ())])",
-            str(path),
-        ]
+    run = (
+        "import sys\n"
+        "from app.checking.calls import Call, Limits\n"
+        "from app.checking.running.file import FileStudent\n"
+        "FileStudent(sys.argv[1], Limits(1e6)).call([Call('f', ())])"
     )
-    wait_for(begun.exists)
-    assert nothing_left()
-    os.kill(lucida.pid, signal.SIGKILL)
-    lucida.wait()  # and nothing is left, says the fixture
+    with subprocess.Popen([sys.executable, "-c", run, str(path)]) as lucida:
+        wait_for(lambda: begun.exists() and begun.read_text())
+        os.kill(lucida.pid, signal.SIGKILL)
+    wait_for(lambda: not Path("/proc", begun.read_text()).exists())

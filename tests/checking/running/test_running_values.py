@@ -13,35 +13,20 @@ RAY = {"origin": [0.0, 0.0, 5.0], "direction": [0.5, 0.25, -1.0]}
 
 ANSWERS = {
     "tuples": ("(0.0, 0.5), (1, 2)", [[0.0, 0.5], [1, 2]]),
-    "none": ("None", None),
     "bools": ("[True, False]", [True, False]),
-    "text": ("'sphere'", "sphere"),
     "not a number": ("float('nan')", math.nan),
-    "infinite": ("[float('inf'), -float('inf')]", [math.inf, -math.inf]),
-    "range": ("range(3)", [0, 1, 2]),
-    "map": ("map(float, (1, 2))", [1.0, 2.0]),
     "generator": ("(k / 2 for k in range(3))", [0.0, 0.5, 1.0]),
-    "dict's values": ("{'u': 1, 'v': 2}.values()", [1, 2]),
     "dict": ("{'u': (1, 2), 'v': None}", {"u": [1, 2], "v": None}),
-    "array.array": ("__import__('array').array('d', [1, 2])", [1.0, 2.0]),
     "fraction": ("__import__('fractions').Fraction(1, 4)", 0.25),
-    "decimal": ("[__import__('decimal').Decimal('0.25')]", [0.25]),
     "large integer": ("2**80", float(2**80)),
-    "bytes": ("b'\\x00\\xff'", [0, 255]),
     "float32": ("np.float32(0.5)", 0.5),
-    "integers of numpy": ("[np.int64(3), np.uint8(255), np.bool_(True)]", [3, 255, True]),
     "array": ("np.array([[0.5, 1], [2, 3]], np.float32)", [[0.5, 1.0], [2.0, 3.0]]),
-    "arrays in a tuple": ("np.zeros(2), np.ones(1)", [[0.0, 0.0], [1.0]]),
-    "array of no dimension": ("np.array(2.5)", 2.5),
-    "masked": ("np.ma.array([1.0, 2.0])", [1.0, 2.0]),
-    "array of objects": ("np.array([__import__('fractions').Fraction(1, 2)])", [0.5]),
     "dict of a ray": ("{'direction': D, 'origin': O, 'self': object()}", RAY),
     "dataclass": ("Ray(D, O)", RAY),
     "named tuple, the other way round": ("Named(D, O)", RAY),
     "namespace": ("types.SimpleNamespace(origin=O, direction=D)", RAY),
     "basis": ("types.SimpleNamespace(v=2, w=3, u=1)", {"u": 1, "v": 2, "w": 3}),
     "vectors": ("[Vector(1, 2, 3)]", [[1, 2, 3]]),
-    "sequence": ("Sequence()", [0.0, 0.5, 1.0]),
 }
 SOURCE = """
     import collections, dataclasses, types
@@ -59,28 +44,13 @@ SOURCE = """
         def __init__(self, x, y, z):
             self.x, self.y, self.z = x, y, z
 
-    class Sequence:
-        def __len__(self):
-            return 3
-        def __getitem__(self, k):
-            if k > 2:
-                raise IndexError
-            return k / 2
-
 """
 NO_VALUES = {
     "object()": "of type object",
-    "int": "returned <class 'int'>",
-    "{1, 2}": "{1, 2} of type set",
-    "print": "of type builtin_function_or_method",
     "1j": "1j of type complex",
-    "[1, [2, print]]": "of type list",
     "(lambda a: a.append(a) or a)([])": "[[...]] of type list",
     "type('Loud', (), {'__repr__': lambda self: 1 / 0})()": "returned something of type Loud",
     "type('Long', (), {'__repr__': lambda self: 'x' * 9000})()": "xxx... of type Long",
-    "{(1, 2): 3}": "of type dict",
-    "types": "of type module",
-    "10 ** 9000": "something of type int",
 }
 
 
@@ -118,34 +88,6 @@ def test_what_is_no_value_is_told(student):
         assert "\n" not in failure.text
 
 
-def test_an_async_function_answers_nothing(answer):
-    failure = answer("async def f():\n    return 1\n")
-    assert "f returned a coroutine: write def, not async def" in failure.text
-
-
-def test_warnings_have_no_path(student):
-    """Neither that of the student's folder, nor one of ours."""
-    run = student("""
-        import warnings
-        import numpy as np
-        async def late():
-            return 1
-        def f():
-            warnings.warn("mine", stacklevel=1)
-            warnings.warn("the caller's", stacklevel=2)
-            late()
-            return float(np.divide(1.0, np.zeros(1))[0])
-    """).call([called("f")])
-    assert run.output.splitlines() == [
-        "rays.py:7: UserWarning: mine",
-        "UserWarning: the caller's",
-        "rays.py:9: RuntimeWarning: coroutine 'late' was never awaited",
-        "rays.py:10: RuntimeWarning: divide by zero encountered in divide",
-    ]
-    late = student("async def f():\n    return 1\n", "late.py").call([called("f")])
-    assert late.output == ""
-
-
 def test_what_an_answers_own_code_raises_is_the_students(answer):
     failure = answer("def f():\n    return (1 / k for k in (1, 0))\n")
     assert failure.kind == "exception"
@@ -170,23 +112,6 @@ def test_objects_have_attributes_and_keys(answer):
     assert given == [[1, 2, 3], 1.0, "plane", 4]
 
 
-def test_objects_can_be_copied_compared_and_sent_to_processes(answer):
-    given = answer(
-        """
-        import copy, functools, pickle
-        @functools.cache
-        def f(camera):
-            other, deep = copy.copy(camera), copy.deepcopy(camera)
-            deep.inner.x = other.eye = 0
-            sent = pickle.loads(pickle.dumps(camera))
-            assert deep["inner"]["x"] == 0 and camera == camera and other != camera
-            return camera.eye, sent.eye, sent.inner.x, repr(camera.inner)
-        """,
-        camera={"eye": [1, 2], "inner": {"x": 5}},
-    )
-    assert given == [[1, 2], [1, 2], 5, "Inner(x=5)"]
-
-
 def test_the_letters_of_the_book_name_the_same_fields(answer):
     asked = "def f(camera):\n    return [camera.e, camera.d] == [camera.eye, camera.distance]\n"
     assert answer(asked, camera=CAMERA)
@@ -197,7 +122,6 @@ def test_the_letters_of_the_book_name_the_same_fields(answer):
 def test_a_field_that_is_not_there_says_which_are(answer):
     failure = answer("def f(camera):\n    return camera.dist\n", camera=CAMERA)
     assert "AttributeError: Camera has no 'dist'; it has: eye, u, v, w, distance" in failure.text
-    assert not any("<lucida>" in line for line in failure.traceback)
 
 
 def test_a_call_does_not_change_what_the_next_is_given(student):
@@ -229,19 +153,6 @@ def test_vectorised_calls_get_arrays_of_their_own(student):
     assert one.call([again, again]).values == ([[12, 23], [0.0, 0.0, 5.0]],) * 2
 
 
-def test_a_vectorised_call_where_numpy_is_not_numpy(student, tmp_path):
-    (tmp_path / "numpy.py").write_text("mine = 7\n", "utf-8")
-    run = student("def f(i): return 1\n").call([called("f", True, i=[1]), called("f", i=1)])
-    failure, right = run.values
-    assert "module 'numpy' has no attribute 'array'" in failure.text
-    assert (failure.kind, right) == ("exception", 1)
-
-
-def test_numpy_is_imported_for_no_other_call(answer):
-    given = answer("import sys\ndef f(a):\n    return 'numpy' in sys.modules\n", a=[1, 2])
-    assert given is False
-
-
 def test_calls_of_one_function_and_of_others(student):
     one = student("def f(x):\n    return x\ndef g():\n    return f(1)\n")
     assert one.functions() == {"f", "g"}
@@ -250,10 +161,24 @@ def test_calls_of_one_function_and_of_others(student):
     assert one.call([called("g")]).values == (1,)
 
 
+def test_an_async_function_and_a_warning(student):
+    one = student(
+        """
+        import warnings
+        def f():
+            warnings.warn("mine", stacklevel=1)
+        async def g():
+            return 1
+        """
+    )
+    run = one.call([called("f"), called("g")])
+    assert "g returned a coroutine: write def, not async def" in run.values[1].text
+    assert run.output == "rays.py:4: UserWarning: mine\n"
+
+
 def test_many_calls(student):
     one = student("def f(i, camera):\n    print(i)\n    return i, camera.eye\n", output=100)
     run = one.call([called("f", i=i, camera=CAMERA) for i in range(3072)])
     assert run.values == tuple([i, [0.0, 0.0, 5.0]] for i in range(3072))
     assert run.output.startswith("0\n1\n2\n")
     assert run.output.endswith("3070\n3071\n")
-    assert "characters left out" in run.output

@@ -1,0 +1,152 @@
+"""A pasted matrix without a name: the camera of each usual meaning. Pure."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from renderer.camera import Camera, Floats
+from renderer.camera_checks import listed
+from renderer.camera_formats import opencv
+from renderer.camera_formats.given import Options
+from renderer.camera_formats.rigid import rigid
+from renderer.errors import LucidaError
+from renderer.scene.model import View
+
+MOST_CHARACTERS = 4000
+ROUNDED = 5e-3  # error of a rotation that was printed with few digits
+PARALLEL = 1e-3  # sine of the angle between rows that are parallel
+SKEW = 0.05  # of fx: the largest skew in a K that was computed
+AXES = {
+    "y up, z back (OpenGL)": (1, 1, 1),
+    "y down, z forward (OpenCV)": (1, -1, -1),
+}
+TRANSPOSED = ", transposed (for row vectors)"
+
+# Comments, names, and numbers that belong to no matrix: 4x4, m[16], reshape(4, 4).
+_OTHER = re.compile(
+    r"#[^\n]*|//[^\n]*|\breshape\([^)]*\)|\b\d+ ?x ?\d+\b|\[\s*\d*\s*\]|\b[A-Za-z_]\w*"
+)
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """A meaning of a matrix.
+
+    words: what it is, a line for each name; the last line says where its camera is.
+    view: that camera.
+    """
+
+    words: str
+    view: View
+
+
+def matrix_in(text: str) -> Floats | None:
+    """Return the 16 or 12 numbers of a text, (4, 4) or (3, 4); None if it holds another count."""
+    numbers = _NUMBER.findall(_OTHER.sub(" ", text)) if len(text) <= MOST_CHARACTERS else []
+    return np.array(numbers, float).reshape(-1, 4) if len(numbers) in (12, 16) else None
+
+
+def meanings(matrix: Floats, now: View, center: ArrayLike) -> list[Meaning]:
+    """Return the usual meanings of a matrix that make a camera.
+
+    Those whose camera looks at `center`, the scene's middle, come first. now: the present view, for
+    what a matrix leaves open.
+    """
+    found: dict[tuple[float, ...], tuple[list[str], View]] = {}
+    for order, rows in (("", matrix), (TRANSPOSED, matrix.reshape(4, -1).T)):
+        for words, make in _ways(rows, now):
+            try:
+                view = make()
+            except (LucidaError, np.linalg.LinAlgError):
+                continue
+            c = view.camera
+            key = np.round([*c.eye, *c.u, *c.v, *c.w, *c.viewport], 6) + 0.0
+            found.setdefault(tuple(key.tolist()), ([], view))[0].append(words + order)
+    ordered = sorted(found.values(), key=lambda one: -_aim(one[1].camera, np.asarray(center)))
+    return [Meaning("\n".join([*words, _place(view.camera)]), view) for words, view in ordered]
+
+
+def _ways(rows: Floats, now: View) -> Iterator[tuple[str, Callable[[], View]]]:
+    """Yield the meanings of a matrix for column vectors."""
+    linear = rows[:3, :3]
+    scale = np.cbrt(np.linalg.det(linear))
+    last = rows[3] if len(rows) == 4 else (0, 0, 0, 1)
+    if not np.allclose(last, (0, 0, 0, 1), atol=1e-5):
+        depth, distance = rows[2:, :3]
+        lengths = np.linalg.norm(depth) * np.linalg.norm(distance)
+        if np.linalg.norm(np.cross(depth, distance)) > PARALLEL * lengths:
+            return  # depth does not grow along the view direction
+        yield "projection times view (MVP)", partial(_product, rows)
+        if np.allclose(last, (0, 0, -1, 0)):
+            yield "projection alone, from the present eye", partial(_projection, rows, now)
+    elif scale > 0 and np.abs(linear @ linear.T / scale**2 - np.eye(3)).max() < ROUNDED:
+        for axes, signs in AXES.items():
+            yield f"camera to world, {axes}", partial(_pose, rows, signs, now, inverse=False)
+            yield f"world to camera, {axes}", partial(_pose, rows, signs, now, inverse=True)
+    elif len(rows) == 4:
+        yield "parallel projection times view (MVP)", partial(_parallel, rows)
+    else:
+        yield "P = K [R | t], in pixels", partial(_pixels, rows)
+
+
+def _pose(rows: Floats, axes: tuple[int, ...], now: View, inverse: bool) -> View:
+    pose = np.vstack([rows[:3], (0, 0, 0, 1)])
+    pose = np.linalg.inv(pose) if inverse else pose
+    linear = pose[:3, :3] / np.cbrt(np.linalg.det(pose[:3, :3])) * axes
+    u, v, w = linear.T.tolist()
+    return replace(now, camera=replace(now.camera, eye=pose[:3, 3].tolist(), u=u, v=v, w=w))
+
+
+def _product(rows: Floats) -> View:
+    """Read clip_from_world: the corners of clip space are those of the viewport."""
+    seen = rows[[0, 1, 3]]
+    across, up, ahead = (basis := np.linalg.inv(seen[:, :3])).T
+    return _corners(-basis @ seen[:, 3], across, up, -ahead, "perspective")
+
+
+def _parallel(rows: Floats) -> View:
+    across, up, along, middle = np.linalg.inv(rows)[:3].T
+    return _corners(middle - along, across, up, -along, "parallel")
+
+
+def _corners(eye: Floats, u: Floats, v: Floats, w: Floats, projection: str) -> View:
+    """Return the camera with the viewport -1 to 1. Left-handed u, v, w: y points down (Vulkan)."""
+    v = v * np.sign(np.linalg.det([u, v, w]))
+    numbers: tuple[Any, Any, Any, Any] = (eye.tolist(), u.tolist(), v.tolist(), w.tolist())
+    camera = Camera(*numbers, 1.0, (-1, 1, -1, 1), projection)
+    return View(rigid(camera, "a camera"), fit=True)
+
+
+def _projection(rows: Floats, now: View) -> View:
+    own = _product(rows).camera
+    now_camera = replace(now.camera, distance=own.distance, viewport=own.viewport, lens=None)
+    return View(now_camera, fit=True)
+
+
+def _pixels(rows: Floats) -> View:
+    """Read P. Its image is the one whose middle is the principal point."""
+    posed = opencv.read_table({"P": rows}, Options(), "center").cameras[0]
+    assert posed.size is not None
+    K = posed.camera.intrinsics(posed.size).K
+    if abs(K[0, 1]) > SKEW * K[0, 0]:
+        raise LucidaError("P", "is skewed")
+    return View(posed.camera, fit=True)
+
+
+def _aim(camera: Camera, center: Floats) -> float:
+    """Return the cosine of the angle between the view direction and the way to `center`."""
+    way, w = center - camera.eye, np.asarray(camera.w)
+    return float(-w @ way / max(float(np.linalg.norm(way) * np.linalg.norm(w)), 1e-12))
+
+
+def _place(camera: Camera) -> str:
+    ahead = -np.asarray(camera.w) / np.linalg.norm(camera.w)
+    return f"eye {listed(np.round(camera.eye, 3))}, looks along {listed(np.round(ahead, 3))}"

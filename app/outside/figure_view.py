@@ -1,0 +1,219 @@
+"""The outside view as a figure: for a file, and for the image laboratory.
+
+Owns the way from the window to a Sketch, in the window's thread; the figure is made in another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, Literal, cast
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2
+from numpy.typing import NDArray
+
+from app.host.view import Host
+from app.images.renderers import look_of
+from app.images.request import ImageRequest
+from app.images.window_rasterizer import WindowRasterizer
+from app.outside.camera_diagram import Content
+from app.outside.diagram import Item, Role
+from app.outside.extent import end_parameter
+from app.outside.figure import (
+    WHITE,
+    Color,
+    Depths,
+    Figure,
+    PlaneImage,
+    Size,
+    figure_parts,
+    with_picture,
+)
+from app.outside.ground import SHIFTS
+from app.outside.growing import grown_diagram
+from app.outside.looking import nearest, scope_of, units_px
+from app.outside.options import OutsideOptions
+from app.outside.paint import figure_color, ground_of
+from app.outside.projected import project
+from app.outside.screen import OutsideScreen, image_plane
+from app.outside.svg import svg
+from app.outside.view import OPACITY, OutsideView
+from app.widgets import theme
+from app.widgets.theme import framebuffer_scale
+from renderer.atomic import atomic_write
+from renderer.camera import Camera
+from renderer.errors import LucidaError, describe
+from renderer.images.display import to_srgb8
+from renderer.memo import Memo
+from renderer.scene.model import Scene
+
+if TYPE_CHECKING:
+    from app.host.action import Window
+
+Ground = Literal["window", "white", "transparent"]
+PLACE = "Figure"  # see Rasterizer.draw
+ALONE = (1280, 960)  # of a figure while the outside view is hidden
+GRID_PARTS = 16  # of a side of the image plane
+FINE, LARGE_PX = 2, 1 << 21  # the image's pixels a side of each of the page's; of a larger page, 1
+
+
+@dataclass(frozen=True, eq=False)
+class Sketch:
+    """The inputs of a figure.
+
+    t: (height, width), of the scene at the page's pixels. color: of a role and a tint. picture, on
+    the image plane, and image: as in Figure; None for neither.
+    """
+
+    scene: Scene
+    screen: OutsideScreen
+    content: Content
+    extra: tuple[Item, ...]
+    t: Depths
+    color: Callable[[Role, float], Color]
+    ground: Color | None
+    picture: PlaneImage | None = None
+    image: NDArray[np.uint8] | None = None
+
+    def figure(self, behind: Sequence[Item] = ()) -> Figure:
+        """Return the figure. behind: items under all others of their layer."""
+        screen = self.screen
+        items = [*behind, *grown_diagram(self.content), *self.extra]
+        plane = None if self.picture is None else self.picture.plane
+        parts = figure_parts(project(items, screen), self.color, screen, self.t, plane)
+        return Figure(screen.size, parts, screen.unit_px, self.ground, self.image)
+
+
+class Sketcher:
+    """Sketches of lines and labels; the same one again as long as nothing has changed."""
+
+    def __init__(self) -> None:
+        self._sketch = Memo(_sketch)
+
+    def follow(
+        self,
+        view: OutsideView,
+        host: Host,
+        size: Size,
+        ground: theme.Rgb,
+        units: tuple[float, float] | None = None,
+        shape: Size | None = None,
+    ) -> Sketch:
+        """Return the present inputs of a figure, without the scene's image.
+
+        ground: the colour that the lines must contrast with. units: the width of a line and the
+        size of symbols; the view's own if not given. shape: of a page; what fits on such a page
+        fits on this one. Raises LucidaError, moderngl.Error.
+        """
+        both, state = host.renderers, host.state
+        both.need_size(state.images)
+        scale = framebuffer_scale()
+        extent = ImVec2(size[0] / scale, size[1] / scale)
+        scope = scope_of(host, size, ImVec2(0, 0), extent, view.framing, view.extensions.points)
+        looking = scope.camera.fitted(shape).fitted(size) if shape else scope.shown
+        camera = both.camera(state)
+        marked, hits = view.rays(host, camera, both.size)
+        assert both.textures is not None
+        content = Content(
+            camera, both.size, replace(state.of(OutsideOptions), camera=None),
+            end_parameter(camera, host.focus.framed), tuple(hits), marked, GRID_PARTS,
+            state.options.notation,
+        )  # fmt: skip
+        return self._sketch(
+            both.textures.rasterizer, theme.used(), ground, state.scene, looking, size,
+            nearest(looking, scope), *(units or units_px(extent)), content, view.extra,
+        )  # fmt: skip
+
+
+def _sketch(
+    rasterizer: WindowRasterizer,
+    _: theme.WindowLook,
+    ground: theme.Rgb,
+    scene: Scene,
+    looking: Camera,
+    size: Size,
+    near: float,
+    unit: float,
+    symbol: float,
+    content: Content,
+    extra: tuple[Item, ...],
+) -> Sketch:
+    """Return a Sketch with the colours of the look in use."""
+    t = _drawn(rasterizer, ImageRequest(scene, looking, size))[1]
+    screen = OutsideScreen(looking, size, near, unit, symbol)
+    return Sketch(scene, screen, content, extra, t, partial(figure_color, ground=ground), ground)
+
+
+def _drawn(rasterizer: WindowRasterizer, request: ImageRequest) -> tuple[Depths, Depths]:
+    """Return the colours (height, width, 3) in linear light, and the ray parameters (height,
+    width). Waits for the GPU.
+    """
+    textures, (width, height) = rasterizer.draw(request, PLACE), request.size
+    color, surface = (
+        np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)
+        for texture in (textures.color, textures.surface)
+    )
+    return color[..., :3].copy(), surface[..., 3].copy()
+
+
+def _with_image(sketch: Sketch, host: Host) -> Sketch:
+    """Return the sketch with the shaded scene, and the live image if that is shown."""
+    both, screen, state = host.renderers, sketch.screen, host.state
+    assert both.textures is not None
+    request = both.request(state)
+    assert request is not None
+    size, is_parallel = screen.size, screen.camera.is_parallel
+    fine = FINE if size[0] * size[1] <= LARGE_PX else 1
+    width, height = fine * size[0], fine * size[1]
+    color, covered = np.zeros((height, width, 3), np.float32), np.zeros((height, width, 1))
+    for shift in SHIFTS:  # smooth edges; the last one is not shifted
+        camera = screen.camera.shifted(*shift, (width, height))
+        seen = ImageRequest(state.scene, camera, (width, height))
+        drawn, t = _drawn(both.textures.rasterizer, seen)
+        is_hit = np.isfinite(t)[..., None]
+        color += np.where(is_hit, drawn, 0)
+        covered += is_hit
+    rgb = to_srgb8(color / np.maximum(covered, 1), state.images.exposure_ev)
+    alpha = np.round(255 / len(SHIFTS) * covered).astype(np.uint8)
+    image, picture = np.concatenate([rgb, alpha], axis=2), None
+    plane = image_plane(sketch.content.camera, screen.camera, size)
+    texture = both.textures.whole_raster(request, look_of(state.images))
+    if sketch.content.options.image and plane is not None and texture is not None:
+        pixels = np.frombuffer(texture.read(), np.uint8).reshape(*texture.size[::-1], 4)
+        picture = PlaneImage(pixels[..., :3], plane, OPACITY)
+        image = with_picture(image, t, picture, size, is_parallel)
+    return replace(sketch, image=image, picture=picture)
+
+
+def export_figure(window: Window, ground: Ground) -> None:
+    """Ask for a file, and write the present outside view into it as SVG."""
+    view, host, state = window.view(OutsideView), cast(Host, window), window.state
+    behind = ground_of(state.scene.background, state.images.exposure_ev)
+    page: theme.Rgb = behind if ground == "window" else WHITE
+    try:
+        sketch = Sketcher().follow(view, host, view.size_px or ALONE, page)
+        sketch = _with_image(sketch, host)
+    except (LucidaError, moderngl.Error) as error:
+        host.files.message = describe(error)
+        return
+    if ground == "transparent":
+        sketch = replace(sketch, ground=None)
+    save_svg(host, sketch.figure, sketch.scene.name)
+
+
+def save_svg(host: Host, make: Callable[[], Figure], scene: str) -> None:
+    """Ask for a file, and write a figure into it. make: called on another thread."""
+
+    def store(path: str) -> str:
+        title = f"{scene}: the outside view" if scene else "The outside view"
+        content = svg(make(), title).encode()
+        with atomic_write(path) as file:
+            file.write(content)
+        return f"Saved {path}, {len(content)} bytes."
+
+    host.files.save_as_dialog(
+        "Export the figure as SVG", "figure.svg", ("SVG files", ".svg"), store
+    )

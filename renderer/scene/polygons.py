@@ -1,0 +1,80 @@
+"""Cut the polygons of model files into triangles."""
+
+from __future__ import annotations
+
+import mapbox_earcut
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.errors import LucidaError
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+TURNED = 1e-9  # part of a polygon's area below which a triangle of its fan is not turned over
+
+
+def check_corners(corners: Ints, count: int) -> None:
+    """Raise LucidaError if a face uses one of `count` vertices that does not exist."""
+    if len(corners) and (corners.min() < 0 or corners.max() >= count):
+        wrong = corners.min() if corners.min() < 0 else corners.max()
+        raise LucidaError("faces", f"use vertex {wrong} of {count}", "export the model again")
+
+
+def triangulated(points: Floats, corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
+    """Return (places, owner): triangles as places in `corners`, (t, 3), and their polygons, (t,).
+
+    points: (n, 3). corners: the points of all polygons, one polygon after another. counts: the
+    number of corners of each. A polygon becomes a fan around its first corner if none of the fan's
+    triangles is turned over; otherwise ears are clipped in the polygon's plane, so that concave
+    ones and holes that are joined to the border by an edge are right.
+    """
+    if (counts == 3).all():
+        return np.arange(3 * len(counts)).reshape(-1, 3), np.arange(len(counts))
+    fan = np.maximum(counts - 2, 0)
+    owner = np.repeat(np.arange(len(counts)), fan)
+    starts = np.cumsum(counts) - counts
+    places = starts[owner] + np.arange(len(owner)) - np.repeat(np.cumsum(fan) - fan, fan)
+    places = np.stack([starts[owner], places + 1, places + 2], axis=1)
+    large = np.flatnonzero(counts > 3)
+    if not len(large):
+        return places, owner
+    of_large = np.flatnonzero(counts[owner] > 3)
+    x, y, z = points[corners[places[of_large]]].transpose(2, 1, 0)
+    with np.errstate(all="ignore"):
+        (ax, bx), (ay, by), (az, bz) = (axis[1:] - axis[0] for axis in (x, y, z))
+        cross = np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+        ends = np.cumsum(fan[large])
+        area = np.add.reduceat(cross, ends - fan[large], axis=1)  # twice the polygon's
+        along = (cross * np.repeat(area, fan[large], axis=1)).sum(axis=0)
+        least = np.minimum.reduceat(along, ends - fan[large])
+        turned = least < -TURNED * (area * area).sum(axis=0)
+    replaced = np.zeros(len(counts), bool)
+    found, owners = [], []
+    for polygon, normal in zip(large[turned].tolist(), area.T[turned], strict=True):
+        span = np.arange(starts[polygon], starts[polygon] + counts[polygon])
+        ears = _ears(points[corners[span]], normal)
+        if len(ears):
+            replaced[polygon] = True
+            found.append(span[ears])
+            owners.append(np.full(len(ears), polygon))
+    if not found:
+        return places, owner
+    kept = ~replaced[owner]
+    places = np.concatenate([places[kept], *found])
+    owner = np.concatenate([owner[kept], *owners])
+    order = np.argsort(owner, kind="stable")
+    return places[order], owner[order]
+
+
+def _ears(points: Floats, normal: Floats) -> Ints:
+    """Return the triangles (t, 3) of one polygon's corners, in its turn."""
+    axis = int(np.abs(normal).argmax())
+    flat = np.delete(points - points[0], axis, axis=1)
+    if not np.isfinite(flat).all():
+        return np.zeros((0, 3), np.int64)
+    ends = np.array([len(flat)], np.uint32)
+    ears = mapbox_earcut.triangulate_float64(flat, ends).reshape(-1, 3).astype(np.int64)
+    a, b, c = points[ears.T]
+    is_back = np.cross(b - a, c - a) @ normal < 0
+    return np.where(is_back[:, None], ears[:, ::-1], ears)

@@ -1,0 +1,56 @@
+"""Every package that Lucida installs, its extras included, has a licence that allows it."""
+
+from __future__ import annotations
+
+import re
+from importlib import metadata
+
+import pytest
+from packaging.requirements import Requirement
+
+ALLOWED = re.compile(
+    r"\b(MIT|0?BSD|Apache|ISC|PSF|MPL|LGPL|Zlib|CC0)\b|\bRedistribution and use in source and"
+)
+FORBIDDEN = re.compile(r"\bA?GPL|\bGeneral Public License")
+
+
+def required(name: str, found: dict[str, metadata.Distribution], extras: tuple[str, ...] = ()):
+    """Add a distribution and all that it requires here to `found`, by name."""
+    if name.lower() in found:
+        return
+    found[name.lower()] = metadata.distribution(name)
+    for text in found[name.lower()].requires or ():
+        entry = Requirement(text)
+        marker = entry.marker
+        if marker is None or any(marker.evaluate({"extra": extra}) for extra in ("", *extras)):
+            required(entry.name, found, tuple(entry.extras))
+
+
+def licence(distribution: metadata.Distribution) -> str:
+    """Return what a distribution says of its licence: metadata, else the text of its file."""
+    about = distribution.metadata
+    said = [about.get("License-Expression") or "", (about.get("License") or "")[:200]]
+    said += [line for line in about.get_all("Classifier") or () if line.startswith("License")]
+    if not ALLOWED.search(" ".join(said)):
+        files = [file for file in distribution.files or () if "LICENSE" in file.name.upper()]
+        said += [file.read_text() for file in files]
+    return " ".join(said)
+
+
+def packages() -> dict[str, metadata.Distribution]:
+    found: dict[str, metadata.Distribution] = {}
+    required("camera-lucida", found, ("film", "notebook"))
+    return found
+
+
+@pytest.mark.parametrize("name", packages())
+def test_a_licence_that_lucida_can_be_installed_with(name):
+    said = licence(packages()[name])
+    assert ALLOWED.search(said), said[:300]
+    assert not FORBIDDEN.search(re.sub(r"\bLGPL|Lesser General Public License", "", said)), said[
+        :300
+    ]
+
+
+def test_a_forbidden_licence_is_noticed():
+    assert FORBIDDEN.search("GPL-3.0-or-later") and not FORBIDDEN.search("LGPL-2.1")
