@@ -140,12 +140,12 @@ class View:
         a clip line, (3, n).
         """
         primitives, depths = pixels.channel("primitive"), pixels.channel("depth").astype(float)
-        pair = [Surfaces(self, *one) for one in zip(primitives, depths, strict=True)]
-        edge = pair[0].at_outline(i, j, px) | pair[1].at_outline(i, j, px)
-        edge |= _meet(*pair, i, j, px)
-        clip = pair[0].at_clip(i, j, px, drawn=True) | pair[1].at_clip(i, j, px)
+        first, second = (Surfaces(self, *one) for one in zip(primitives, depths, strict=True))
+        edge = first.at_outline(i, j, px) | second.at_outline(i, j, px)
+        edge |= _meet(first, second, i, j, px)
+        clip = first.at_clip(i, j, px, drawn=True) | second.at_clip(i, j, px)
         differ = primitives[0] != primitives[1]
-        hole = differ & (pair[0].at_hole(i, j, px) | pair[1].at_hole(i, j, px))
+        hole = differ & (first.at_hole(i, j, px) | second.at_hole(i, j, px))
         return np.array([edge, hole, clip])
 
     def ray(self, i: Numbers, j: Numbers) -> tuple[Floats, Floats]:
@@ -305,11 +305,11 @@ class Surfaces:
             world = corners @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
             farthest = self._view.image_points(world)[..., 2].max(axis=1)
             vast = np.abs(self._points[..., :2]).max(axis=(1, 2)) / MARGIN * (not drawn)
-            limit = np.zeros(len(self.t))
-            limit[self._triangle] = np.maximum(
+            nearest = np.zeros(len(self.t))
+            nearest[self._triangle] = np.maximum(
                 (NEAREST + ROUNDING_32) * farthest, ROUNDING_32 * vast
             )
-            found |= self.t <= limit * self._view.stretch(i, j)
+            found |= self.t <= nearest * self._view.stretch(i, j)
         return found & (self.primitive >= 0)
 
     def checker_px(self, i: Numbers, j: Numbers) -> Floats:

@@ -112,8 +112,9 @@ class PacketEngine:
         self, origins: Points, directions: Directions, t_min: float, t_max: float
     ) -> NDArray[np.float32]:
         """Return the light (n, 3) along many rays, without shadows and mirrors."""
-        good = np.isfinite(directions).all(axis=1) & np.isfinite(origins).all(axis=1)
-        directions = np.where(good[:, None], directions, np.float32(0))  # hits nothing
+        largest = [np.abs(part).max(axis=1, keepdims=True) for part in (origins, directions)]
+        is_good = np.isfinite(largest[0] + largest[1])
+        directions = np.where(is_good, directions, np.float32(0))  # hits nothing
         t, primitives = self.closest_hits(origins, directions, t_min, t_max)
         light, origins = np.empty((len(t), 3), np.float32), origins.view()
         # Read-only: for writable arrays, the kernel would be compiled again.
