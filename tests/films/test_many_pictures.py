@@ -12,7 +12,6 @@ from PIL import Image
 
 from app.cli import main
 from app.commands import render_many
-from app.films import film
 from renderer import Camera, LucidaError, Tracer, load_scene
 from renderer.camera_formats import PosedCamera
 from renderer.images import picture
@@ -77,31 +76,6 @@ def test_a_large_image_is_that_of_its_parts(render):
             assert (off > 1).mean() < 1e-3
     assert (np.abs(image("raster.png") - image("parts.png")) > 8).mean() < 0.3
     assert not list(Path().glob("*.frames"))
-
-
-def test_a_large_image_goes_on_after_a_break(render, monkeypatch):
-    options = ("-o", "a.png", "--size", "80x100", "--renderer", "ray")
-    drawn, draw = [], film.drawn_here
-
-    def interrupted(*arguments):
-        for number, part in draw(*arguments):
-            if len(drawn) == 2:
-                raise KeyboardInterrupt
-            drawn.append(number)
-            yield number, part
-
-    monkeypatch.setattr(film, "drawn_here", interrupted)
-    assert render(*options)[0] == 130
-    monkeypatch.setattr(film, "drawn_here", draw)
-    broken = Path("a.png.frames/000001.png")
-    whole = broken.read_bytes()
-    broken.write_bytes(whole[:90])
-    status, _, err = render(*options)
-    assert status == 2 and f"{broken}: is no picture; delete it" in err
-    broken.write_bytes(whole)
-    status, out, _ = render(*options)
-    assert status == 0 and "all 4 parts are there" in out
-    assert image("a.png").shape == (100, 80, 3)
 
 
 @pytest.fixture

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from app.outside.cloud import Cloud
 from app.outside.cloud_layer import CloudLayer
 from app.outside.diagram import Segments
-from app.outside.frustum import plane_corners
 from app.outside.paint import role_color
 from app.outside.screen import OutsideScreen
 from renderer.camera import Camera
 from renderer.raster import Rasterizer
-from renderer.raster.overlay import CLOUD_HIDDEN, Overlay, plane_on_screen
+from renderer.raster.overlay import CLOUD_HIDDEN, Overlay
 from renderer.scene.model import Material, Scene, SceneObject, Sphere
 
 SIZE = (160, 120)
@@ -110,21 +109,6 @@ def test_the_scene_makes_what_is_behind_it_pale(rasterizer: Rasterizer, camera: 
         found = at(drawn(rasterizer, a_cloud([place]), camera, BALL), camera, place)
         assert found[0] == pytest.approx(255 * light, abs=2)
         assert at(drawn(rasterizer, a_cloud([place]), camera), camera, place)[0] == 255
-
-
-@pytest.mark.parametrize("camera", CAMERAS)
-def test_the_picture_on_the_image_plane_makes_what_is_behind_it_pale(
-    rasterizer: Rasterizer, camera: Camera
-) -> None:
-    inner = Camera(eye=(0.0, 0.0, 1.0), viewport=(-0.8, 0.8, -0.6, 0.6))
-    corners = plane_corners(inner)[[0, 1, 3]]
-    plane = plane_on_screen(camera, SIZE, corners, np.asarray(inner.eye))
-    for place, light in (((0.1, 0.1, 0.5), 1.0), ((0.1, 0.1, -0.5), CLOUD_HIDDEN)):
-        with rasterizer.current() as gl:
-            picture = gl.texture((1, 1), 4, bytes((0, 0, 0, 255)))
-        found = drawn(rasterizer, a_cloud([place]), camera, plane=plane, picture=picture)
-        assert at(found, camera, place)[0] == pytest.approx(255 * light, abs=2)
-        picture.release()
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])

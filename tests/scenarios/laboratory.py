@@ -10,12 +10,9 @@ from imgui_bundle import imgui
 from maximised import Maximised
 from window_driver import ATTEMPTS, PATIENT_S, Driver, Key
 
-from app.laboratory import disk, kinds
+from app.laboratory import disk
 from app.laboratory.pages import PAGE_TITLES
-from app.laboratory.stored import shown, store
-from app.laboratory.view import LABORATORY, LaboratoryView
-from app.lecture.reading import BUILTIN, load_lecture
-from renderer.images import to_srgb8
+from app.laboratory.view import LaboratoryView
 
 ALONE = Maximised(LaboratoryView, "laboratory")
 
@@ -61,28 +58,6 @@ def drive_every_page_shows_its_pictures(d: Driver) -> None:
     ALONE.close(d)
 
 
-def drive_the_kinds_are_of_the_image_that_is_seen(d: Driver) -> None:
-    view = ALONE.open(d, page="kinds")
-    titles = [panel.title for panel in view.made]
-    assert titles == [kind.title for kind in kinds.KINDS]
-    color = view.source.color  # type: ignore[union-attr]
-    np.testing.assert_array_equal(view.made[2].picture, to_srgb8(color))
-    expected = shown(store(color, kinds.BITMAP, 0.0, "floyd-steinberg"))
-    np.testing.assert_array_equal(view.made[0].picture, expected)
-    # The camera's change is seen; the files' sizes follow.
-    sizes = {(e.format.kind.name, e.format.ending): e.file_bytes for e in view.sizes}
-    assert len(sizes) == 9
-    width, height = color.shape[1], color.shape[0]
-    assert sizes["color", ".ppm"] == len(f"P6\n{width} {height}\n255\n") + 3 * width * height
-    before = view.made[2].picture
-    d.window.change(d.window.state.with_scene(d.window.state.scene).with_fit(False))
-    moved = d.window.state.with_camera(d.window.state.camera.shifted(0, 9, (100, 100)))
-    d.window.change(moved)
-    d.settle()
-    assert (view.made[2].picture != before).any()
-    ALONE.close(d)
-
-
 def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
     view = ALONE.open(d, page="bitmaps")
     began, may_end = threading.Event(), threading.Event()
@@ -105,41 +80,6 @@ def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
         may_end.set()
     d.until(lambda: view.settled)
     assert len(view.sizes) == 9
-    ALONE.close(d)
-
-
-def drive_a_window_that_is_too_low_is_scrolled(d: Driver) -> None:
-    d.window.shell.stage.show(LABORATORY)  # below the two images
-    d.window.change(d.window.state.with_options(laboratory={"page": "kinds"}))
-    d.settle()
-    heights = [panel.picture.shape[0] for panel in d.window.view(LaboratoryView).made]
-    assert min(heights) >= 40, heights  # not squeezed between titles that cover each other
-    ALONE.close(d)
-
-
-def drive_exposure_after_storage_and_projectors_apart(d: Driver) -> None:
-    bright = d.window.state.with_options(images={"exposure_ev": 2.0})
-    d.window.change(bright)
-    view = ALONE.open(d, page="exposure")
-    kept, floats = (panel.picture.copy() for panel in view.made)
-    np.testing.assert_array_equal(kept, floats)
-    d.ctx.item_input_value(ALONE.item("exposure after storage##after"), -2.0)
-    d.settle()
-    assert d.window.state.options.laboratory.after_ev == -2.0
-    kept, floats = (panel.picture for panel in view.made)
-    # Where the bytes were white they are one gray now; the floats still differ there.
-    color = view.source.color * 4.0  # type: ignore[union-attr]
-    white = (color > 1).all(axis=2)
-    assert white.any()
-    assert len(np.unique(kept[white], axis=0)) == 1
-    assert len(np.unique(floats[white], axis=0)) > 5
-    d.window.change(d.window.state.with_options(laboratory={"page": "projectors"}))
-    d.settle()
-    aligned = view.made[0].picture.shape
-    d.ctx.item_input_value(ALONE.item("apart##apart"), 0.3)
-    d.settle()
-    moved = view.made[0].picture.shape
-    assert np.abs(np.subtract(moved, aligned)).max() <= 3, "both fill the room"
     ALONE.close(d)
 
 
@@ -231,19 +171,3 @@ def _collected(seen: list[np.ndarray], picture: np.ndarray) -> int:
     if not seen or (picture != seen[-1]).any():
         seen.append(picture)
     return len(seen)
-
-
-def drive_switches_have_room_in_a_narrow_window(d: Driver) -> None:
-    """Beside a lecture's text, in large type: what has no room in the row stands in the next."""
-    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
-    d.settle()
-    d.window.lecture.go(d.window, 8)
-    for scale in (1.0, 1.5, 2.0):
-        d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-        d.settle()
-        box = d.ctx.item_info(f"//{LABORATORY}/bitmap##method").rect_full
-        window = d.ctx.get_window_by_ref(f"//{LABORATORY}")
-        assert box.max.x <= window.pos.x + window.size.x, scale
-    d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
-    d.window.lecture.leave(d.window)
-    d.settle()

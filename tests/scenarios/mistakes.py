@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
-
 import numpy as np
-from imgui_bundle import imgui
 from maximised import Maximised
 from window_driver import Driver, Key, changed
 
-from app.lecture.reading import BUILTIN, load_lecture
-from app.mistakes import model, pages
+from app.mistakes import model
 from app.mistakes import question as quiz
 from app.mistakes.options import MistakesOptions
 from app.mistakes.view import MISTAKES, MistakesView
 from app.outside.view import OUTSIDE, OutsideView
-from app.widgets import lettering
 
 ALONE = Maximised(MistakesView, "mistakes")
 SHIFT = int(Key.mod_shift)
@@ -75,27 +69,6 @@ def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
     assert made is not None and not made.mistakes
     ALONE.close(d)
     assert view.made is None
-
-
-def drive_pictures_follow_the_camera(d: Driver) -> None:
-    view = ALONE.open(d, columns=32)
-    before = view.made
-    assert before is not None and before.compared is not None
-    camera = d.window.state.camera
-    x, y, z = camera.eye
-    d.window.change(d.window.state.with_camera(replace(camera, eye=(x + 0.5, y, z))))
-    d.settle()
-    after = view.made
-    assert after is not None and after.compared is not None and after.now != before.now
-    assert not np.array_equal(after.compared.wrong, before.compared.wrong)
-    parallel = replace(camera, projection="parallel", viewport=(-2.0, 2.0, -1.5, 1.5))
-    d.window.change(d.window.state.with_camera(parallel))
-    d.settle()
-    last = view.made
-    assert last is not None and last.now.camera.is_parallel and last.mistakes
-    _choose(d, "origin", "no eye")
-    assert "no eye" in _options(d).chosen
-    ALONE.close(d)
 
 
 def drive_a_click_marks_a_pixel_in_all_views(d: Driver) -> None:
@@ -168,109 +141,3 @@ def drive_a_line_is_asked_for(d: Driver) -> None:
     d.settle()
     assert _options(d).answer == made.question.names[2] and _options(d).score[1] == 2
     ALONE.close(d)
-
-
-def drive_a_picture_is_asked_for(d: Driver) -> None:
-    view = ALONE.open(d, columns=32, mode="which-picture", asked="rows count upwards")
-    made = view.made
-    assert made is not None and made.question is not None
-    asked = made.question
-    for number, light in enumerate(asked.pictures):
-        assert _is_shown(d, f"picture {number}", light, made.now.size)
-    assert not d.window.view(OutsideView).extra
-    d.ctx.key_press(int(Key.r))
-    d.settle()
-    assert _options(d).revealed and _options(d).score == (0, 0)
-    d.ctx.key_press(int(Key.r))
-    d.settle()
-    assert not _options(d).revealed
-    d.ctx.item_click(_item(f"picture {(asked.right_at + 1) % 4}"))
-    d.settle()
-    assert _options(d).revealed and _options(d).score == (0, 1)
-    d.ctx.item_click(ALONE.item("next question"))
-    d.settle()
-    assert _options(d).asked == "" and not _options(d).revealed
-    # A mistake that this camera cannot show is no question.
-    d.window.change(d.window.state.with_options(mistakes={"asked": "normalised"}))
-    d.settle()
-    assert view.made is not None and view.made.question is not None
-    assert not view.made.question.names
-    d.ctx.key_press(SHIFT | int(Key._1))
-    d.settle()
-    assert _options(d).answer == "" and _options(d).score == (0, 1)
-    ALONE.close(d)
-
-
-def drive_the_reason_is_in_sight_in_a_low_view(d: Driver) -> None:
-    """The answers may have to be scrolled there, in large type."""
-    drawn: dict[str, float] = {}
-    coded_text = pages.coded_text
-
-    def told(text: str, *arguments: Any) -> None:
-        at, low = imgui.get_cursor_screen_pos().y, imgui.get_window_pos().y
-        drawn[text] = at if low <= at < low + 0.5 * imgui.get_window_size().y else -1.0
-        coded_text(text, *arguments)
-
-    view = ALONE.open(d, columns=32, mode="which-line")
-    d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
-    d.settle()
-    assert view.made is not None and view.made.question is not None
-    answer = _item(f"choice {quiz.LETTERS[1]}")
-    pages.coded_text = told  # type: ignore[assignment]
-    try:
-        d.ctx.item_click(answer)
-        d.settle()
-        drawn.clear()
-        d.picture()
-        reasons = [at for text, at in drawn.items() if text.startswith(("Correct: ", "Not B"))]
-        assert len(reasons) == 1 and reasons[0] >= 0, drawn
-    finally:
-        pages.coded_text = coded_text
-        d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
-    ALONE.close(d)
-
-
-def drive_captions_are_whole_in_large_type(d: Driver) -> None:
-    cut: list[str] = []
-    fitting_words = lettering.fitting_words
-
-    def fitted(text: str, width_px: float) -> str:
-        shown = fitting_words(text, width_px)
-        cut.extend([text] * (shown != text))
-        return shown
-
-    view = ALONE.open(d, columns=32, chosen=("normalised",))
-    lettering.fitting_words = fitted  # type: ignore[assignment]
-    try:
-        for scale in (1.0, 3.0):
-            d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-            d.settle()
-            assert view.made is not None and view.made.mistakes
-            cut.clear()
-            d.picture()
-            assert not cut, (scale, set(cut), imgui.get_io().display_size)
-    finally:
-        lettering.fitting_words = fitting_words  # type: ignore[assignment]
-        d.window.change(d.window.state.with_options(preferences={"font_scale": 1.0}))
-    ALONE.close(d)
-
-
-def drive_the_lecture_asks(d: Driver) -> None:
-    lecture = load_lecture(BUILTIN)
-    titles = [step.title for step in lecture.steps]
-    d.window.lecture.give(lecture, BUILTIN, titles.index("Exercise: what if?"))
-    d.settle()
-    made = d.window.view(MistakesView).made
-    assert made is not None and made.question is not None
-    asked = made.question
-    assert asked.names[asked.right_at] == "rows count upwards"
-    # The lecture's column has the keyboard: the keys hold there too.
-    d.ctx.key_press(SHIFT | (int(Key._1) + asked.right_at))
-    d.settle()
-    assert _options(d).score == (1, 1)
-    _ = d.picture()
-    d.window.lecture.restore(d.window)
-    d.settle()
-    assert _options(d).answer == "" and _options(d).asked == "rows count upwards"
-    d.window.lecture.leave(d.window)
-    d.settle()

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from imgui_bundle.imguizmo import im_guizmo
 from outside_window import enter, place, press, scope, strokes, view
-from window_driver import SIZE, Driver, Key
+from window_driver import Driver, Key
 
 from app.outside import gizmo as outside_gizmo
 from app.outside import tint as outside_tint
@@ -95,20 +95,6 @@ def drive_the_legend_switches(d: Driver) -> None:
     assert view(d).settled
     d.window.undo()
     assert window.state.options.outside.bundle == (0, 0)
-
-
-def drive_a_switch_that_was_clicked_looks_like_the_others(d: Driver) -> None:
-    """Another one has been thrown last in each picture: a ring would say nothing, and be gone after
-    the next start."""
-    enter(d)
-    seen = []
-    for name in ("ray", "grid"):
-        press(d, name)
-        press(d, name)
-        d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
-        d.settle()
-        seen.append(d.picture()[: -SIZE[1] // 10])  # without the status line, which tells times
-    assert np.array_equal(*seen)
 
 
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
@@ -244,37 +230,6 @@ def _watched() -> Iterator[tuple[list[str], list[int], set[int]]]:
         yield texts, hidden, colors
     finally:
         outside_gizmo.motion, outside_gizmo.hide_text = motion, hide_text
-
-
-def drive_handles_have_the_colours_of_the_basis(d: Driver) -> None:
-    enter(d)
-    seen: set[int] = set()
-    recolor = outside_gizmo.recolor
-
-    def watched(draw: Any, first: int, colors: Any) -> None:
-        recolor(draw, first, colors)
-        seen.update((outside_tint.vertex_colors(draw)[first:] & 0xFFFFFF).tolist())
-
-    outside_gizmo.recolor = watched
-    try:
-        for name in ("move eye", "turn basis"):
-            for look in ("dark", "light"):
-                d.window.change(d.window.state.with_options(preferences={"theme": look}))
-                d.ctx.yield_(3)
-                if d.window.state.options.outside.gizmo == "none":
-                    press(d, name)
-                seen.clear()
-                d.ctx.yield_(3)
-                own = {packed(*color) for color in (*outside_tint.AXES.values(), outside_tint.HELD)}
-                assert not seen & own
-                ground = ground_of(d.window.state.scene.background, 0.0)
-                for basis in theme.BASIS.values():
-                    color = theme.seen_on(basis, ground)
-                    parts = (round(255 * part) for part in (color.x, color.y, color.z))
-                    assert packed(*parts) in seen
-            press(d, name)
-    finally:
-        outside_gizmo.recolor = recolor
 
 
 def packed(red: int, green: int, blue: int) -> int:

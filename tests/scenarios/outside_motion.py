@@ -1,11 +1,6 @@
-"""The outside view while it moves: by mouse and keys, coarse where that is needed, by smooth
-passages, as one step."""
+"""The outside view in motion: by mouse and keys, in smooth transitions, each one undo step."""
 
 from __future__ import annotations
-
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import replace
 
 import numpy as np
 from held_clock import Clock
@@ -13,12 +8,9 @@ from outside_window import empty_place, enter, press, scope, view
 from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
-from app.outside import ground as outside_ground
-from app.outside import looking
 from app.outside.ground import Ground
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE
-from renderer.coarseness import FACTORS, Coarseness
 
 
 def ground(d: Driver) -> Ground:
@@ -33,64 +25,6 @@ def looks_from(d: Driver) -> np.ndarray:
     assert at is not None
     back = np.asarray(at.camera.w)
     return back / np.linalg.norm(back)
-
-
-@contextmanager
-def pace(d: Driver, frame_s: float) -> Iterator[None]:
-    """Return the time that a picture may take of a frame. The view is not at rest, however slow the
-    machine.
-    """
-    found = ground(d)
-    before = found.coarseness, outside_ground.STILL_S
-    found.coarseness = Coarseness(frame_s)
-    found.coarseness.measured(1, 1, 1e-3)
-    outside_ground.STILL_S = 1e9
-    try:
-        yield
-    finally:
-        found.coarseness, outside_ground.STILL_S = before
-
-
-def drag(d: Driver) -> list[tuple[int, int]]:
-    """Turns the view; gives how coarse it was, and how wide its lines' picture, after each step."""
-    at = view(d).scope
-    assert at is not None
-    x, y = at.origin.x + 0.62 * at.extent.x, at.origin.y + 0.85 * at.extent.y
-    d.ctx.mouse_teleport_to_pos((x, y))
-    d.ctx.yield_()
-    d.ctx.mouse_down(0)
-    seen = []
-    for step in range(1, 6):
-        before = view(d).primitives
-        d.ctx.mouse_teleport_to_pos((x + 12 * step, y + 4 * step))
-        d.until(lambda before=before: view(d).primitives is not before)
-        size = view(d).size_px
-        assert size is not None
-        seen.append((ground(d).factor, size[0]))
-    d.ctx.mouse_up(0)
-    d.ctx.yield_()
-    return seen
-
-
-def drive_only_a_slow_scene_is_coarse_while_the_view_moves(d: Driver) -> None:
-    enter(d)
-    full = view(d).size_px
-    assert full is not None
-    with pace(d, 1e9):
-        assert drag(d) == [(1, full[0])] * 5  # fast enough
-    d.settle()
-    with pace(d, 1e-9):
-        assert drag(d) == [(FACTORS[-1], full[0])] * 5
-        assert not view(d).settled
-        coarse = d.picture()
-    d.settle()
-    assert ground(d).factor == 1
-    assert view(d).size_px == full
-    number = ground(d).shown.number
-    sharp = d.picture()
-    assert (coarse != sharp).any()
-    d.ctx.yield_(20)
-    assert ground(d).shown.number == number  # at rest
 
 
 def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
@@ -108,35 +42,6 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     assert ground(d).shown.number == number
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
     d.settle()
-
-
-def drive_the_view_of_all_stays_while_the_eye_moves_in_it_and_then_is_as_a_new_one(
-    d: Driver,
-) -> None:
-    enter(d)
-    d.settle()
-    window, number, kept = d.window, ground(d).shown.number, looking.STILL_S
-    before = scope(d).camera
-    looking.STILL_S = 1e9  # however slow the machine is
-    try:
-        for part in (0.01, 0.02, 0.03):  # away from the middle
-            camera = d.start.camera
-            eye = tuple((1 + part) * np.asarray(camera.eye) - part * np.asarray(scope(d).center))
-            drawn = view(d).primitives
-            window.change(window.state.with_camera(replace(camera, eye=eye)))
-            d.until(lambda drawn=drawn: view(d).primitives is not drawn)
-            assert scope(d).camera == before and ground(d).shown.number == number
-            assert not view(d).settled
-    finally:
-        looking.STILL_S = kept
-    d.settle()
-    assert scope(d).camera != before
-    followed = d.picture()
-    view(d).begin_anew()
-    ground(d).forget()
-    d.ctx.yield_(3)
-    d.settle()
-    assert (d.picture() == followed).all()
 
 
 def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:
@@ -213,7 +118,8 @@ def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
     assert before is not None
     clock.s += 0.5 * DURATION_S
     d.until(lambda: window.state.options.outside.camera not in (None, before.camera))
-    drag(d)
+    x, y = empty_place(d)
+    d.drag((x, y), (x + 60, y + 20))
     assert not window.transition.under_way
     turned = window.state.options.outside.camera
     clock.s += DURATION_S
@@ -263,17 +169,6 @@ def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
     assert window.state.options.outside.camera is None
     d.window.undo()
     assert window.state.options.outside.camera == closer
-
-
-def drive_tools_turn_the_view(d: Driver) -> None:
-    enter(d)
-    for name, back in (("y", (0, 1, 0)), ("-x", (-1, 0, 0))):
-        press(d, f"axis {name}")
-        assert np.allclose(d.window.state.options.outside.camera.w, back)
-    press(d, "from camera")
-    shown = d.window.renderers.camera(d.window.state)
-    assert d.window.state.options.outside.camera == shown
-    d.settle()
 
 
 def drive_keys_fly_it_and_switch_it(d: Driver) -> None:

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import replace
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui
 from window_driver import RASTER, Driver, Key
 
 from app.host import layout
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE, OutsideView
-from app.pair.view import RAY
-from app.probe import histogram as histogram_look
 from app.probe import view as probe_view
-from app.probe.formulas import ray_lines
-from app.probe.model import Probe
 from app.probe.reading import Reading
 from app.probe.view import PROBE, ProbeView
 from app.widgets import formula
 from renderer.images.display import to_srgb8
-from renderer.scene.model import Scene
 
 WINDOW = f"//###{PROBE}"
 
@@ -104,23 +98,6 @@ def drive_a_click_fills_the_probe(d):
     assert found.hit is None  # the sky
 
 
-def drive_it_is_live_while_the_camera_moves(d):
-    enter(d)
-    d.window.change(d.window.state.with_options(marked=(120, 150)))
-    before = reading(d)
-    for camera in (
-        replace(d.start.camera, eye=(2.0, 4.0, 8.0)),
-        replace(d.start.camera, projection="parallel", viewport=(-3.0, 3.0, -2.0, 2.0)),
-        replace(d.start.camera, u=(-1.0, 0.3, 0.1), near=4.0, far=9.0),
-    ):
-        d.window.change(d.window.state.with_camera(camera))
-        d.ctx.yield_(2)
-        at_once = view(d).reading  # it does not wait for an image
-        assert at_once is not None and at_once.camera != before.camera
-        check(d, reading(d))
-    assert "near" in ray_lines(reading(d))[-1].name
-
-
 def drive_keys_walk_and_pins_stay(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(60, 70)))
@@ -169,25 +146,6 @@ def drive_pins_are_framed_in_both_images(d):
     d.settle()
 
 
-def drive_copies(d):
-    enter(d)
-    d.window.change(d.window.state.with_options(marked=(120, 150)))
-    found = reading(d)
-    copied = {}
-    for name in ("Text", "LaTeX", "Python"):
-        d.ctx.item_click(f"{WINDOW}/Copy ...")
-        d.ctx.yield_(2)
-        d.ctx.item_click(f"//$FOCUSED/{name}")
-        d.ctx.yield_(2)
-        copied[name] = imgui.get_clipboard_text()
-    assert "row 121, column 151" in copied["Text"]
-    assert copied["LaTeX"].count(r"\begin{align*}") == 1
-    names: dict = {"print": lambda *_: None}
-    exec(copied["Python"], names)
-    assert np.allclose(names["d"], found.direction)
-    assert np.allclose(names["color"], found.color, atol=1e-6)
-
-
 def lines(d: Driver, name: str) -> int:
     """Return the number of stretches of line of a name that the outside view shows."""
     outside = d.window.views[OUTSIDE]
@@ -213,34 +171,6 @@ def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d):
     assert [lines(d, name) for name in ("rays", "pin", "normal")] == [0, 0, 0]
     d.window.shell.stage.show(PROBE)
     d.ctx.yield_(4)
-    leave(d)
-
-
-def is_shadowed(found: Reading) -> bool:
-    return found.shading is not None and not all(lamp.is_lit for lamp in found.shading.lamps)
-
-
-def drive_shadows_mirrors_and_an_empty_scene(d):
-    enter(d)
-    camera, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
-    probe = Probe(d.window.state.scene)
-    places = [(i, j) for i in range(5, size[1], 20) for j in range(5, size[0], 20)]
-    readings = [probe.at(place, camera, size, shadows=True, mirror_depth=1) for place in places]
-    dark = next(found.pixel for found in readings if is_shadowed(found))
-    mirroring = next(found.pixel for found in readings if found.bounces)
-    d.window.change(d.window.state.with_options(marked=dark, shadows=True, mirrors=True))
-    found = reading(d)
-    assert found.pixel == dark and is_shadowed(found)
-    check(d, found)
-    d.window.change(d.window.state.with_options(marked=mirroring))
-    found = reading(d)
-    assert found.pixel == mirroring and found.bounces
-    check(d, found)
-    d.window.change(d.window.state.with_scene(Scene(())))
-    d.settle()
-    found = reading(d)
-    assert found.meetings == () and found.hit is None
-    d.picture()
     leave(d)
 
 
@@ -272,24 +202,6 @@ def drive_the_histogram_is_of_the_image_that_is_shown(d):
         assert len(counted) == 2, "another pixel, the same image"
     finally:
         probe_view.histogram = real
-    # No ray image in sight: the histogram of one that is gone is not shown.
-    plotted, plot = [], histogram_look.plot_counts
-    histogram_look.plot_counts = lambda *arguments: plotted.append(plot(*arguments))
-    try:
-        d.ctx.yield_(4)
-        assert plotted
-        d.window.shell.stage.show(RAY, False)
-        d.ctx.yield_(4)
-        plotted.clear()
-        d.ctx.yield_(2)
-        assert not plotted, "an empty box"
-    finally:
-        histogram_look.plot_counts = plot
-    assert view(d).histogram is None
-    d.window.shell.stage.show(RAY)
-    d.settle()
-    d.ctx.yield_(4)
-    assert view(d).histogram is not None
     leave(d)
 
 

@@ -5,16 +5,12 @@ from __future__ import annotations
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-import numpy as np
 from maximised import Maximised
 from window_driver import Driver, Key
 
-from app.laboratory.diagram import magnified
 from app.laboratory.options import LaboratoryOptions
-from app.laboratory.vector_view import PIXEL_PX, Both
+from app.laboratory.vector_view import Both
 from app.laboratory.view import LaboratoryView
-from app.outside.figure import Polygon
-from app.outside.svg import svg
 from app.state.bounds import range_of
 
 LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
@@ -38,62 +34,9 @@ def _box(d: Driver, number: int) -> tuple[int, int, int, int]:
     return left, top, right, bottom
 
 
-def _panes(d: Driver) -> list[np.ndarray]:
-    """Return what both panes show, without their frames."""
-    d.ctx.mouse_teleport_to_pos((3, 3))
-    d.ctx.yield_(3)
-    window = d.picture()
-    return [
-        window[top + 2 : bottom - 2, left + 2 : right - 2]
-        for left, top, right, bottom in (_box(d, 0), _box(d, 1))
-    ]
-
-
 def _middle(d: Driver, number: int) -> tuple[float, float]:
     left, top, right, bottom = _box(d, number)
     return (left + right) / 2, (top + bottom) / 2
-
-
-def drive_one_stays_sharp_and_the_other_does_not(d: Driver) -> None:
-    view = _page(d)
-    made = _made(view)
-    width, height = made.figure.size
-    assert made.picture.shape == (height // PIXEL_PX, width // PIXEL_PX, 3)
-    assert made.svg_bytes == len(svg(made.figure).encode())
-    shades = []
-    for zoom in (1.0, 8.0, LARGEST_ZOOM):
-        d.ctx.item_input_value(ALONE.item("zoom##zoom"), zoom)
-        d.settle()
-        options = d.window.state.options.laboratory
-        assert options.zoom == zoom
-        # A place with an edge in it: the eye's.
-        eye = next(p for p in made.figure.parts if p.name == "eye")
-        assert isinstance(eye, Polygon)
-        x, y = eye.points[0]  # its rightmost corner
-        at = float(x / width), float(y / height)
-        d.window.change(d.window.state.with_options(laboratory={"zoom_center": at}))
-        d.settle()
-        raster, vector = _panes(d)
-        left, top, right, bottom = _box(d, 0)
-        half = 0.5 / zoom
-        corner = [min(max(part, half), 1 - half) - half for part in at]
-        size = right - left, bottom - top
-        expected = magnified(made.picture, size, (corner[0], corner[1]), (1 / zoom, 1 / zoom))
-        equal = np.abs(raster.astype(int) - expected[2:-2, 2:-2]).max(axis=2) <= 1
-        assert equal.mean() > 0.98, zoom
-        # Both are the same drawing: alike where the pixels' size does not matter.
-        if zoom == 1:
-            difference = np.abs(raster.astype(float).mean(axis=(0, 1)) - vector.mean(axis=(0, 1)))
-            assert difference.max() < 4
-        shades.append([len(np.unique(part.reshape(-1, 3), axis=0)) for part in (raster, vector)])
-    # However large, the vector drawing's edges are a pixel wide; the raster image has few pixels.
-    across = [
-        np.abs(np.diff(pane.astype(int), axis=1)).max(axis=2) > 24 for pane in (raster, vector)
-    ]
-    columns = [int(part.any(axis=0).sum()) for part in across]
-    assert columns[0] <= width / PIXEL_PX / LARGEST_ZOOM + 2, columns
-    assert columns[1] > 20, columns
-    ALONE.close(d)
 
 
 def drive_the_mouse_magnifies_and_moves_both(d: Driver) -> None:
