@@ -133,7 +133,7 @@ class View:
         part[(light[0] == light[1]) | (part <= ROUNDED_LIGHT)] = 0
         varies = seen.texture_varies(i, j)
         border |= same & is_shade & (part <= varies).all(axis=1) & varies.any(axis=1)
-        return np.select([edge, border | hole, clip], [1, 2, 3], 0).astype(np.uint8)
+        return np.select([clip, edge, border | hole], [3, 1, 2], 0).astype(np.uint8)
 
     def parting(self, pixels: Differing, i: Numbers, j: Numbers, px: float) -> Bools:
         """Return which pixels are within `px` of a line that parts two primitives: an edge, a hole,
