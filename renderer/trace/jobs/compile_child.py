@@ -1,9 +1,10 @@
 """The tracer's parts, each compiled on its own; and the process that compiles them for another.
 
 A part is one or more kernels: "trees" builds the trees; "walk" finds the closest hits of viewing
-rays, and "write" shades them; "rays" traces rays that are handed in; "reference" is the simple
-method. "walk-rich" and "write-rich" are for scenes with textures, and for shadows and mirrors;
-"walk-lens" and "write-lens" for all these and a lens, whose table "lens" makes.
+rays, and "write" shades them; "rays" traces rays that are handed in, and "shade" shades them;
+"reference" is the simple method. "walk-rich" and "write-rich" are for scenes with textures, and for
+shadows and mirrors; "walk-lens" and "write-lens" for all these and a lens, whose table "lens"
+makes.
 """
 
 from __future__ import annotations
@@ -80,6 +81,9 @@ def compile_part(part: str) -> None:
     elif part == "rays":
         ray = np.zeros((1, 3)), np.zeros((1, 3))
         PacketEngine(nothing, alone).closest_hits(*ray, 0.0, np.inf)
+    elif part == "shade":
+        ray = np.zeros((1, 3)), np.zeros((1, 3))
+        PacketEngine(nothing, alone).shaded(*ray, 0.0, np.inf)
     elif part == "reference":
         Engine(nothing, alone).compile()
     else:

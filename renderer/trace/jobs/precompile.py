@@ -33,7 +33,7 @@ def parts_of(method: str, effects: bool, scene: Scene, task: Task | RayBatch) ->
     if method == "reference":
         return ("reference",)
     if isinstance(task, RayBatch):
-        return "rays", "trees"
+        return "rays", "trees", *(["shade"] if task.method == "shaded" else [])
     if task.camera.lens is not None:
         return "write-lens", "walk-lens", "trees", "lens"
     variant = "-rich" if effects or has_textures(scene) else ""

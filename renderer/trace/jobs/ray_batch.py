@@ -24,7 +24,7 @@ class RayBatch:
         if len(rays[0]) != len(rays[1]):
             problem = f"are {len(rays[1])}"
             raise LucidaError("directions", problem, f"give {len(rays[0])}: one a ray")
-        self._method, self._arguments = method, (*rays, float(t_min), float(t_max))
+        self.method, self._arguments = method, (*rays, float(t_min), float(t_max))
         self.finished = threading.Event()
         self._answer: Any = None
         self._error: BaseException | None = None
@@ -32,7 +32,7 @@ class RayBatch:
     def run(self, engine: Any) -> None:
         """Trace the rays, unless cancelled before. Called once, by the Tracer's thread."""
         if not self.finished.is_set():
-            self._answer = getattr(engine, self._method)(*self._arguments)
+            self._answer = getattr(engine, self.method)(*self._arguments)
             self.finished.set()
 
     def fail(self, error: BaseException) -> None:

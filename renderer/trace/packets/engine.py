@@ -28,6 +28,7 @@ from renderer.trace.packets.texture import NO_TEXTURES, PacketTextures
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
 from renderer.trace.rays.query import Vectors, any_hits, closest_hits
+from renderer.trace.scalar.kernel import shade_rays
 from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
 
 _ONE_TEXEL = np.zeros(1, np.int32)
@@ -98,6 +99,21 @@ class PacketEngine:
     ) -> NDArray[np.bool_]:
         """Return whether each of many rays hits anything: see rays/query.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
+
+    def shaded(
+        self, origins: Vectors, directions: Vectors, t_min: float, t_max: float
+    ) -> NDArray[np.float32]:
+        """Return the light (n, 3) along many rays, without shadows and mirrors."""
+        largest = [np.abs(part).max(axis=1, keepdims=True) for part in (origins, directions)]
+        with np.errstate(over="ignore"):
+            is_good = np.isfinite(largest[0] + largest[1])
+        directions = np.where(is_good, directions, np.float32(0))  # hits nothing
+        t, primitives = self.closest_hits(origins, directions, t_min, t_max)
+        light, origins = np.empty((len(t), 3), np.float32), np.ascontiguousarray(origins).view()
+        # Read-only: for writable arrays, the kernel would be compiled again.
+        origins.flags.writeable = directions.flags.writeable = False
+        shade_rays(self._flat, origins, directions, t, primitives, light)
+        return light
 
     def trace(
         self, camera: Camera, image: Image, control: Control, rows: Rows | None = None
