@@ -3,7 +3,7 @@
 PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
 QUICK := camera checking/test_task_file.py checking/test_values.py checking/test_words.py compare costs explaining host images/test_placement.py images/test_imaging.py laboratory lecture outside pair probe \
-	project/test_layers.py project/test_names.py state widgets
+	project/test_layers.py state widgets
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run test quick attack bench conformance install-check notebooks pictures lint requirements clean
