@@ -173,11 +173,7 @@ class SceneData:
         return self._flat
 
     def set_view(self, view: RasterView) -> None:
-        """Fill the tables that depend on the camera, unless they are already this camera's.
-
-        The triangles' table is only filled as far as it is drawn: a million triangles take as long
-        as a frame.
-        """
+        """Fill the tables that depend on the camera, unless they are already this camera's."""
         if self._last == view:
             return
         camera, size = view.camera, view.size
