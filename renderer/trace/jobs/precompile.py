@@ -46,7 +46,7 @@ def parts_of(method: str, shadows: bool, mirror_depth: int, variant: str) -> tup
 
 
 def part_of_rays(method: str, origins: str) -> str:
-    """Return the part for an engine's closest_hits or any_hits. origins: their dtype."""
+    """Return the part for an engine's closest_hits, any_hits or shaded. origins: their dtype."""
     return f"rays-{method}-{origins}"
 
 

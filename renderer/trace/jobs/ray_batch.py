@@ -81,7 +81,8 @@ def _exact(value: ArrayLike) -> type:
 def _vectors(name: str, value: ArrayLike, dtype: type) -> np.ndarray:
     """Return contiguous numbers (n, 3). Raises LucidaError."""
     try:
-        array: np.ndarray = np.ascontiguousarray(value, dtype)
+        with np.errstate(over="ignore"):
+            array: np.ndarray = np.ascontiguousarray(value, dtype)
     except (TypeError, ValueError):
         raise LucidaError(name, "is not an array of numbers", "give n x 3 numbers") from None
     if array.ndim != 2 or array.shape[1] != 3:

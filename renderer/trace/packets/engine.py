@@ -24,6 +24,7 @@ from renderer.trace.packets.lens_table import NO_FRAMES, LensTable, lens_table
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
 from renderer.trace.rays.query import any_hits, closest_hits
+from renderer.trace.scalar.kernel import shade_rays
 from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
 
 Points = NDArray[np.floating]  # float32 or float64
@@ -106,6 +107,20 @@ class PacketEngine:
     ) -> NDArray[np.bool_]:
         """Return whether each of many rays hits anything: see rays/query.py."""
         return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
+
+    def shaded(
+        self, origins: Points, directions: Directions, t_min: float, t_max: float
+    ) -> NDArray[np.float32]:
+        """Return the light (n, 3) along many rays, without shadows and mirrors."""
+        largest = [np.abs(part).max(axis=1, keepdims=True) for part in (origins, directions)]
+        is_good = np.isfinite(largest[0] + largest[1])
+        directions = np.where(is_good, directions, np.float32(0))  # hits nothing
+        t, primitives = self.closest_hits(origins, directions, t_min, t_max)
+        light, origins = np.empty((len(t), 3), np.float32), origins.view()
+        # Read-only: for writable arrays, the kernel would be compiled again.
+        origins.flags.writeable = directions.flags.writeable = False
+        shade_rays(self._flat, origins, directions, t, primitives, light)
+        return light
 
     def trace(
         self, camera: Camera, image: Image, control: Control, rows: Rows | None = None
