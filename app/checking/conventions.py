@@ -204,38 +204,20 @@ RIGID_WORDS = frozenset({"target", "up", "forward", *_ANGLES})
 CAMERA = "camera"  # the word for an object with the declared fields
 
 
-def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
-    """Return the value of each camera word, and of CAMERA, as JSON values."""
-    camera, (width, height) = shot.camera, shot.size
+def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> dict[str, Any]:
+    """Return the values of words that are numbers, vectors (3,) or 4 x 4 matrices."""
+    width, height = size
     left, right, bottom, top = camera.viewport
     wide, high = right - left, top - bottom
     to_world = np.eye(4)
-    to_world[:3, :3] = camera.basis * np.array(conventions.axes, float)
+    to_world[:3, :3] = camera.basis * np.array(axes, float)
     to_world[:3, 3] = camera.eye
-    matrices = {
-        "camera_to_world": to_world,
-        "world_to_camera": np.linalg.inv(to_world),
-        "rotation": to_world[:3, :3],
-    }
     corner = np.asarray(camera.eye) + camera.basis @ (left, bottom, -camera.distance)
     across, upwards = camera.basis @ (wide, 0.0, 0.0), camera.basis @ (0.0, high, 0.0)
-    arrays = {
-        **{name: getattr(camera, name) for name in ("eye", "u", "v", "w", "viewport")},
-        "target": shot.target,
-        "up": shot.up,
-        "forward": -np.asarray(camera.w),
-        **{name: m.T if conventions.row_vectors else m for name, m in matrices.items()},
-        "pixel00": corner + 0.5 / width * across + (1 - 0.5 / height) * upwards,
-        "delta_u": across / width,
-        "delta_v": -upwards / height,
-        "top_left": corner + upwards,
-        "bottom_left": corner,
-        "horizontal": across,
-        "vertical": upwards,
-    }
     sides = {"x": wide, "y": high, "long": max(wide, high), "short": min(wide, high)}
     angles = {f"fov_{k}_rad": 2 * math.atan2(s / 2, camera.distance) for k, s in sides.items()}
-    values: dict[str, Any] = {
+    return {
+        **{name: np.asarray(getattr(camera, name)) for name in ("eye", "u", "v", "w")},
         "distance": camera.distance,
         "left": left,
         "right": right,
@@ -243,15 +225,47 @@ def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
         "top": top,
         "viewport_width": wide,
         "viewport_height": high,
-        "projection": camera.projection,
         "width": width,
         "height": height,
-        "size": [width, height],
         "aspect": width / height,
         **angles,
         **{name.removesuffix("_rad"): math.degrees(angle) for name, angle in angles.items()},
-        **{name: np.asarray(array, float).tolist() for name, array in arrays.items()},
+        "forward": -np.asarray(camera.w),
+        "camera_to_world": to_world,
+        "world_to_camera": np.linalg.inv(to_world),
+        "pixel00": corner + 0.5 / width * across + (1 - 0.5 / height) * upwards,
+        "delta_u": across / width,
+        "delta_v": -upwards / height,
+        "bottom_left": corner,
+        "horizontal": across,
+        "vertical": upwards,
     }
+
+
+def pixel_words(i: Whole, j: Whole, size: Size, base: int, from_top: bool) -> dict[str, Any]:
+    """Return the values of the words of pixels. i, j: from 0, row 0 at the top."""
+    width, height = size
+    row = i if from_top else height - 1 - i
+    x, y = j + 0.5, row + 0.5
+    words = {"i": row + base, "j": j + base, "x_pixel": x, "y_pixel": y}
+    words |= {"x01": x / width, "y01": y / height}
+    return words | {"x11": 2 * x / width - 1, "y11": 2 * y / height - 1}
+
+
+def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
+    """Return the value of each camera word, and of CAMERA, as JSON values."""
+    camera = shot.camera
+    values = camera_words(camera, shot.size, conventions.axes)
+    values["rotation"] = values["camera_to_world"][:3, :3]
+    values["top_left"] = values["bottom_left"] + values["vertical"]
+    for name in ("camera_to_world", "world_to_camera", "rotation"):
+        values[name] = values[name].T if conventions.row_vectors else values[name]
+    values = {
+        name: value.tolist() if isinstance(value, np.ndarray) else value
+        for name, value in values.items()
+    }
+    values |= {"target": [*shot.target], "up": [*shot.up], "viewport": [*camera.viewport]}
+    values |= {"projection": camera.projection, "size": [*shot.size]}
     if conventions.vision:
         values |= _vision_values(shot, conventions, values)
     values[CAMERA] = {name: values[word] for name, word in conventions.camera}
@@ -287,13 +301,8 @@ def argument_lists(
     shot: Shot, conventions: Conventions, i: Whole, j: Whole
 ) -> dict[str, list[Any]]:
     """Return the value of each argument's word for each pixel. i, j: int (N,), from 0."""
-    width, height = shot.size
-    row = i if conventions.rows == "top" else height - 1 - i
-    x, y = j + 0.5, row + 0.5
-    pixels: dict[str, NDArray[Any]] = {"i": row + conventions.base, "j": j + conventions.base}
-    pixels |= {"row": pixels["i"], "column": pixels["j"], "x_pixel": x, "y_pixel": y}
-    pixels |= {"x01": x / width, "y01": y / height}
-    pixels |= {"x11": 2 * x / width - 1, "y11": 2 * y / height - 1}
+    pixels = pixel_words(i, j, shot.size, conventions.base, conventions.rows == "top")
+    pixels |= {"row": pixels["i"], "column": pixels["j"]}
     pixels |= {pair: np.column_stack([pixels[part] for part in PAIRS[pair]]) for pair in PAIRS}
     values = camera_values(shot, conventions)
     return {

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 import msgspec
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from app.objects.choosing import chosen, rows_of
 from app.objects.editing import with_scene
@@ -151,24 +151,10 @@ def _panel(
         except LucidaError as error:
             inspector = replace(inspector, problem=str(error))
     if inspector.problem:
-        _tell(inspector.problem)
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.ERROR, inspector.problem)
+        imgui.pop_text_wrap_pos()
     return inspector, state
-
-
-def _tell(problem: str) -> None:
-    """Draw the problem over the panel's lower edge, however it is scrolled, so that no field moves
-    under the mouse.
-    """
-    inside = imgui.internal.get_current_window().inner_clip_rect
-    wide, pad = inside.max.x - inside.min.x, 0.4 * imgui.get_font_size()
-    high = imgui.calc_text_size(problem, wrap_width=wide - 2 * pad).y
-    low = ImVec2(inside.min.x, max(inside.max.y - high - 2 * pad, inside.min.y))
-    ground = imgui.get_style_color_vec4(imgui.Col_.popup_bg)
-    imgui.get_window_draw_list().add_rect_filled(low, inside.max, theme.u32(ground, 1.0))
-    imgui.set_cursor_screen_pos(ImVec2(low.x + pad, low.y + pad))
-    imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + wide - 2 * pad)
-    imgui.text_colored(theme.ERROR, problem)
-    imgui.pop_text_wrap_pos()
 
 
 def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> None:

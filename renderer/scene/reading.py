@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import difflib
 import os
-import re
 import stat
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -179,26 +178,11 @@ def _neighbours(path: Path) -> str:
         [
             name
             for name in names
-            if name not in read
-            and (not kind or os.path.splitext(name)[1].lower() in kind)
-            and (ending not in IMAGE_ENDINGS or _is_respelled(path.stem, os.path.splitext(name)[0]))
+            if name not in read and (not kind or os.path.splitext(name)[1].lower() in kind)
         ],
-        0.75,
+        0.75 if ending not in IMAGE_ENDINGS else 0.9,  # wall_normal.png is not wall_color.png
     )
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
-
-
-def _is_respelled(one: str, other: str) -> bool:
-    """Return True if two names have the same words and numbers, spelt alike: "wall_color2" and
-    "Wall-colour2", but not "wall_normal2"."""
-    words, others = (re.findall(r"\d+|[A-Z]*[a-z]+|[A-Z]+|[^\W_]+", name) for name in (one, other))
-    return "".join(words).lower() == "".join(others).lower() or (
-        len(words) == len(others)
-        and all(
-            a == b if (a + b).isdigit() else bool(close_matches(a, [b], 0.75))
-            for a, b in zip(words, others, strict=True)
-        )
-    )
 
 
 def size_texts(one_bytes: int, other_bytes: int) -> tuple[str, str]:

@@ -26,7 +26,6 @@ LARGE_TEXT_BYTES = 1 << 20
 LARGE_BINARY_BYTES = 8 << 20
 
 _SNIFFED_BYTES = 4096
-_HELLO = b"!"
 
 
 class CancelledError(Exception):
@@ -51,9 +50,7 @@ class ModelReader:
         note(path)
         python = interpreter() if is_large(path) else None
         process = self._start(python, path) if python is not None else None
-        model = self._receive(process, path) if process is not None else None
-        if model is None:
-            model = read_model(path)
+        model = read_model(path) if process is None else self._receive(process, path)
         self.check()
         return model
 
@@ -78,28 +75,20 @@ class ModelReader:
                 self.process = start_child(python, __name__, str(path), output=True)
             return self.process
 
-    def _receive(self, process: subprocess.Popen[bytes], path: Path) -> ModelFile | None:
-        """Return what the process found, or raise its exception; None if it has not begun."""
+    def _receive(self, process: subprocess.Popen[bytes], path: Path) -> ModelFile:
+        """Return what the process found, or raise its exception."""
         assert process.stdout is not None
-        begun, answer = False, None
+        answer = None
         try:
-            begun = process.stdout.read(1) == _HELLO
-            if begun:
-                answer, noted = read_value(process.stdout)
-                note_all(noted)
-        except EOFError:
+            answer, noted = read_value(process.stdout)
+            note_all(noted)
+        except (EOFError, MemoryError):
             pass
-        except MemoryError:
-            raise LucidaError(
-                "", "does not fit into memory", "give a smaller model", str(path)
-            ) from None
         finally:
             with self._lock:
                 self.process = None
             status = end_child(process)
         self.check()
-        if not begun:
-            return None
         if isinstance(answer, Exception):
             raise answer
         if answer is None:
@@ -138,9 +127,8 @@ def main(path: str) -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints is no part of the answer
     end_with_parent()
-    _go_first()
-    answers.write(_HELLO)
-    answers.flush()
+    with contextlib.suppress(OSError):  # Linux ends this process first if memory runs out
+        Path("/proc/self/oom_score_adj").write_text("1000")
     answer: ModelFile | Exception
     with noting() as noted:
         try:
@@ -151,9 +139,3 @@ def main(path: str) -> None:
             answer = RuntimeError(f"{type(error).__name__}: {error}")
     write_value(answers, (answer, noted))
     os._exit(0)  # its memory goes back at once
-
-
-def _go_first() -> None:
-    """Let Linux end this process before the one that waits for it, if memory runs out."""
-    with contextlib.suppress(OSError):
-        Path("/proc/self/oom_score_adj").write_text("1000")

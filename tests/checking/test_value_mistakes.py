@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -192,122 +191,23 @@ def test_nothing_is_told_of_right_answers(name):
     assert diagnose_values(program, asked, np.ones(len(cases), bool)).candidates == ()
 
 
-class TestHitsByHand:
-    AHEAD: ClassVar = {"origin": np.array([0.0, 0, 5]), "direction": np.array([0.0, 0, -2])}
-    BALL: ClassVar = {"center": np.zeros(3), "radius": 1.0}
-    FLAT: ClassVar = {
-        "a": np.array([-1.0, -1, 0]), "b": np.array([2.0, -1, 0]), "c": np.array([-1.0, 2, 0])
-    }  # fmt: skip
-
-    def hit(self, program, known, name=None):
-        chosen = tuple(one for one in program.mistakes if one.name == name)
-        assert len(chosen) == (name is not None)
-        return float(np.squeeze(program.run(known, chosen)[0]))
-
-    @pytest.mark.parametrize(
-        ("name", "t"),
-        [
-            (None, 2), ("the far root", 3), ("the distance for t", 4), ("not divided by a", 8),
-            ("2 a without brackets", 32), ("hit and miss exchanged", math.inf),
-            ("from the origin to the centre", math.inf), ("not from inside", 2),
-        ],
-    )  # fmt: skip
-    def test_sphere(self, name, t):
-        assert self.hit(SPHERE, self.AHEAD | self.BALL, name) == pytest.approx(t)
-
-    def test_sphere_behind_beside_and_inside(self):
-        behind = self.AHEAD | self.BALL | {"origin": np.array([0.0, 0, -5])}
-        assert self.hit(SPHERE, behind) == math.inf
-        assert self.hit(SPHERE, behind, "t < 0 accepted") == -2
-        assert self.hit(SPHERE, behind, "the smaller root, whatever its sign") == -3
-        inside = self.AHEAD | self.BALL | {"origin": np.zeros(3)}
-        assert self.hit(SPHERE, inside) == 0.5
-        assert self.hit(SPHERE, inside, "not from inside") == math.inf
-        beside = self.AHEAD | self.BALL | {"origin": np.array([0.0, 1.5, 5])}
-        assert self.hit(SPHERE, beside) == math.inf
-
-    @pytest.mark.parametrize(
-        ("name", "t"),
-        [
-            (None, 2.5), ("the distance for t", 5), ("the origin minus the corner", math.inf),
-            ("seen from one side only", 2.5), ("seen from the back only", math.inf),
-            ("outside for inside", math.inf), ("the whole plane", 2.5),
-        ],
-    )  # fmt: skip
-    def test_triangle(self, name, t):
-        assert self.hit(TRIANGLE, self.AHEAD | self.FLAT, name) == pytest.approx(t)
-
-    @pytest.mark.parametrize(
-        ("at", "accepted"),
-        [
-            ((1.5, 1.5), {"the parallelogram", "the edge b c not asked", "the whole plane"}),
-            ((-2, 0), {"the edge c a not asked", "the whole plane"}),
-            ((0, -2), {"the edge a b not asked", "the whole plane"}),
-            ((3, 3), {"the edge b c not asked", "the whole plane"}),
-        ],
-    )
-    def test_beyond_an_edge(self, at, accepted):
-        known = self.AHEAD | self.FLAT | {"origin": np.array([*at, 5.0])}
-        assert self.hit(TRIANGLE, known) == math.inf
-        inside = {one.name for one in TRIANGLE.mistakes if "inside" in one.keys}
-        found = {name for name in inside if self.hit(TRIANGLE, known, name) < math.inf}
-        assert found - {"outside for inside"} == accepted
-
-    def test_beside_and_behind_a_triangle(self):
-        along = self.AHEAD | self.FLAT | {"direction": np.array([1.0, 0, 0])}
-        assert self.hit(TRIANGLE, along) == math.inf
-        behind = self.AHEAD | self.FLAT | {"origin": np.array([0.0, 0, -5])}
-        assert self.hit(TRIANGLE, behind) == math.inf
-        assert self.hit(TRIANGLE, behind, "t < 0 accepted") == -2.5
-
-    @pytest.mark.parametrize("kind", ["sphere", "triangle"])
-    def test_the_right_lines_are_the_checker_s(self, kind):
-        program, cases = program_and_cases(kind, 2)
-        for known in cases:
-            shape = {"type": kind} | known
-            t = hits(known["origin"], known["direction"], shape)[0]
-            assert self.hit(program, known) == pytest.approx(float(t))
-
-    def test_all_crossings(self):
-        ball = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
-        assert crossings(*self.AHEAD.values(), ball) == pytest.approx([2, 3])
-        flat = {"type": "triangle", **self.FLAT}
-        behind = [0, 0, -5]
-        assert crossings(behind, [0, 0, -2], flat) == pytest.approx([-2.5])
-        assert np.isnan(crossings([9, 9, 5], [0, 0, -2], flat)).all()
-        assert SHAPES["hit"]([0, 0, 5], [0, 0, 2], ball) == math.inf
-        assert SHAPES["first_crossing"]([0, 0, 5], [0, 0, 2], ball) == -3
-        assert SHAPES["last_crossing"]([0, 0, 5], [0, 0, -2], ball) == 3
-        assert SHAPES["last_crossing"]([0, 0, 5], [0, 0, 2], ball) == math.inf
+@pytest.mark.parametrize("kind", ["sphere", "triangle"])
+def test_the_right_lines_are_the_checker_s(kind):
+    program, cases = program_and_cases(kind, 2)
+    for known in cases:
+        t = hits(known["origin"], known["direction"], {"type": kind} | known)[0]
+        assert float(np.squeeze(program.run(known)[0])) == pytest.approx(float(t))
 
 
-def test_images_by_hand():
-    one = value_program("to-gray")
-    known = {"red": np.array([[1.0, 0]]), "green": np.array([[1.0, 0.5]]), "blue": np.ones((1, 2))}
-    assert one.run(known)[0] == pytest.approx(np.array([[1.0, 0.4298]]))
-    clamp = next(m for m in one.mistakes if m.name == "no clamp before 8 bits")
-    assert one.run(known, (clamp,))[0] == pytest.approx(np.array([[0.0, 110 / 255]]))
-    bits = {"gray": np.array([[127.0, 128, 129]]), "threshold": 128.0}
-    program = value_program("to-bitmap")
-    for name, wanted in {
-        None: [0, 1, 1],
-        "black and white exchanged": [1, 0, 0],
-        "darker or the same is white": [1, 1, 0],
-    }.items():
-        mistakes = [mistake for mistake in program.mistakes if mistake.name == name]
-        assert program.run(bits, mistakes)[0].tolist() == [wanted], name
-    assert value_program("to-bitmap", inclusive=False).run(bits)[0].tolist() == [[0, 0, 1]]
-    at = {"i": 2, "j": 3, "width": 8, "height": 6}
-    for base, column_major, stride, place in (
-        (0, False, 12, 228),
-        (1, False, 12, 120),
-        (0, False, 3, 57),
-        (0, True, 1, 20),
-    ):
-        program = value_program(
-            "memory-offset", base=base, column_major=column_major, stride=stride
-        )
-        assert program.run(at) == (place,)
+def test_all_crossings():
+    ball = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
+    assert crossings([0, 0, 5], [0, 0, -2], ball) == pytest.approx([2, 3])
+    flat = {"type": "triangle", "a": [-1, -1, 0], "b": [2, -1, 0], "c": [-1, 2, 0]}
+    assert crossings([0, 0, -5], [0, 0, -2], flat) == pytest.approx([-2.5])
+    assert np.isnan(crossings([9, 9, 5], [0, 0, -2], flat)).all()
+    assert SHAPES["hit"]([0, 0, 5], [0, 0, 2], ball) == math.inf
+    assert SHAPES["first_crossing"]([0, 0, 5], [0, 0, 2], ball) == -3
+    assert SHAPES["last_crossing"]([0, 0, 5], [0, 0, -2], ball) == 3
 
 
 class TestRender:
@@ -369,31 +269,19 @@ class TestRender:
             assert np.array_equal(image, turned[::-1])
 
 
-class TestFacts:
-    def said(self, right, given):
-        program, known = program_and_cases("sphere", 4)
+def test_facts():
+    program, known = program_and_cases("sphere", 4)
+
+    def said(right, given):
         asked = [ValueCase(*one) for one in zip(known, right, given, strict=False)]
         return diagnose_values(program, asked, np.array(right) != np.array(given)).sentences
 
-    def test_hits_and_misses(self):
-        inf = math.inf
-        assert self.said([1.0, inf, 2.0], [inf, 1.0, 2.0]) == (
-            "1 hit is not found.",
-            "1 hit is found where there is none.",
-        )
-        assert self.said([1.0, inf, 2.0, 4.0], [3.0, inf, 6.0, 12.0]) == (
-            "Hits and misses are correct, only the numbers are not.",
-            "Your numbers are 3 times the correct ones.",
-        )
-
-    def test_one_answer_to_everything_has_no_name(self):
-        assert self.said([1.0, math.inf, 2.0], [math.inf] * 3) == ("You never find a hit.",)
-        assert self.said([1.0, math.inf, 2.0], [2.5] * 3) == (
-            "All your answers are 2.5, whatever is asked.",
-        )
-
-    def test_answers_of_another_shape_have_no_name(self):
-        program, cases = program_and_cases("gray", 4)
-        right = answers(program, cases)
-        asked = [ValueCase(one, wanted, None) for one, wanted in zip(cases, right, strict=True)]
-        assert diagnose_values(program, asked, np.ones(len(cases), bool)).candidates == ()
+    inf = math.inf
+    assert said([1.0, inf, 2.0], [inf, 1.0, 2.0]) == (
+        "Hits that you do not find: 1.",
+        "Hits that you find where there is none: 1.",
+    )
+    told = ("Your numbers are 3 times the correct ones.",)
+    assert said([1.0, inf, 2.0, 4.0], [3.0, inf, 6.0, 12.0]) == told
+    assert said([1.0, inf, 2.0], [inf] * 3) == ("You never find a hit.",)
+    assert said([1.0, inf, 2.0], [2.5] * 3) == ("All your answers are 2.5, whatever is asked.",)

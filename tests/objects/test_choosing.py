@@ -16,10 +16,9 @@ from app.objects.choosing import (
     walked,
 )
 from app.objects.editing import with_scene
-from app.objects.options import ObjectsOptions
 from app.state.app_state import AppState, History
 from renderer.scene import load_scene
-from renderer.scene.model import Mesh, Scene, SceneObject
+from renderer.scene.model import Mesh
 from renderer.scene_editing import objects
 from renderer.scene_editing.changing import set_field
 
@@ -52,11 +51,6 @@ def test_shift_adds_and_takes_away(state):
     both = choose_also(choose(state, (first,)), second)
     assert chosen(both) == (first, second)
     assert chosen(choose_also(both, first)) == (second,)
-
-
-def test_what_is_chosen_already_is_the_same_state(state):
-    one = choose(state, (items_of(state)[0],))
-    assert choose(one, (items_of(state)[0],)) is one
 
 
 def test_what_is_locked_is_as_background(state):
@@ -101,16 +95,3 @@ def test_a_scene_made_in_python_has_nothing_to_choose():
     assert item_at(scene, 0) is None
     assert chosen(walked(state, 1)) == ()
     assert [row.item for row in rows_of(scene)] == [None] * len(rows_of(scene))
-
-
-def test_an_empty_scene_has_nothing_to_choose():
-    state = AppState.for_scene(Scene(objects=()))
-    assert chosen(walked(state, 1)) == chosen(everything(state)) == ()
-    assert state.of(ObjectsOptions).chosen == ()
-
-
-def test_scene_objects_of_a_model_are_chosen_together(state):
-    assert all(isinstance(entry, SceneObject) for entry in state.scene.objects)
-    for row in rows_of(state.scene):
-        for number in row.ids:
-            assert item_at(state.scene, number) == row.item

@@ -145,17 +145,14 @@ def test_they_are_let_go_with_the_mesh():
     assert kept() is None
 
 
-def test_a_large_mesh_has_its_box(monkeypatch):
+def test_a_large_mesh_has_its_box():
     mesh = sheet(np.random.default_rng(3), 0.0)
-    monkeypatch.setattr(silhouette, "MOST_TRIANGLES", len(mesh.faces) - 1)
-    segments = outline_of(SceneObject(mesh, Material()), CAMERAS[0])
-    world = mesh.vertices.astype(float) @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+    segments = outline_of(SceneObject(mesh, Material()), CAMERAS[0], len(mesh.faces) - 1)
     assert segments.shape == (12, 2, 3)
     back = np.linalg.inv(mesh.transform)
     corners = segments.reshape(-1, 3) @ back[:3, :3].T + back[:3, 3]
     assert np.allclose(corners.min(axis=0), mesh.vertices.min(axis=0))
     assert np.allclose(corners.max(axis=0), mesh.vertices.max(axis=0))
-    assert len(world)
 
 
 @pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
@@ -174,27 +171,7 @@ def test_from_inside_a_sphere_there_is_none():
     assert outline_of(SceneObject(ball, Material()), CAMERAS[0]).shape == (0, 2, 3)
 
 
-@pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
-def test_of_many_objects_each_has_the_outline_of_its_box(camera, monkeypatch):
-    """A box's is the box's own; a sphere's is its ring, with fewer corners."""
-    rng = np.random.default_rng(4)
-    entries = []
-    for _ in range(40):
-        transform = np.eye(4)
-        transform[:3, :3] = np.linalg.qr(rng.normal(size=(3, 3)))[0] * rng.uniform(0.1, 0.5, 3)
-        transform[:3, 3] = rng.uniform(-1, 1, 3)
-        entries.append(SceneObject(replace(box(), transform=transform), Material()))
-    exact = np.concatenate([outline_of(entry, camera) for entry in entries])
-    assert len(entries) > silhouette.MOST_EXACT
-    assert segments_of(outlines_of(entries, camera)) == segments_of(exact)
-    monkeypatch.setattr(silhouette, "MOST_EXACT", 0)
-    ball = Sphere(center=(0.2, 0.1, -0.3), radius=0.8)
-    points = outlines_of([SceneObject(ball, Material())], camera).reshape(-1, 3)
-    assert len(points) == 2 * silhouette.FEW_CORNERS
-    way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - points
-    assert np.allclose(np.sum((points - ball.center) * way, axis=1), 0, atol=1e-5)
-
-
-def segments_of(lines: np.ndarray) -> set:
-    """Rounded, and in whichever direction."""
-    return {tuple(sorted(tuple(end) for end in pair)) for pair in (lines.round(5) + 0.0).tolist()}
+def test_many_objects_have_their_boxes():
+    entries = [SceneObject(box(), Material())] * (silhouette.MOST_EXACT + 1)
+    assert outlines_of(entries, CAMERAS[0]).shape == (12 * len(entries), 2, 3)
+    assert outlines_of(entries[1:], CAMERAS[0]).shape[0] < 12 * len(entries[1:])

@@ -181,12 +181,7 @@ SUGGESTED = [
     ("BoxTextured0.bin", ["BoxTextured.gltf", "BoxTextured0.png"], ""),
     ("BoxTextured0.bin", ["BoxTextured.gltf", "boxtextured0.bin"], "boxtextured0.bin"),
     ("wall_baseColor.png", ["wall_normal.png", "wall_occlusion.png"], ""),
-    ("wall_baseColor.png", ["wall_basecolor.jpg"], "wall_basecolor.jpg"),
     ("wall_baseColor.png", ["wall_base_color.png"], "wall_base_color.png"),
-    ("wall_albedo.jpg", ["wall_normal.jpg", "wall_n.jpg"], ""),
-    ("Image0.png", ["Image1.png"], ""),
-    ("wal.png", ["wall.png"], "wall.png"),
-    ("wall.png", ["wall_n.png", "wallNormal.png", "wall2.png"], ""),
 ]
 
 

@@ -9,11 +9,8 @@ import numpy as np
 import pytest
 
 from renderer import Rasterizer
-from renderer.raster import prepared as preparing
-from renderer.raster.prepared import prepare
 from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.scene import Sphere, flatten, load_scene, models
-from renderer.scene import flat as flat_module
 from renderer.scene.shapes import placement
 from renderer.scene_editing import changing, objects
 from renderer.scene_editing.moving import transform
@@ -103,21 +100,6 @@ def test_flat_arrays_are_taken_over_where_only_places_and_materials_change(name,
 
 
 @pytest.mark.parametrize("name", CHANGES)
-def test_no_extent_and_no_normals_of_another_mesh_are_computed_again(name, scene, monkeypatch):
-    flat, changed = flatten(scene), CHANGES[name](scene)
-    known, seen = meshes(scene), []
-
-    def noted(right):
-        return lambda value: seen.append(value) or right(value)
-
-    for function in ("extent", "_world_normals"):
-        monkeypatch.setattr(flat_module, function, noted(getattr(flat_module, function)))
-    flatten(changed, (scene, flat))
-    computed = [id(getattr(value, "vertices", value)) for value in seen]
-    assert sum(vertices in known for vertices in computed) == (name == "turn")
-
-
-@pytest.mark.parametrize("name", CHANGES)
 def test_no_tree_is_built_again(name, scene, monkeypatch):
     built = []
     right = instances.tree_of_mesh
@@ -137,21 +119,6 @@ def test_no_tree_is_built_again(name, scene, monkeypatch):
     for scene_now in (hidden, with_disk, changed):
         trees.update(scene_now, flatten(scene_now))
     assert len(built) == len(new) + 1  # the disk's
-
-
-@pytest.mark.parametrize("name", CHANGES)
-def test_planes_of_known_meshes_are_not_computed_again(name, scene, monkeypatch):
-    """Nor where one is moved or turned: they are in its own space."""
-    prepared, changed = prepare(scene), CHANGES[name](scene)
-    fresh = prepare(changed).setup.planes
-    numbers = []
-    right = preparing.object_planes
-    monkeypatch.setattr(preparing, "object_planes", lambda f, n: numbers.append(n) or right(f, n))
-    followed = prepare(changed, (scene, prepared))
-    new = meshes(changed) - meshes(scene)
-    assert len([n for n in numbers if followed.flat.object_faces[n, 1]]) == len(new)
-    assert (followed.setup.planes is prepared.setup.planes) == (name in SAME_LAYOUT)
-    np.testing.assert_array_equal(followed.setup.planes, fresh)
 
 
 @pytest.mark.parametrize("name", SAME_LAYOUT)

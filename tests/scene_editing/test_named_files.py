@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
-
 import pytest
 from random_edits import TENT
 from textured import noise, saved
 
 from renderer.errors import LucidaError
-from renderer.scene import load_scene, save_scene
+from renderer.scene import load_scene
 from renderer.scene_editing import changing
 from renderer.scene_editing.documents import ChangedOnDiskError, file_of, save
 from renderer.scene_editing.outline import outline
@@ -54,16 +52,6 @@ def test_an_image_of_an_absolute_path_is_refused_although_the_scene_has_it(folde
         changing.set_field(scene, items(scene)[:1], "material.texture", str(folder / "tiles.png"))
 
 
-def test_a_file_is_saved_by_a_path_that_leads_up_as_by_any_other(folder, monkeypatch):
-    scene = load_scene(folder / "scene.toml")
-    monkeypatch.chdir(folder / "below")
-    save_scene("../first.toml", scene)
-    save(scene, "../second.toml")
-    for name in ("first", "second"):
-        tables = tomllib.loads((folder / f"{name}.toml").read_text())
-        assert tables["objects"] == tomllib.loads(TEXT)["objects"]
-
-
 def test_a_scene_that_was_read_by_a_path_that_leads_up_is_saved_where_it_is(folder, monkeypatch):
     monkeypatch.chdir(folder / "below")
     scene = load_scene("../scene.toml")
@@ -75,15 +63,6 @@ def test_a_scene_that_was_read_by_a_path_that_leads_up_is_saved_where_it_is(fold
     (folder / "scene.toml").write_text(TEXT + "# by somebody else\n")
     with pytest.raises(ChangedOnDiskError, match="changed by another program"):
         save(changing.set_field(saved_scene, items(scene)[:1], "name", "crate"))
-
-
-def test_a_link_that_a_path_leads_up_from_is_followed(folder, tmp_path_factory):
-    elsewhere = tmp_path_factory.mktemp("elsewhere") / "inside"
-    elsewhere.mkdir()
-    (folder / "link").symlink_to(elsewhere)
-    found = save(load_scene("spheres"), folder / "link" / ".." / "new.toml")
-    assert (elsewhere.parent / "new.toml").exists() and not (folder / "new.toml").exists()
-    assert file_of(found) == (elsewhere.parent / "new.toml").resolve()
 
 
 def test_a_scene_of_a_relative_path_is_edited_from_any_folder(folder, monkeypatch):

@@ -7,9 +7,6 @@ rays            the program for the viewing ray in a task's words
 value_programs  the programs for other kinds of function
 render          both loops: the ray's lines, then the nearest object
 candidates      the mistakes, one or two at once, that reproduce the given numbers
-fitted          the camera that the student wrote
-differences     its differences from the required one in words, by as_basis or as_viewport,
-                whichever is shorter; both use difference
 ray_facts       what is correct about wrong rays, and where
 diagnosis       the combined result; ray_diagnosis for rays, value_diagnosis for other answers
 """

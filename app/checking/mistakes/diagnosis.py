@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from app.checking.mistakes.candidates import Trial, candidates
 from app.checking.mistakes.program import Mistakes, Program
-from renderer.camera import Camera
 
 # By projection: the program, and the mistakes that explain the answers.
 Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]
@@ -26,16 +25,10 @@ class Diagnosis:
 
     sentences: in the lecture's words, the most helpful first.
     candidates: the mistakes, one or two at once, that all fit the numbers; () if there are none.
-    differences: of the fitted camera from the required one, in words.
-    camera: the fitted camera of the first wrong case; None if the rays belong to no camera.
-    first: the number of that case.
     """
 
     sentences: tuple[str, ...]
     candidates: tuple[Mistakes, ...] = ()
-    differences: tuple[str, ...] = ()
-    camera: Camera | None = None
-    first: int = 0
 
 
 def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,6 @@ from renderer.camera import Camera, Size
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
-Lengths = Literal["any", "exact"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +80,6 @@ def largest_numbers(known: dict[str, Any]) -> Floats:
 class RayTrial:
     """The cases with given and correct rays, (N, 2, 3) each.
 
-    lengths: whether directions must have the correct length.
     any_origin: any point of the ray may be its origin.
     """
 
@@ -90,7 +88,6 @@ class RayTrial:
         cases: Sequence[RayCase],
         given: Floats,
         task: RayTask,
-        lengths: Lengths = "any",
         any_origin: bool = False,
     ) -> None:
         self.count = len(cases)
@@ -99,7 +96,7 @@ class RayTrial:
         rays = [case.camera.ray(*case.pixel, case.size) for case in cases]
         self.right = np.array(rays, float).reshape(-1, 2, 3)
         self.scale = largest_numbers(self.known)
-        self.lengths, self.any_origin = lengths, any_origin
+        self.any_origin = any_origin
 
     def errors(
         self, program: Program, tried: Sequence[Mistakes], cases: Numbers
@@ -131,8 +128,6 @@ class RayTrial:
             turned = np.linalg.norm(rays[..., 1, :] / own[..., None] - along, axis=-1) * length
             no_way = (own == 0) | (length == 0)
             turned = np.where(no_way, np.maximum(own, length), turned)
-            if self.lengths == "exact":
-                turned = np.maximum(turned, np.abs(own - length))
             apart = np.maximum(np.linalg.norm(moved, axis=-1), turned) / scale
         numbers = [np.isfinite(one).all(axis=(-2, -1)) for one in (rays, made)]
         return np.where(numbers[0] | numbers[1], apart, 0.0)

@@ -12,7 +12,6 @@ contract:
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from typing import Any
@@ -20,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from app.checking.conventions import camera_words, pixel_words
 from app.checking.mistakes.catalogue import Part, part, part_from_angles
 from app.checking.mistakes.program import Mistake, Program
 from renderer.camera import Camera, Size
@@ -201,68 +201,9 @@ def ray_values(
     size: of the image, (width, height).
     """
     task = task or RayTask(camera.projection)
-    row, column = (np.asarray(value, float)[..., None] for value in np.broadcast_arrays(i, j))
-    width, height = size
-    left, right, bottom, top = camera.viewport
-    to_world = np.eye(4)
-    to_world[:3, :3] = camera.basis * np.array(task.axes, float)
-    to_world[:3, 3] = camera.eye
-    corner = camera.basis @ [left, bottom, -camera.distance] + camera.eye
-    horizontal, vertical = camera.basis[:, :2].T * [[right - left], [top - bottom]]
-    x01 = (column + 0.5) / width
-    down = (row + 0.5) / height
-    y01 = down if task.from_top else 1.0 - down
-    if not task.from_top:
-        row = height - 1 - row
-    return {
-        "i": row + task.indexing.value,
-        "j": column + task.indexing.value,
-        "x_pixel": x01 * width,
-        "y_pixel": y01 * height,
-        "x01": x01,
-        "y01": y01,
-        "x11": 2 * x01 - 1,
-        "y11": 2 * y01 - 1,
-        "width": float(width),
-        "height": float(height),
-        "eye": np.asarray(camera.eye),
-        "u": np.asarray(camera.u),
-        "v": np.asarray(camera.v),
-        "w": np.asarray(camera.w),
-        "distance": camera.distance,
-        "left": left,
-        "right": right,
-        "bottom": bottom,
-        "top": top,
-        **_angles(camera),
-        "aspect": (right - left) / (top - bottom),
-        "viewport_width": right - left,
-        "viewport_height": top - bottom,
-        "forward": -np.asarray(camera.w),
-        "camera_to_world": to_world,
-        "world_to_camera": np.linalg.inv(to_world),
-        "bottom_left": corner,
-        "horizontal": horizontal,
-        "vertical": vertical,
-        "pixel00": corner + 0.5 / width * horizontal + (1 - 0.5 / height) * vertical,
-        "delta_u": horizontal / width,
-        "delta_v": -vertical / height,
-    }
-
-
-def _angles(camera: Camera) -> dict[str, float]:
-    """Return the fields of view of an orthonormal camera with a symmetric viewport."""
-    left, right, bottom, top = camera.viewport
-    across = 2 * math.atan2((right - left) / 2, camera.distance)
-    along = 2 * math.atan2((top - bottom) / 2, camera.distance)
-    angles = {
-        "fov_x": across,
-        "fov_y": along,
-        "fov_long": max(across, along),
-        "fov_short": min(across, along),
-    }
-    degrees = {name: math.degrees(angle) for name, angle in angles.items()}
-    return degrees | {f"{name}_rad": angle for name, angle in angles.items()}
+    row, column = (np.asarray(value)[..., None] for value in np.broadcast_arrays(i, j))
+    pixel = pixel_words(row, column, size, task.indexing.value, task.from_top)
+    return pixel | camera_words(camera, size, task.axes)
 
 
 def run_rays(

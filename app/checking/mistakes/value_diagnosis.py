@@ -113,14 +113,14 @@ def diagnose_by_kind(
         return None
     constant = _constant(cases)
     if constant:
-        return Diagnosis((constant,), first=int(np.argmax(flags)))
+        return Diagnosis((constant,))
 
     def program_and_trial(kind: str, chosen: list[int]) -> tuple[Program, ValueTrial]:
         return programs[kind], ValueTrial([cases[number] for number in chosen])
 
     sentences, found, explained = named(kinds, flags, program_and_trial)
     facts = [] if explained else _facts(cases)
-    return Diagnosis((*sentences, *facts), found, first=int(np.argmax(flags)))
+    return Diagnosis((*sentences, *facts), found)
 
 
 def _constant(cases: Sequence[ValueCase]) -> str:
@@ -145,24 +145,13 @@ def _facts(cases: Sequence[ValueCase]) -> list[str]:
         return []
     given, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
     told = []
-    if np.isnan(given).any():
-        told.append(f"{np.count_nonzero(np.isnan(given))} of {given.size} numbers are none (NaN).")
-    missed = np.isinf(given) & np.isfinite(right)
-    invented = np.isfinite(given) & np.isinf(right)
-    if missed.any():
-        told.append(_counted(missed, "not found."))
-    if invented.any():
-        told.append(_counted(invented, "found where there is none."))
-    if np.isinf(right).any() and not missed.any() and not invented.any():
-        told.append("Hits and misses are correct, only the numbers are not.")
+    if missed := np.count_nonzero(np.isinf(given) & np.isfinite(right)):
+        told.append(f"Hits that you do not find: {missed}.")
+    if invented := np.count_nonzero(np.isfinite(given) & np.isinf(right)):
+        told.append(f"Hits that you find where there is none: {invented}.")
     both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
     if np.count_nonzero(both) >= 3:
         ratio = given[both] / right[both]
         if np.ptp(ratio) <= 1e-4 * abs(ratio[0]) and abs(ratio[0] - 1) > 1e-3:
             told.append(f"Your numbers are {ratio[0]:.4g} times the correct ones.")
     return told
-
-
-def _counted(hits: NDArray[np.bool_], said: str) -> str:
-    count = np.count_nonzero(hits)
-    return f"{count} hit is {said}" if count == 1 else f"{count} hits are {said}"
