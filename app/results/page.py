@@ -150,11 +150,6 @@ def _part(title: str) -> str:
     return f'<h2 class="part">{title}</h2>\n'
 
 
-def plain(text: str) -> str:
-    """Return a lecture's text without its marks, in letters that the window's fonts have."""
-    return "".join(words for words, _ in _words(text)).replace(TRANSPOSED, "^T")
-
-
 def _marked(text: str) -> str:
     """Return a lecture's text for the page: bold, italic, code and formulas in signs."""
     return "".join(

@@ -77,6 +77,11 @@ class Tracer:
         """
         return self._scenes
 
+    @property
+    def is_compiling(self) -> bool:
+        """True while a job waits for kernels to be compiled, once per installation."""
+        return self._worker.is_compiling
+
     def set_scene(self, scene: Scene) -> None:
         """Set the scene of the images started from now on.
 
