@@ -1,15 +1,15 @@
-# Everything is prepared by scripts/setup.sh, which does nothing where nothing has changed.
+# Everything is prepared by scripts/setup.sh, which does nothing if nothing has changed.
 
 PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
 QUICK := camera checking/test_task_file.py checking/test_values.py checking/test_words.py compare costs explaining host images/test_placement.py images/test_imaging.py laboratory lecture outside pair probe \
-	project/test_layers.py project/test_names.py state widgets
+	project/test_layers.py state widgets
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run test quick attack bench conformance install-check notebooks pictures lint requirements clean
 
 help:
-	@echo 'make setup          prepare .venv and the system libraries'
+	@echo 'make setup          prepare .venv for development; run and test do it, too'
 	@echo 'make run            open the window           make run ARGS="spheres"'
 	@echo 'make test           run the tests             make test ARGS="-k camera"'
 	@echo 'make quick          run in a minute what a change most likely breaks'
@@ -24,10 +24,11 @@ help:
 	@echo 'make clean          remove .venv and everything else that was made'
 
 setup:
-	@sh scripts/setup.sh
+	@sh scripts/setup.sh dev
 
 # -P: not what else lies in this folder, a numpy.py for instance.
-run: setup
+run:
+	@sh scripts/setup.sh
 	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
 
 # Two processes more than processors, each with whole files or classes. ARGS="-n 0": all in one process.
@@ -37,8 +38,7 @@ test:
 	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope --no-loadscope-reorder $(ARGS)
 
 # The linters, and the rooms whose tests need neither a window nor a compilation.
-quick:
-	@sh scripts/setup.sh tests
+quick: setup
 	@sh scripts/lint.sh
 	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope $(addprefix tests/,$(QUICK)) $(ARGS)
 

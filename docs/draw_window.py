@@ -7,6 +7,7 @@ Owns what each picture shows. No display is needed.
 
 from __future__ import annotations
 
+import itertools
 import subprocess
 import sys
 import tempfile
@@ -14,8 +15,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
-
-from imgui_bundle import hello_imgui
 
 from app.host import layout
 from app.lecture.reading import BUILTIN, load_lecture
@@ -34,7 +33,8 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 @dataclass(frozen=True)
 class Picture:
     """options: as AppState.with_options takes them. step: its title in the built-in lecture, and it
-    says what is to be seen; empty: none. code: a student's file. chosen: an object, by its name."""
+    says what is to be seen; empty: none. code: a student's file. chosen: an object, by its name.
+    views: shown in addition to the layout's."""
 
     name: str
     layout: str = layout.LAYOUTS[0].name
@@ -44,6 +44,7 @@ class Picture:
     step: str = ""
     code: str = ""
     chosen: str = ""
+    views: tuple[str, ...] = ()
     lens: Lens | None = None  # of a wide-angle camera
 
 
@@ -61,13 +62,12 @@ PICTURES = (
     Picture("compare", "Compare", "spheres"),
     Picture("probe", "Probe", "primitives", (1600, 900), {"marked": (190, 150)}),
     Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
-    Picture("your-code", "Your code", size=(1600, 900), code=WRONG),
-    Picture("scene", layout.SCENE, size=(1600, 900), chosen="box"),
+    Picture("your-code", layout.LOOPS, size=(1600, 900), code=WRONG),
+    Picture("scene", "Four views", size=(1600, 900), chosen="box", views=("Objects", "Inspector")),
     Picture("lecture", step="From pixel to ray", size=(1600, 900)),
     Picture(
         "presentation",
-        layout.IMAGES,
-        "columns",
+        scene="columns",
         options={"preferences": {"presentation": True}},
     ),
     Picture("lenses", scene="columns", lens=Lens("brown", {"k1": -0.25, "k2": 0.06})),
@@ -89,7 +89,7 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
         state = state.with_camera(camera)
     state = choose(state, [row.item for row in rows_of(state.scene) if row.shown == picture.chosen])
     run = WindowRun(start_platform(want_display=False), state, picture.size, take_picture=True)
-    run.params.callbacks.post_new_frame = _chooser(picture.layout)
+    run.params.callbacks.post_new_frame = _chooser(run, picture)
     with tempfile.TemporaryDirectory() as scratch:
         if picture.code:
             file = Path(scratch, "rays.py")
@@ -99,12 +99,16 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
     return path
 
 
-def _chooser(name: str) -> Callable[[], None]:
-    frames = iter(range(LAYOUT_AT))
+def _chooser(run: WindowRun, picture: Picture) -> Callable[[], None]:
+    frames = itertools.count(1)
 
     def choose() -> None:
-        if next(frames, None) == LAYOUT_AT - 1 and name != hello_imgui.current_layout_name():
-            hello_imgui.switch_layout(name)
+        frame = next(frames)
+        if frame == LAYOUT_AT:
+            layout.switch(picture.layout)
+        elif frame == 2 * LAYOUT_AT:
+            for name in picture.views:
+                run.window.shell.stage.show(name)
 
     return choose
 

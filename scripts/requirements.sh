@@ -13,5 +13,5 @@ pin() {
         --custom-compile-command 'make requirements' "$@" >/dev/null
 }
 
-pin pyproject.toml --output-file requirements.txt "$@"
+pin pyproject.toml --group install --output-file requirements.txt "$@"
 pin --group dev --constraint requirements.txt --output-file requirements-dev.txt "$@"

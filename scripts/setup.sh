@@ -1,11 +1,11 @@
 #!/bin/sh
-# Prepare everything that Lucida needs: .venv with the pinned packages and the project itself, and
-# where they are missing, the system's GL libraries and the locale that typesets formulas.
+# Prepare .venv and, with apt and the rights to use it, the system's packages.
 #
-# Run it again at any time: what is up to date is left alone, without touching the network. Each
-# step leaves a stamp in .venv that holds what it was made from; a stamp that differs is redone.
+# setup.sh: what running needs. setup.sh dev: the linters' and tests' packages, too. setup.sh tests:
+# also the display, window manager, keyboard and browser of some tests.
 #
-# setup.sh tests: also the display, window manager, keyboard, sandbox and browser of some tests.
+# Run it again at any time. Each step leaves a stamp in .venv that holds what it was made from; only
+# a stamp that differs is redone, so that a second run does not touch the network.
 #
 # PYTHON=/path/to/python chooses the interpreter. pip's own configuration (mirrors) is respected.
 
@@ -14,16 +14,16 @@ set -eu
 cd "$(dirname "$0")/.."
 
 VENV=.venv
-GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri libosmesa6"
-DESK_PACKAGES="xvfb openbox xdotool chromium"
-LOCALE=en_US.UTF-8
+GL_PACKAGES="libegl1 libgl1 libgl1-mesa-dri locales"
+DESK_PACKAGES="libosmesa6 xvfb openbox xdotool chromium"
 
 main() {
     usable_venv || make_venv
-    step packages "$(cat requirements.txt requirements-dev.txt)"
-    step project "$(pwd && cat pyproject.toml)"
     distribution=$(cat /etc/os-release 2>/dev/null || uname -s)
-    step system "$GL_PACKAGES $LOCALE $distribution"
+    step system "$GL_PACKAGES $distribution"
+    step packages "$(cat requirements.txt)"
+    step project "$(pwd && cat pyproject.toml)"
+    [ -z "${1:-}" ] || step dev "$(cat requirements-dev.txt)"
     [ "${1:-}" != tests ] || step desk "$DESK_PACKAGES $distribution"
 }
 
@@ -44,179 +44,83 @@ fail() {
     exit 1
 }
 
-# The virtual environment
-
-usable_venv() {
-    [ -x "$VENV/bin/python" ] && is_recent "$VENV/bin/python" &&
-        "$VENV/bin/python" -c 'import pip' 2>/dev/null
-}
+usable_venv() { is_recent "$VENV/bin/python" && "$VENV/bin/python" -c 'import pip' 2>/dev/null; }
 
 is_recent() { "$1" -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; }
 
 make_venv() {
-    python=$(find_python)
-    version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-    if ! "$python" -c 'import ensurepip, venv' 2>/dev/null; then
-        # Debian and Ubuntu keep it in a package of its own.
-        if has_apt && has_rights; then
-            apt_install "python$version-venv" || true # what follows tells
-        fi
-        "$python" -c 'import ensurepip, venv' 2>/dev/null ||
-            fail "$python makes no virtual environments; run: $(apt_command "python$version-venv")"
-    fi
-    say "making $VENV with Python $version"
+    for python in ${PYTHON:-python3.11 python3.12 python3.13 python3.14 python3}; do
+        ! is_recent "$python" || break
+    done
+    is_recent "$python" ||
+        fail "found no Python 3.11 or newer; install one, or name it: PYTHON=/path/to/python make run"
+    # Debian and Ubuntu keep venv in a package of its own.
+    "$python" -c 'import ensurepip' 2>/dev/null ||
+        apt_install "$("$python" -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])')"
+    say "making $VENV"
     "$python" -m venv --clear "$VENV"
 }
 
-find_python() {
-    if [ -n "${PYTHON:-}" ]; then
-        is_recent "$PYTHON" || fail "PYTHON=$PYTHON is not Python 3.11 or newer"
-        echo "$PYTHON"
-        return
-    fi
-    for candidate in python3.11 python3.12 python3.13 python3.14 python3; do
-        if is_recent "$candidate"; then
-            echo "$candidate"
-            return
-        fi
-    done
-    fail "no Python 3.11 or newer was found; install one, or name it: PYTHON=/path/to/python make"
-}
-
-# Python packages
-
 install_packages() {
-    if [ "$(uname -s)" = Linux ] && [ "$(uname -m)" != x86_64 ] && has_apt && has_rights; then
-        # moderngl and glcontext have no wheels here: pip compiles them.
-        version=$("$VENV/bin/python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-        missing=$(missing_packages g++ libx11-dev "python$version-dev")
-        [ -z "$missing" ] || apt_install $missing || true
-    fi
-    say "installing the Python packages (about 200 MB, once)"
-    pip install --require-hashes --requirement requirements.txt --requirement requirements-dev.txt
+    say "installing the Python packages that running needs (once)"
+    pip install --require-hashes --requirement requirements.txt
 }
 
 install_project() {
     pip install --no-deps --no-index --no-build-isolation --editable .
 }
 
+install_dev() {
+    say "installing the linters' and tests' Python packages (once)"
+    pip install --require-hashes --requirement requirements-dev.txt
+}
+
+# pip's scratch files lie next to what it installs, so that a small /tmp does not matter.
 pip() {
-    # Its scratch files lie beside what it installs, so that a small /tmp does not matter.
     mkdir -p "$VENV/tmp"
     TMPDIR=$PWD/$VENV/tmp PIP_USER=0 PIP_DISABLE_PIP_VERSION_CHECK=1 \
         "$VENV/bin/python" -m pip --quiet "$@"
     rm -rf "$VENV/tmp"
 }
 
-# System libraries
-
+# Nothing here is fatal: the program itself says what is missing, and formulas are plain text
+# without the locale.
 install_system() {
-    if has_apt; then
-        install_gl
-        install_locale
-    elif [ "$(uname -s)" != Darwin ]; then # macOS brings its own OpenGL
-        has_gl || fail "OpenGL is missing; install Mesa's EGL (Fedora: mesa-libEGL mesa-libGL" \
-            "mesa-dri-drivers, Arch: mesa), then run this again"
+    if [ "$(uname -m)" = x86_64 ]; then
+        apt_install $GL_PACKAGES
+    else # moderngl has no wheels here: pip compiles it
+        apt_install $GL_PACKAGES g++ libx11-dev python3-dev
+    fi
+    if command -v locale-gen >/dev/null && ! locale -a | grep -qi '^en_US\.utf-*8$'; then
+        as_root sh -c 'echo en_US.UTF-8 UTF-8 >>/etc/locale.gen; locale-gen >/dev/null' || true
     fi
 }
 
-install_gl() {
-    missing=$(missing_packages $GL_PACKAGES)
-    [ -n "$missing" ] || return 0
-    if has_rights && apt_install $missing; then
-        return
-    fi
-    has_gl || fail "OpenGL is missing; run: $(apt_command $missing)"
-    offered=$(offered_packages $missing)
-    [ -z "$offered" ] || say "for all of OpenGL's platforms run: $(apt_command $offered)"
-}
-
-# Whether a context can be had on EGL, or OSMesa is there.
-has_gl() {
-    "$VENV/bin/python" - >/dev/null 2>&1 <<'END'
-import ctypes, ctypes.util, moderngl
-
-try:
-    moderngl.create_context(standalone=True, backend="egl", require=330)
-except Exception:
-    ctypes.CDLL(ctypes.util.find_library("OSMesa") or "libOSMesa.so.8")
-END
-}
-
-# Nothing here is fatal: tests that need a display or a browser say so, and are skipped.
+# Neither is this: tests that need one of them say so, and are skipped.
 install_desk() {
-    has_apt || return 0
-    missing=$(missing_packages $DESK_PACKAGES)
+    for package in $DESK_PACKAGES; do # newer distributions have no libosmesa6
+        apt_install "$package"
+    done
+}
+
+# Install those of the packages that are missing, or say how.
+apt_install() {
+    command -v dpkg-query >/dev/null || return 0
+    missing=
+    for package; do
+        # shellcheck disable=SC2016 # dpkg's format
+        status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) || true
+        [ "$status" = installed ] || missing="$missing $package"
+    done
     [ -n "$missing" ] || return 0
-    if has_rights && apt_install $missing; then
-        return
-    fi
-    say "tests on a display, of walls, or of a browser are skipped; for them run: $(apt_command $missing)"
-}
-
-# Nothing here is fatal: without the locale, formulas are plain text.
-install_locale() {
-    ! locale -a 2>/dev/null | grep -qi '^en_US\.utf-*8$' || return 0
-    if ! has_rights; then
-        say "formulas stay plain text without the locale $LOCALE; run: $(apt_command locales)" \
-            "&& sudo sed -i 's/^# *$LOCALE/$LOCALE/' /etc/locale.gen && sudo locale-gen"
-        return
-    fi
-    missing=$(missing_packages locales)
-    [ -z "$missing" ] || apt_install $missing || return 0
-    say "generating the locale $LOCALE"
-    as_root sed -i "s/^# *$LOCALE/$LOCALE/" /etc/locale.gen 2>/dev/null || true
-    grep -qs "^$LOCALE" /etc/locale.gen ||
-        echo "$LOCALE UTF-8" | as_root tee -a /etc/locale.gen >/dev/null
-    output=$(as_root locale-gen 2>&1) || say "$output"
-}
-
-# apt
-
-has_apt() { command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; }
-
-has_rights() {
-    [ "$(id -u)" = 0 ] || { command -v sudo >/dev/null && sudo -n true 2>/dev/null; }
+    say "installing with apt-get:$missing"
+    { as_root apt-get -qq update && as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq \
+        -o DPkg::Lock::Timeout=300 install --yes --no-install-recommends $missing; } >/dev/null ||
+        say "that failed; run: sudo apt-get install --no-install-recommends$missing"
 }
 
 as_root() {
     if [ "$(id -u)" = 0 ]; then "$@"; else sudo -n "$@"; fi
 }
-
-# Those of the packages that are not installed.
-missing_packages() {
-    for package; do
-        # shellcheck disable=SC2016 # dpkg's format
-        status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) || true
-        [ "$status" = installed ] || printf '%s ' "$package"
-    done
-}
-
-# Those of the packages that the distribution has. (Mesa 25 dropped OSMesa.)
-offered_packages() {
-    for package; do
-        ! LC_ALL=C apt-cache policy "$package" 2>/dev/null | grep -q 'Candidate: [^(]' ||
-            printf '%s ' "$package"
-    done
-}
-
-apt_install() {
-    apt_get update || say "apt-get update failed; going on with the lists that are here"
-    offered=$(offered_packages "$@")
-    [ -n "$offered" ] || return 0
-    say "installing with apt-get: $offered"
-    apt_get install --yes --no-install-recommends $offered
-}
-
-# Silent, unless it fails.
-apt_get() {
-    output=$(as_root env DEBIAN_FRONTEND=noninteractive \
-        apt-get -q -o DPkg::Lock::Timeout=300 "$@" 2>&1) || {
-        printf '%s\n' "$output" >&2
-        return 1
-    }
-}
-
-apt_command() { echo "sudo apt-get update && sudo apt-get install --no-install-recommends $*"; }
 
 main "$@"

@@ -150,7 +150,7 @@ def paste(window: Host) -> None:
         answers: dict[str, Callable[[], None]] = {
             meaning.words: partial(_take, window, meaning) for meaning in found
         }
-        window.files.ask("What does the pasted matrix mean? The camera is:", answers)
+        window.files.ask("What does the pasted matrix mean?", answers)
         return
     window.travel(with_its_basis(window.state.with_view(copied.view)))
     window.files.say(copied.said)

@@ -61,7 +61,10 @@ def meanings(matrix: Floats, now: View, center: ArrayLike) -> list[Meaning]:
     what a matrix leaves open.
     """
     found: dict[tuple[float, ...], tuple[list[str], View]] = {}
-    for order, rows in (("", matrix), (TRANSPOSED, matrix.reshape(4, -1).T)):
+    transposed = matrix.reshape(4, -1).T
+    if matrix.size == 12 and _is_rotation(linear := matrix.ravel()[:9].reshape(3, 3)):
+        matrix = np.column_stack([linear, matrix[2, 1:]])  # R and t, one after the other
+    for order, rows in (("", matrix), (TRANSPOSED, transposed)):
         for words, make in _ways(rows, now):
             try:
                 view = make()
@@ -76,8 +79,6 @@ def meanings(matrix: Floats, now: View, center: ArrayLike) -> list[Meaning]:
 
 def _ways(rows: Floats, now: View) -> Iterator[tuple[str, Callable[[], View]]]:
     """Yield the meanings of a matrix for column vectors."""
-    linear = rows[:3, :3]
-    scale = np.cbrt(np.linalg.det(linear))
     last = rows[3] if len(rows) == 4 else (0, 0, 0, 1)
     if not np.allclose(last, (0, 0, 0, 1), atol=1e-5):
         depth, distance = rows[2:, :3]
@@ -87,7 +88,7 @@ def _ways(rows: Floats, now: View) -> Iterator[tuple[str, Callable[[], View]]]:
         yield "projection times view (MVP)", partial(_product, rows)
         if np.allclose(last, (0, 0, -1, 0)):
             yield "projection alone, from the present eye", partial(_projection, rows, now)
-    elif scale > 0 and np.abs(linear @ linear.T / scale**2 - np.eye(3)).max() < ROUNDED:
+    elif _is_rotation(rows[:3, :3]):
         for axes, signs in AXES.items():
             yield f"camera to world, {axes}", partial(_pose, rows, signs, now, inverse=False)
             yield f"world to camera, {axes}", partial(_pose, rows, signs, now, inverse=True)
@@ -95,6 +96,12 @@ def _ways(rows: Floats, now: View) -> Iterator[tuple[str, Callable[[], View]]]:
         yield "parallel projection times view (MVP)", partial(_parallel, rows)
     else:
         yield "P = K [R | t], in pixels", partial(_pixels, rows)
+
+
+def _is_rotation(linear: Floats) -> bool:
+    """Return True for a rotation, up to rounding and a scale."""
+    scale = np.cbrt(np.linalg.det(linear))
+    return bool(scale > 0 and np.abs(linear @ linear.T / scale**2 - np.eye(3)).max() < ROUNDED)
 
 
 def _pose(rows: Floats, axes: tuple[int, ...], now: View, inverse: bool) -> View:

@@ -1,8 +1,8 @@
 """The layouts: where the windows are docked.
 
-A layout is one table: its splits, and the space of each view. A view may in turn name layouts that
-it is in (DockedView.places). Otherwise it is docked, hidden, with the last view of the layout's
-INSTRUMENTS space. HelloImGui keeps the user's changes of each layout, also between runs.
+A layout is one table: its splits, and the space of each view that it shows. The others are docked,
+hidden, in their own space if the layout has that, otherwise in its INSTRUMENTS space. HelloImGui
+keeps the user's changes of each layout, also between runs.
 """
 
 from __future__ import annotations
@@ -22,13 +22,9 @@ LOWER_SPACE = "LowerSpace"  # below MAIN
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
-IMAGES = "Images"  # what presentation mode shows of the first layout
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 COLUMN = LECTURE, RIGHT_SPACE  # where its text is
-CODE = "Your code"
-SCENE = "Scene"
-POSES = "Poses"
-OUTSIDE = "Outside view"
+OUTSIDE, LOOPS = "Outside view", "Loops"
 LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
 UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
 
@@ -37,21 +33,26 @@ Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part o
 
 @dataclass(frozen=True)
 class Layout:
-    """places: view to space, for the views that it shows, in the tabs' order."""
+    """A layout.
+
+    use: what it is for, in words. places: view to space, for the views that it shows, in the tabs'
+    order.
+    """
 
     name: str
+    use: str
     splits: tuple[Split, ...]
     places: dict[str, str]
 
 
 LEFT, RIGHT, UP, DOWN = imgui.Dir.left, imgui.Dir.right, imgui.Dir.up, imgui.Dir.down
 _CAMERA: Split = (MAIN, CAMERA_SPACE, LEFT, 0.0)  # its width is the panel's
-_LARGE = ((MAIN, INSTRUMENTS, RIGHT, 0.3), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5))
 _ONE_LARGE = (_CAMERA, (MAIN, INSTRUMENTS, RIGHT, 0.34), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5))
 
 LAYOUTS = (
     Layout(
         "Side by side",
+        "Both images, and the camera's numbers.",
         (
             _CAMERA,
             (MAIN, INSTRUMENTS, DOWN, 0.4),
@@ -61,6 +62,7 @@ LAYOUTS = (
     ),
     Layout(
         "Four views",
+        "Both images, the scene from outside, and where the images differ.",
         (
             _CAMERA,
             (MAIN, RIGHT_SPACE, RIGHT, 0.5),
@@ -77,16 +79,19 @@ LAYOUTS = (
     ),
     Layout(
         OUTSIDE,
+        "The scene and the camera in it, large, with both images.",
         _ONE_LARGE,
         {"Camera": CAMERA_SPACE, "Outside": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
     ),
     Layout(
         "Compare",
+        "The difference of the images, pixel by pixel, with its causes.",
         _ONE_LARGE,
         {"Camera": CAMERA_SPACE, "Compare": MAIN, "Raster": RIGHT_SPACE, "Ray": INSTRUMENTS},
     ),
     Layout(
         "Probe",
+        "One pixel's numbers and formulas, with its ray from outside.",
         (
             _CAMERA,
             (MAIN, INSTRUMENTS, RIGHT, 0.46),
@@ -102,7 +107,8 @@ LAYOUTS = (
         },
     ),
     Layout(
-        "Loops",
+        LOOPS,
+        "Object order and image order, step by step, next to their code.",
         (
             (MAIN, RIGHT_SPACE, RIGHT, 0.27),
             (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
@@ -116,6 +122,7 @@ LAYOUTS = (
     ),
     Layout(
         LECTURE,
+        "A lecture's text, and what its step shows.",
         (
             (MAIN, RIGHT_SPACE, RIGHT, 0.36),
             (MAIN, CAMERA_SPACE, LEFT, 0.42),
@@ -124,44 +131,8 @@ LAYOUTS = (
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),
-    Layout(
-        IMAGES,
-        (
-            (MAIN, INSTRUMENTS, DOWN, 0.4),
-            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
-        ),
-        {"Raster": MAIN, "Ray": RIGHT_SPACE},
-    ),
-    Layout(
-        CODE,
-        (
-            (MAIN, RIGHT_SPACE, RIGHT, 0.3),
-            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.5),
-        ),
-        {"Outside": RIGHT_SPACE, "Ray": INSTRUMENTS, "Raster": INSTRUMENTS},
-    ),
-    Layout(
-        SCENE,
-        (
-            _CAMERA,
-            (CAMERA_SPACE, INSTRUMENTS, DOWN, 0.6),
-            (MAIN, LOWER_SPACE, DOWN, 0.5),
-            (MAIN, RIGHT_SPACE, RIGHT, 0.5),
-        ),
-        {"Raster": MAIN, "Ray": RIGHT_SPACE, "Outside": LOWER_SPACE},
-    ),
-    Layout(
-        "Laboratory",
-        _LARGE,
-        {"Laboratory": MAIN, "Raster": RIGHT_SPACE, "Outside": INSTRUMENTS},
-    ),
-    Layout("Mistakes", _LARGE, {"Mistakes": MAIN, "Outside": RIGHT_SPACE, "Ray": INSTRUMENTS}),
-    Layout(
-        POSES,
-        ((MAIN, INSTRUMENTS, RIGHT, 0.36), (INSTRUMENTS, RIGHT_SPACE, UP, 0.5)),
-        {"Outside": MAIN, "Ray": RIGHT_SPACE, "Raster": RIGHT_SPACE, "Poses": INSTRUMENTS},
-    ),
 )
+CHOICES = LAYOUTS[:-1]  # a lecture chooses the last one
 
 
 def column_part(aspect: float) -> float:
@@ -207,11 +178,6 @@ def window_px() -> tuple[float, float]:
     """Return the size of the present window."""
     size = imgui.get_io().display_size
     return size.x, size.y
-
-
-def names_space(layout: Layout, view: DockedView) -> str:
-    """Return the space that a layout has for a view; "" for none."""
-    return layout.places.get(view.name) or view.places.get(layout.name) or ""
 
 
 def largest(views: Iterable[DockedView]) -> int:
@@ -323,10 +289,10 @@ def _docking(
     params.docking_splits = splits
     windows = []
     for view in views:
-        own = names_space(layout, view)
-        space = _own(layout, own or INSTRUMENTS)
-        window = hello_imgui.DockableWindow(view.label, space, draw(view))
-        window.is_visible = bool(own)
+        has_space = any(new == view.space for _, new, _, _ in layout.splits)
+        space = layout.places.get(view.name, view.space if has_space else INSTRUMENTS)
+        window = hello_imgui.DockableWindow(view.label, _own(layout, space), draw(view))
+        window.is_visible = view.name in layout.places
         window.call_begin_end = False
         windows.append(window)
     params.dockable_windows = windows

@@ -11,7 +11,6 @@ from imgui_bundle import imgui
 from app.host import docks, layout
 from app.host.failing import FailedViews
 from app.host.view import DockedView, Host
-from app.state.options import Preferences
 from app.storage.session import Arrangement
 from app.widgets import theme
 
@@ -41,8 +40,6 @@ class Stage:
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: DockedView | None = None
         self._restoring: Arrangement | None = None
-        self._presenting = False
-        self._before = layout.LAYOUTS[0].name, ""  # presentation mode: layout and focus
         self._keyboard_for: str | None = None  # who gets it once all have their places
         self._frames = 0
         self._layout = ""  # that of the frame before
@@ -86,8 +83,9 @@ class Stage:
         A view that the layout has no space for gets the largest area, when it is first opened.
         """
         view, now = self.views[name], layout.current()
-        is_opened = shown and not self.is_shown(name) and not layout.names_space(now, view)
-        if is_opened and (now.name, name) not in self._opened:
+        is_opened = shown and not self.is_shown(name)
+        has_space = bool(view.space or name in now.places)
+        if is_opened and not has_space and (now.name, name) not in self._opened:
             self._opened.add((now.name, name))
             self._to_dock.add(name)
         layout.window_of(view).is_visible = shown
@@ -97,7 +95,7 @@ class Stage:
             self.maximised = ""
 
     def show_in(self, name: str, wanted: str) -> None:
-        """Show a view in a layout that is made for it; in a lecture, next to the step's own."""
+        """Show a view in a layout that has room for it; in a lecture, next to the step's own."""
         self._next_shown = name, wanted
 
     def _show_next(self) -> None:
@@ -125,25 +123,13 @@ class Stage:
         self.maximised = "" if was or not name else name
         self._next_focus = self.maximised or was
 
-    def follow(self, preferences: Preferences) -> None:
-        """Follow presentation mode, which leaves the camera out of the first layout, and the shape
-        of the window.
-
-        Call once a frame, before the views.
+    def follow(self) -> None:
+        """Follow the shape of the window, and move the focus. Call once a frame, before the
+        views.
         """
         self._frames += 1
         self._restore()
         self._turn()
-        if preferences.presentation != self._presenting:
-            self._presenting = preferences.presentation
-            if self._presenting and layout.current() is layout.LAYOUTS[0]:
-                self._before = layout.current().name, self.keyboard
-                self._keyboard_for = None
-                layout.switch(layout.IMAGES)
-            elif layout.current().name == layout.IMAGES:
-                name, focused = self._before
-                layout.switch(name if name != layout.IMAGES else layout.LAYOUTS[0].name)
-                self.give_keyboard(focused)
         self._show_next()
         self._give_keyboard()
         self._begin_tab()
@@ -217,10 +203,9 @@ class Stage:
         name, large = layout.current().name, self.maximised
         return Arrangement(name, visible, windows, sections, large, self._keyboard)
 
-    def restore(self, arrangement: Arrangement, presenting: bool) -> None:
+    def restore(self, arrangement: Arrangement) -> None:
         """Restore an arrangement, in the next frames."""
         self._restoring = arrangement
-        self._presenting = presenting
         for name, opened in arrangement.sections.items():
             if name in self.views:
                 self.views[name].open_sections(opened)
@@ -228,11 +213,10 @@ class Stage:
     def begin_afresh(self) -> None:
         """Start without a session.
 
-        HelloImGui shows the layout of the last window, which may be one that is empty outside a
-        lecture or presentation.
+        HelloImGui shows the layout of the last window, which may be a lecture's.
         """
-        empty = layout.LECTURE, layout.IMAGES
-        if self._frames == 2 and self._restoring is None and layout.current().name in empty:
+        is_lectures = layout.current().name == layout.LECTURE
+        if self._frames == 2 and self._restoring is None and is_lectures:
             layout.switch(layout.LAYOUTS[0].name)
 
     def _restore(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable
 from typing import ClassVar, Protocol, TypeVar
 
 import moderngl
@@ -135,15 +135,15 @@ class DockedView:
     name: unique; the window's id in ImGui.
     title: on its tab.
     padding, flags: of the ImGui window; None and 0 for the style's.
-    places: layouts that show it, in addition to those that name it themselves (layout.py), and its
-    dock space there.
+    space: where it is docked in layouts that do not place it and have that space; "": where the
+    largest view is.
     """
 
     name: ClassVar[str]
     title: ClassVar[str]
     padding: ClassVar[ImVec2 | None] = None
     flags: ClassVar[int] = 0
-    places: ClassVar[Mapping[str, str]] = {}
+    space: ClassVar[str] = ""
 
     @property
     def label(self) -> str:

@@ -117,14 +117,6 @@ class InViews:
             radius = theme.px(LIGHT_PX)
             draw.add_circle_filled(at, radius, theme.u32(CASING))
             draw.add_circle_filled(at, 0.62 * radius, theme.u32(color))
-            for k in range(8):
-                x, y = np.cos(k * np.pi / 4), np.sin(k * np.pi / 4)
-                draw.add_line(
-                    ImVec2(at.x + 0.95 * radius * x, at.y + 0.95 * radius * y),
-                    ImVec2(at.x + 1.5 * radius * x, at.y + 1.5 * radius * y),
-                    theme.u32(color),
-                    theme.px(1.5),
-                )
 
     def _light_under(self, host: Host, shown: ShownIn) -> Item | None:
         if shown.name != OUTSIDE:

@@ -5,8 +5,6 @@ Keeps what is not in the state. outliner.py and inspector.py draw.
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from app.cameras.presets import framed
 from app.host import layout
 from app.host.view import DockedView, Host
@@ -23,7 +21,7 @@ OBJECTS, INSPECTOR = "Objects", "Inspector"
 class ObjectsView(DockedView):
     name = OBJECTS
     title = OBJECTS
-    places: ClassVar = {layout.SCENE: layout.CAMERA_SPACE}
+    space = layout.CAMERA_SPACE
 
     def __init__(self) -> None:
         self.outliner = Outliner()
@@ -46,7 +44,7 @@ class ObjectsView(DockedView):
 class InspectorView(DockedView):
     name = INSPECTOR
     title = INSPECTOR
-    places: ClassVar = {layout.SCENE: layout.INSTRUMENTS}
+    space = layout.INSTRUMENTS
 
     def __init__(self) -> None:
         self.inspector = Inspector()

@@ -23,7 +23,7 @@ from renderer.scene.noting import Noted, noting
 
 KEPT = 2
 # Of files that hold no scene.
-CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin", ".xml")
+CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin", ".xml", ".ini")
 _LARGEST_LOOKED_AT = 1 << 20  # bytes of a script, or of a model's table: without meshes it is small
 
 

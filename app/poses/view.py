@@ -77,7 +77,7 @@ class PosesView(DockedView):
         """Show the set that the state names."""
         self._reader.give(poses)  # so that nothing waits
         self._query = ""
-        window.shell.stage.show_in(POSES, layout.POSES)
+        window.shell.stage.show_in(POSES, layout.OUTSIDE)
 
     def open(self, window: Window, poses: PoseSet, scene: Scene | None) -> None:
         """Open a set for the user, with its first camera. scene: to show it in; None for the

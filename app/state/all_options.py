@@ -6,11 +6,11 @@ Knows no instrument by its name: the registry does (app/instruments.py).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 from app.instruments import ROOMS
-from app.state.options import Lasting, SharedOptions
+from app.state.options import SharedOptions
 
 T = TypeVar("T")
 
@@ -23,7 +23,6 @@ def _options() -> dict[str, type]:
 
 KINDS = _options()
 _NAMES = {kind: name for name, kind in KINDS.items()}
-_LASTING = [name for name, kind in KINDS.items() if issubclass(kind, Lasting)]
 
 
 def _with_kinds(cls: type) -> type:
@@ -44,7 +43,3 @@ class AllOptions(SharedOptions):
         """One instrument's own, by their class."""
         own: T = getattr(self, _NAMES[kind])
         return own
-
-    def after_undo(self, present: AllOptions) -> AllOptions:
-        """These options, with what undo leaves as it is at present."""
-        return replace(self, **{name: getattr(present, name) for name in _LASTING})

@@ -23,7 +23,7 @@ ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 
 @dataclass(frozen=True)
 class AppState:
-    """Everything that undo brings back. Scenes are compared by identity.
+    """Everything that the window shows. Scenes are compared by identity.
 
     keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see all_options.py;
     the properties below name its parts. step: that of the lecture that the state was shown in, as
@@ -98,6 +98,13 @@ class AppState:
         state = replace(self, scene=scene, keep_orthonormal=True)
         return state.with_view(scene.view if view is None else view)
 
+    def looking_as(self, other: AppState) -> AppState:
+        """The state with the looks of the window, and the display of the images, of another one."""
+        images = self.images.displayed_as(other.images)
+        return replace(
+            self, options=replace(self.options, preferences=other.preferences, images=images)
+        )
+
     def with_fit(self, fit: bool) -> AppState:
         return replace(self, view=replace(self.view, fit=fit))
 
@@ -113,7 +120,8 @@ class AppState:
 class History:
     """A present state with the ones before and after it.
 
-    gesture: what the last change belonged to; changes of one gesture (a drag) are one step.
+    Undo leaves the window's looks and the images' display as they are; a change of only these is no
+    step. gesture: what the last change belonged to; changes of one gesture (a drag) are one step.
     """
 
     present: AppState
@@ -122,12 +130,14 @@ class History:
     gesture: Hashable = None
 
     def change(self, state: AppState, gesture: Hashable = None) -> History:
-        """The history after a change. gesture: equal to the last change's for the same drag;
-        None for a step of its own."""
-        if state == self.present:
-            return self
+        """Return the history after a change.
+
+        gesture: equal to the last change's for the same drag; None for a step of its own.
+        """
+        if self._again(state) == self.present:
+            return replace(self, present=state)
         if gesture is not None and gesture == self.gesture and self.past:
-            if state == self.past[-1]:  # where it began: no step is left
+            if self._again(self.past[-1]) == self._again(state):  # where it began: no step is left
                 return History(state, self.past[:-1])
             return replace(self, present=state, future=())
         past = (*self.past, self.present)[-MOST_UNDO_STEPS:]
@@ -146,8 +156,8 @@ class History:
         before = self.past[-1]
         shared = self.present.options
         marks = {"marked": shared.marked, "marked_size": shared.marked_size}
-        same = before.with_options(**marks) == self.present
-        return History(before, self.past[:-1]) if same else self
+        same = self._again(before).with_options(**marks) == self.present
+        return History(self._again(before), self.past[:-1]) if same else self
 
     def undo(self) -> History:
         """One step back; itself at the beginning."""
@@ -162,7 +172,13 @@ class History:
         return History(self._again(self.future[0]), (*self.past, self.present), self.future[1:])
 
     def _again(self, state: AppState) -> AppState:
-        return replace(state, options=state.options.after_undo(self.present.options))
+        """Return a state with what undo leaves as it is at present. A lecture's step has a display
+        of its own.
+        """
+        if state.step != self.present.step:
+            preferences = self.present.preferences
+            return replace(state, options=replace(state.options, preferences=preferences))
+        return state.looking_as(self.present)
 
 
 def is_orthonormal(camera: Camera) -> bool:

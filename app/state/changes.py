@@ -6,13 +6,10 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from app.state.app_state import AppState
-from app.state.options import Lasting
 
 WORDS = {
-    "exposure_ev": "exposure",
     "pixel_size": "pixel size",
     "samples": "samples per pixel",
-    "font_scale": "type size",
     "one_based": "pixels counted from 1",
     "fit": "fit to the aspect ratio",
 }
@@ -32,7 +29,7 @@ def change(before: AppState, after: AppState) -> str:
         parts.append(WORDS["fit"])
     if before.keep_orthonormal != after.keep_orthonormal and not parts:
         parts.append("keep orthonormal")
-    parts += _changed(before.options, after.options)
+    parts += _changed(before.options, after.looking_as(before).options)
     return ", ".join(parts[:3]) or "nothing to be seen"
 
 
@@ -42,8 +39,6 @@ def _changed(before: Any, after: Any) -> list[str]:
     for field in fields(before):
         old, new = getattr(before, field.name), getattr(after, field.name)
         if old == new or field.name == "marked_size":  # which goes with the mark
-            continue
-        if isinstance(old, Lasting):
             continue
         if is_dataclass(old) and type(old) is type(new):
             names += _changed(old, new)

@@ -6,7 +6,7 @@ the fields. Each instrument's own are in its room; all_options.py puts them toge
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal
 
 from app.state.bounds import Accepted, AtMost, OneOf, Range
@@ -28,6 +28,12 @@ RESOLUTIONS = (
 SAMPLES = (1, 4, 16, 64)  # a pixel
 MOST_BOOKMARKS = 9  # a key for each
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
+
+# Fields of ImageOptions that say how an image is shown, not which one.
+DISPLAY = (
+    *("channel", "component", "transfer", "exposure_ev", "magnification", "center"),
+    *("tinted", "grid", "values"),
+)
 
 Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
@@ -66,6 +72,10 @@ class ImageOptions:
     samples: Annotated[int, OneOf(SAMPLES)] = 1
     lens_enlargement: Annotated[int, OneOf(ENLARGEMENTS)] = ENLARGEMENT
 
+    def displayed_as(self, other: ImageOptions) -> ImageOptions:
+        """Return these options with the display of others."""
+        return replace(self, **{name: getattr(other, name) for name in DISPLAY})
+
 
 Theme = Literal["dark", "light", "contrast"]
 
@@ -87,10 +97,6 @@ class Bookmark:
     number: Annotated[int, Range(1, MOST_BOOKMARKS)]
     name: str
     view: View
-
-
-class Lasting:
-    """The base of an instrument's options that undo and redo leave as they are."""
 
 
 @dataclass(frozen=True)

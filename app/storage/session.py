@@ -25,7 +25,13 @@ VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
 
 
-RENAMED = {"Presentation": "Images"}  # earlier names of layouts
+# Layouts that left, and the nearest of those that stay.
+NEAREST = {
+    **dict.fromkeys(("Presentation", "Images", "Detective"), "Side by side"),
+    **dict.fromkeys(("Your code", "Laboratory", "Mistakes"), "Loops"),
+    **dict.fromkeys(("Poses", "Film", "Results"), "Outside view"),
+    "Scene": "Four views",
+}
 
 
 class NewerVersionError(LucidaError):
@@ -153,9 +159,5 @@ def _session(data: bytes) -> Session:
 
 
 def _renamed(found: Arrangement) -> Arrangement:
-    """Return an arrangement in which layouts have their present names."""
-    parts = {}
-    for place, part in found.parts.items():
-        name, _, space = place.partition("/")
-        parts[f"{RENAMED.get(name, name)}/{space}" if space else place] = part
-    return replace(found, layout=RENAMED.get(found.layout, found.layout), parts=parts)
+    """Return an arrangement without layouts that left: their docks' shares are ignored."""
+    return replace(found, layout=NEAREST.get(found.layout, found.layout))

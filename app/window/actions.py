@@ -14,7 +14,6 @@ from app.state.options import Notation, Preferences, Theme
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
-FUNCTION_KEYS = 10
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
 
@@ -54,13 +53,13 @@ def scaled(state: AppState, step: int) -> AppState:
     return state.with_options(preferences={"font_scale": scale})
 
 
-def _layout(number: int, name: str) -> Action:
+def _layout(number: int, one: layout.Layout) -> Action:
     return Action(
         "View/Layout",
-        name,
-        lambda window: layout.switch(name),
-        f"Ctrl+F{number + 1}" if number < FUNCTION_KEYS else "",
-        (CTRL | (int(Key.f1) + number),) if number < FUNCTION_KEYS else (),
+        one.name,
+        lambda window: layout.switch(one.name),
+        f"Ctrl+F{number + 1}",
+        (CTRL | (int(Key.f1) + number),),
     )
 
 
@@ -195,7 +194,7 @@ LOOK = (
     ),
     _notation("book"),
     _notation("code"),
-    *(_layout(number, one.name) for number, one in enumerate(layout.LAYOUTS)),
+    *(_layout(number, one) for number, one in enumerate(layout.CHOICES)),
     Action("View/Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
     Action(
         "View",

@@ -24,6 +24,8 @@ HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 
+USES = {one.name: one.use for one in layout.CHOICES}
+
 
 def menu_bar(
     window: Window, history: History, status: Callable[[float], None] | None = None
@@ -99,6 +101,8 @@ def _item(action: Action, window: Window, first: bool = False) -> None:
     can = action.can(window) if action.can else True
     if imgui.menu_item(action.name, action.keys, on, can)[0]:
         action.run(window)
+    if action.menu == "View/Layout" and action.name in USES:
+        imgui.set_item_tooltip(USES[action.name])
 
 
 def _scenes(window: Window) -> None:

@@ -156,7 +156,7 @@ class Shell:
 
     def frame(self, window: Window) -> None:
         """Update the parts. Call once a frame, before the views."""
-        self.stage.follow(window.state.preferences)
+        self.stage.follow()
         self.stage.leave_out_hidden(window)
         self._keep(window)
         for said in self.files.poll_said():

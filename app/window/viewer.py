@@ -136,8 +136,7 @@ class WindowRun:
 
     def _take(self, start: Start) -> None:
         if start.session is not None:
-            presenting = start.state.preferences.presentation
-            self.window.shell.stage.restore(start.session.arrangement, presenting)
+            self.window.shell.stage.restore(start.session.arrangement)
             self.window.shell.proportion.restore(start.session.arrangement.parts)
         if start.lecture is not None:
             self.window.lecture.resume(start.lecture)

@@ -12,7 +12,7 @@ MENU = "File/Your code"
 
 
 def _ask(wish: CodeWish, window: Window) -> None:
-    window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+    window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
     window.view(YourCodeView).ask(wish)
 
 

@@ -7,7 +7,7 @@ for the questions, panel.py for the layout, code_pictures.py for the pictures.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import moderngl
 from imgui_bundle import imgui
@@ -49,7 +49,6 @@ class YourCodeView(DockedView):
 
     name = YOUR_CODE
     title = "Your code"
-    places: ClassVar = {layout.CODE: layout.MAIN}
 
     def __init__(self, outside: OutsideView) -> None:
         self._outside = outside
@@ -86,13 +85,13 @@ class YourCodeView(DockedView):
             window.change(window.state.with_options(your_code=options))
         elif self._follower is not None:
             self._follower.again()
-        window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+        window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
 
     def open_tasks(self, window: Window, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
         asked = {"tasks": stored(path), "task": ""}
         window.change(window.state.with_options(your_code=asked, **_notation_of(path)))
-        window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+        window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:
         """Ask for what a button would do, in the next frame."""

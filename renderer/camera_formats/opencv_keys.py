@@ -65,8 +65,8 @@ def plain(name: str) -> str:
 def are_cameras(names: set[str]) -> bool:
     """Return True if a file with these names, without their tables', must hold a camera."""
     roles = {_ROLES.get(name) for name in names}
-    pairs = ("m", "cameramatrix", "intrinsicmatrix", "d")
-    is_stereo = any({f"{pair}1", f"{pair}2"} <= names for pair in pairs)
+    pairs = {"m1", "m2"}, {"k1", "k2", "d1", "d2"}, {"cameramatrix1", "cameramatrix2"}
+    is_stereo = any(names >= pair for pair in pairs)
     return is_stereo or not roles.isdisjoint({"K", "P"}) or roles >= {"fx", "fy"}
 
 
@@ -82,10 +82,8 @@ def cameras_in(table: Table) -> dict[str, Keys]:
         role = _ROLES.get(plain(name)) or _ROLES.get(plain(last))
         side = _STEREO.fullmatch(plain(name))
         if side and np.size(value) > 1:
-            keys, role = (
-                cameras.setdefault(_SIDES[side[2]], {}),
-                "K" if side[1] else "lens",
-            )
+            keys = cameras.setdefault(_SIDES[side[2]], {})
+            role = "K" if side[1] else "lens"
         elif name == "Stereo.T_c1_c2":
             keys, role = cameras.setdefault("Camera2", {}), "to world"
         elif _CAMERA.fullmatch(head):
@@ -102,8 +100,11 @@ def cameras_in(table: Table) -> dict[str, Keys]:
             keys.setdefault(role, (name, value))
     if "right" in cameras:
         cameras["right"] |= {role: shared.pop(role) for role in ("R", "t") if role in shared}
-    for name in [name for name, keys in cameras.items() if not {"K", "fx"} & keys.keys()]:
-        shared |= cameras.pop(name)  # ORB-SLAM's Camera, next to Camera1 and Camera2
+    if cameras.get("Camera2", {}).keys() == {"to world"}:
+        del cameras["Camera2"]  # a stereo pose of a file with one camera
+    for name in [name for name in cameras if name.lower() == "camera"]:
+        if not {"K", "fx"} & cameras[name].keys():  # it belongs to Camera1 and Camera2
+            shared |= cameras.pop(name)
     names = sorted(cameras, key=lambda name: (len(name), name))
     return {name: shared | cameras[name] for name in names} or {"": shared}
 

@@ -131,6 +131,8 @@ def _ragged_columns(
                 number = np.frombuffer(body, counted, 1, at)
                 found.setdefault(f"{name} count", []).append(number)
                 length, at = int(number[0]), at + number.itemsize
+                if length < 0:
+                    raise ValueError
             numbers = np.frombuffer(body, kind, length, at)
             found.setdefault(name, []).append(numbers)
             at += numbers.nbytes
@@ -164,7 +166,8 @@ def _faces(
     points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return triangles of vertices, and the polygon of each."""
-    corners = corners.astype(np.int64)
+    with np.errstate(invalid="ignore"):
+        corners = corners.astype(np.int64)
     check_corners(corners, len(points))
     places, owner = triangulated(points.astype(np.float64), corners, counts.astype(np.int64))
     return corners[places], owner
@@ -191,7 +194,10 @@ def read_off(path: Path) -> list[Part]:
             raise ValueError
         points = numbers[rows[1 : vertices + 1, None] + np.arange(3)]
         first = rows[vertices + 1 : vertices + 1 + faces]
-        counts = numbers[first].astype(np.int64)
+        sides, rest_of_row = numbers[first], lengths[lengths > 0][vertices + 1 :][:faces]
+        if not ((sides >= 0) & (sides < rest_of_row)).all():
+            raise ValueError
+        counts = sides.astype(np.int64)
         places = np.repeat(first + 1 - (np.cumsum(counts) - counts), counts)
         corners = numbers[places + np.arange(len(places))]
     except (ValueError, IndexError, OverflowError):

@@ -27,12 +27,6 @@ from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a fork has one thread
 
-import trimesh.exchange.gltf
-import trimesh.exchange.obj
-import trimesh.exchange.off
-import trimesh.exchange.ply
-import trimesh.exchange.stl
-
 from app.lecture.reading import load_lecture
 from renderer.errors import LucidaError
 from renderer.scene import flatten, load_scene, load_view
@@ -285,7 +279,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--keep", type=Path, help="a folder for the files that go wrong")
     options = parser.parse_args(argv)
-    assert trimesh.exchange is not None  # imported here once, not by each child
     if options.keep is not None:
         options.keep.mkdir(parents=True, exist_ok=True)
         return min(1, attack(options.keep, options))

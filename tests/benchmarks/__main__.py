@@ -16,7 +16,7 @@ from tests.benchmarks.tables import TABLES, measure
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "bench"
 # Whole; of the others, the targets.
-DOCUMENTED = ("visibility", "scans", "processor", "lenses", "secondary", "build", "scaling")
+DOCUMENTED = ("visibility", "scans", "processor", "lenses", "build", "scaling")
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -56,11 +56,21 @@ PARALLEL = replace(CAMERA, projection="parallel")
 def test_one_meaning_is_the_camera_itself(matrix, words, camera, is_transposed) -> None:
     rows = matrix.T if is_transposed else matrix
     found = meanings(matrix_in(str(rows.tolist())), NOW, (0, 0, 0))
-    (meaning,) = (one for one in found if words in one.words)
-    assert ("transposed" in meaning.words) == is_transposed
+    named = [one for one in found if words in one.words]
+    (meaning,) = (one for one in named if ("transposed" in one.words) == is_transposed)
     np.testing.assert_allclose(pixels(meaning.view.camera), pixels(camera), atol=1e-6)
     best = found[0].view.camera
     assert np.asarray(best.w) @ best.eye > 0  # it looks at the scene
+
+
+def test_r_and_t_are_a_pose() -> None:
+    pose = CAMERA.camera_from_world
+    matrix = matrix_in(f"R = {pose[:3, :3].tolist()}\nt = {pose[:3, 3].tolist()}")
+    found = meanings(matrix, NOW, (0, 0, 0))
+    (meaning,) = (
+        one for one in found if one.words.startswith("world to camera, y up, z back (OpenGL)\n")
+    )
+    np.testing.assert_allclose(pixels(meaning.view.camera), pixels(CAMERA), atol=1e-6)
 
 
 def test_a_projection_alone_leaves_the_eye() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
 import json
 import os
 import re
@@ -186,24 +185,6 @@ def test_files_that_belong_together_stay_if_one_does_not_fit(folder: Path) -> No
     with files_up_to(sizes[-1] - 1):
         assert main(line) == 2
     assert sizes[0] < sizes[-1] and {file.read_bytes() for file in files} == {b"old"}
-
-
-@pytest.mark.parametrize("number", range(3))
-def test_new_files_that_belong_together_are_all_written_or_none(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, number: int
-) -> None:
-    line = "camera view.toml --size 640x480 --to colmap -o out"
-    (folder / "view.toml").write_text(VIEW, "utf-8")
-    replace, calls = os.replace, itertools.count()
-
-    def fail(*paths: str) -> None:
-        if next(calls) == number:
-            raise OSError(28, "No space left on device")
-        replace(*paths)
-
-    monkeypatch.setattr(os, "replace", fail)
-    assert main(line.split()) == 2
-    assert [path.name for path in folder.rglob("*")] == ["view.toml"]
 
 
 HOSTILE = "\\u001b[31mred\\u009b2J\\u202e"

@@ -18,7 +18,6 @@ from app.cli import main
 from app.commands.view import shown_size
 from app.window import launch
 from renderer import Camera, View, load_view, save_view
-from renderer.camera_formats import FORMATS
 
 HERD = {
     "herd": [
@@ -174,9 +173,6 @@ class TestWriting:
             "its pixels are not as wide as high\n"
         )
         told(capsys, "herd.json#0", "--to", "herd", "--size", "640x480")
-
-
-WAYS = [(entry.name, ending) for entry in FORMATS for ending in entry.endings]
 
 
 MOVES = "it moves points by up to 2.94 pixels, 0.545 in the median"

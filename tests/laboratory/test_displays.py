@@ -10,7 +10,6 @@ import pytest
 from app.laboratory import displays
 from app.laboratory import displays_view as laboratory_displays
 from app.laboratory.displays import DISPLAYS
-from app.laboratory.light import CHANNELS
 from app.laboratory.options import LaboratoryOptions
 from renderer.images import to_srgb8
 
@@ -114,41 +113,6 @@ def test_the_picture_shows_the_light_where_the_elements_are(name, color):
 def test_what_a_display_can_show():
     wild = np.array([[[np.nan, -1, 0.25], [np.inf, 3, 0.5]]], np.float32)
     assert displays.shown(wild, 1.0).tolist() == [[[0, 0, 0.5], [1, 1, 1]]]
-
-
-@pytest.mark.parametrize("rounding", [0.0, 0.0625])
-def test_how_much_an_element_covers_by_hand(rounding):
-    """It covers 4.5 x 2 of 8 x 8 pixels, its corners rounded by half a pixel at most."""
-    place = (0.5, 0.5, 2.25 / 8, 1 / 8, rounding)
-    kind = replace(DISPLAYS["lcd"], places=(place, place, place), unlit=21)
-    wanted = np.zeros((8, 8))
-    wanted[3:5] = (0, 0.25, 1, 1, 1, 1, 0.25, 0)
-    for channel in range(3):
-        assert kind.elements(8)[..., channel].tolist() == wanted.tolist()
-    dark = displays.instant(kind, np.zeros((1, 1, 3), np.float32), 0.0, 8)
-    assert dark[3, :, 0].tolist() == [0, 5, 21, 21, 21, 21, 5, 0]  # a quarter of 21 is 5.25
-
-
-def test_at_a_cycles_end_all_mirrors_have_turned_away():
-    assert not DISPLAYS["dlp"].light(np.ones((2, 3, 3), np.float32), 1.0).any()
-
-
-@pytest.mark.parametrize("name", DISPLAYS)
-def test_black_is_dark_where_a_part_of_the_cycle_begins(name):
-    black = np.zeros((2, 3, 3), np.float32)
-    assert not any(DISPLAYS[name].light(black, phase).any() for phase in (0.0, 1 / 3, 2 / 3))
-
-
-def test_a_course_is_taken_in_the_middle_of_each_moment():
-    kind = replace(DISPLAYS["lcd"], light=lambda color, phase: color * np.float32(phase))
-    course = displays.course(kind, np.ones((1, 1, 3), np.float32), (0, 0), 4)
-    assert course[:, 0].tolist() == [0.125, 0.375, 0.625, 0.875]
-
-
-def test_after_the_shares_of_a_colors_time_it_is_the_next_ones_turn():
-    phases = [displays.stepped("dlp", 0.0, 5, 7, k * displays.SHARES) for k in range(4)]
-    turns = [displays.moment("dlp", phase).partition("'")[0] for phase in phases]
-    assert turns == [*CHANNELS, CHANNELS[0]]
 
 
 class Still:

@@ -52,11 +52,6 @@ class TestLight:
             assert (image[: side - gap, lit, channel] == 255).all()
         assert not image[side - gap :].any()
 
-    @pytest.mark.parametrize("side", [3, 4, 5, 7, 8])
-    def test_every_column_of_a_pixel_shines_in_one_colour(self, side):
-        image = light.subpixels(np.full((2, 2, 3), 255, np.uint8), side)
-        assert (image.sum(axis=2) == 255).all()
-
     def test_magnified_pixels(self):
         picture = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
         large = light.magnified(picture, 4)

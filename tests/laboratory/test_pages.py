@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from imgui_bundle import ImVec2
 
-from app.laboratory import light
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import (
     PAGES,
@@ -96,23 +95,6 @@ def test_the_size_that_an_image_should_have():
     assert size("projectors", (1150, 1000), (64, 48)) == ((64, 48), 11)
 
 
-def test_pages_say_what_they_show():
-    divided = plan("subpixels", (1200, 600), 40, 10, (40, 30))
-    options = LaboratoryOptions(page="subpixels", side_px=60)
-    whole, stripes = panels("subpixels", image(divided), divided, options, 0.0, (29, 39))
-    first, left, rows, columns = whole.region
-    assert (first + rows, left + columns) == (30, 40)  # about the corner, moved inside
-    assert stripes.picture.shape == (rows * 60, columns * 60, 3)
-    assert (stripes.magnification, stripes.first) == (0, (0, 0))
-    divided = plan("bitmaps", (900, 900), 40, 10, None)
-    assert divided.magnification == 2
-    made = panels("bitmaps", image(divided), divided, LaboratoryOptions(), 0.0, (0, 0))
-    assert [panel.title for panel in made[:2]] == ["Grayscale", "Threshold"]
-    assert set(np.unique(made[1].picture)) == {0, 255}
-    share = float((made[3].picture[..., 0] == 255).mean())
-    assert made[3].caption == f"{100 * share:.1f} % white"
-
-
 def test_pages_say_it_in_numbers():
     color = np.zeros((3, 5, 3), np.float32)
     color[:, 0], color[0, 1], color[2, 4] = 2.0, 0.5, 0.25  # the first column is above white
@@ -173,41 +155,6 @@ def test_projectors_stand_as_far_apart_as_is_said_in_parts_of_the_height():
     assert test.picture.max() == 255  # which is as bright, whatever the exposure is
 
 
-@pytest.mark.parametrize(("side", "gap"), [(60, 5), (11, 1), (6, 1), (5, 0), (4, 0), (3, 0)])
-def test_stripes_are_parted_by_a_twelfth_of_a_pixel(side, gap):
-    """In a small pixel by one, or by none: each of its colours is to be seen."""
-    color = np.full((30, 40, 3), 0.5, np.float32)
-    divided = plan("subpixels", (1200, 600), 40, 10, (40, 30))
-    options = LaboratoryOptions(page="subpixels", side_px=side)
-    whole, stripes = panels("subpixels", color, divided, options, 1.0, (3, 5))
-    lit = stripes.picture[:side, :side] == 255  # at the exposure that the image has
-    assert lit.any(axis=(1, 2)).sum() == side - gap
-    assert lit.any(axis=(0, 1)).all()
-    assert lit[0, :, 0].sum() == -(-side // 3) - gap
-    rows, columns = whole.region[2:]
-    assert stripes.picture.shape == (rows * side, columns * side, 3)
-    assert (rows, columns) == (min(30, 560 // side), min(40, 595 // side))
-
-
-def test_the_place_of_a_pixel_that_a_test_picture_does_not_have():
-    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
-    options = LaboratoryOptions(page="displays", content="test", phase=1.25)
-    color = image(divided)
-    part, first, side, place = display_part(PageInput(color, divided, options, 3.0, (900, 900)))
-    assert (first, side, part.shape) == ((0, 0), 74, (7, 8, 3))  # a column for each bar
-    assert place == (6, 7) and part.max() == 1
-    assert display_part(PageInput(color, divided, options, 3.0, (2, 3)))[3] == (2, 3)
-    np.testing.assert_array_equal(part, light.bars(7, 8))  # whatever the exposure is
-
-
-def test_a_cycle_begins_anew_at_1():
-    divided = plan("displays", (1200, 600), 40, 10, (40, 30))
-    for phase in (0.0, 1.0):
-        options = LaboratoryOptions(page="displays", display="dlp", phase=phase)
-        now, _ = panels("displays", image(divided), divided, options, 0.0, (2, 3))
-        assert now.title.endswith("red's third of the cycle")
-
-
 @pytest.mark.parametrize("display", ["tube", "lcd"])
 def test_what_is_at_work_is_framed_in_the_part_that_is_seen(display):
     """The pixel (20, 25) in the middle of 9 x 9; half of the cycle is over."""
@@ -235,27 +182,6 @@ def test_a_display_is_seen_at_a_moment_beside_its_mean():
     middles = now.picture[side // 2 :: side, side // 2 :: side]
     np.testing.assert_array_equal(middles[..., 1] == 255, part[..., 1] > 0.5)  # half of its third
     assert middles[..., 0].max() < 50 and middles[..., 2].max() < 50
-
-
-def test_a_test_picture_has_every_mixture_of_light():
-    divided = plan("subpixels", (1200, 600), 40, 10, (40, 30))
-    options = LaboratoryOptions(page="subpixels", content="test")
-    bars, stripes = panels("subpixels", image(divided), divided, options, 5.0, (0, 0))
-    side = bars.picture.shape[1] // 8
-    shown = [tuple(bars.picture[0, column * side]) for column in range(8)]
-    assert shown[1:4] == [(255, 255, 0), (0, 255, 255), (0, 255, 0)]  # yellow, cyan, green
-    assert shown[4] == (255, 0, 255) and shown[0] == (255, 255, 255)
-    yellow = stripes.picture[0, side : 2 * side]
-    assert yellow.max(axis=0).tolist() == [255, 255, 0]
-    brightest = stripes.picture.reshape(-1, side, 8, side, 3).max(axis=(1, 3))
-    np.testing.assert_array_equal(brightest, bars.picture[::side, ::side])  # whatever the exposure
-    divided = plan("projectors", (900, 700), 40, 10, None)
-    options = LaboratoryOptions(page="projectors", content="test", apart=0.22)
-    (wall,) = panels("projectors", image(divided), divided, options, 3.0, (0, 0))
-    seen, count = np.unique(wall.picture.reshape(-1, 3), axis=0, return_counts=True)
-    mixtures = {tuple(color) for color in seen.tolist()}
-    assert mixtures == {(r, g, b) for r in (0, 255) for g in (0, 255) for b in (0, 255)}
-    assert count.min() > 0.01 * count.sum()  # each is to be seen
 
 
 @pytest.mark.parametrize("room", [(780, 470), (1180, 740), (760, 330), (400, 800), (1900, 900)])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from read_pixels import BALL, SIZE, line
 
@@ -41,31 +40,6 @@ def test_the_lectures_camera_in_the_lectures_words():
     assert line(lines, "origin").value == (0, 0, 0)
     assert line(lines, "ray").latex == r"\mathbf{r}(t) = \mathbf{p} + t\,\mathbf{d}"
     assert line(lines, "range").latex == "t > 0"
-
-
-def test_any_viewport_skewed_and_parallel():
-    """The formulas written out, with 1-based i, j."""
-    basis = ((1.0, 0.2, 0.0), (-0.3, 1.5, 0.1), (0.2, 0.1, 2.0))
-    left, right, bottom, top = viewport = (-0.3, 1.1, -0.7, 0.2)
-    i, j, (width, height) = 17, 40, SIZE
-    x = left + (right - left) * (j - 0.5) / width
-    y = top - (top - bottom) * (i - 0.5) / height
-    u, v, w = (np.array(vector) for vector in basis)
-    eye = np.array([0.3, -0.2, 5.0])
-    for projection in ("perspective", "parallel"):
-        camera = Camera(tuple(eye), *basis, 1.7, viewport, projection)
-        lines = ray_lines(Probe(BALL).at((i - 1, j - 1), camera, SIZE))
-        assert line(lines, "u").value == pytest.approx((x,))
-        assert line(lines, "v").value == pytest.approx((y,))
-        assert r"\mathrm{left}" in line(lines, "u").latex
-        if projection == "parallel":
-            origin, direction, own = eye + x * u + y * v, -w, (0, 0, -1)
-        else:
-            origin, direction, own = eye, x * u + y * v - 1.7 * w, (x, y, -1.7)
-        assert line(lines, "camera direction").value == pytest.approx(own)
-        assert line(lines, "origin").value == pytest.approx(tuple(origin))
-        assert line(lines, "direction").value == pytest.approx(tuple(direction))
-        assert line(lines, "ray").value == pytest.approx((*origin, *direction))
 
 
 # Where it meets the objects.

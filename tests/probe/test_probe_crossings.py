@@ -156,25 +156,3 @@ def test_one_mesh_of_several_is_asked_for_its_hit():
     assert hit(1) is None
     assert hit(3, 3.5, 4) is None and hit(3, 4, 5) is None
     assert hit(3, 3.5, 4.5) is not None
-
-
-def test_triangles_of_a_run_are_neighbours():
-    """On Morton's curve: each half of space in turn, along z, y, x, within each its halves."""
-    steps = 16
-    cells = np.stack(np.meshgrid(*3 * [np.arange(steps)], indexing="ij"), axis=-1).reshape(-1, 3)
-    cells = cells[np.random.default_rng(3).permutation(len(cells))]
-    corners = cells[:, None] + 1e-3 * np.eye(3)
-    faces = np.arange(3 * len(cells)).reshape(-1, 3)
-    mesh = Mesh(corners.reshape(-1, 3).astype(np.float32), faces)
-    both = index(moved(mesh, 5, 7, -30), Sphere((9, 9, -25), 0.1), moved(mesh, 5, 7, -30))
-
-    def curve(first: np.ndarray, side: int) -> list[tuple[int, ...]]:
-        if side == 1:
-            return [tuple(first)]
-        half = side // 2
-        octants = [(x, y, z) for z in (0, half) for y in (0, half) for x in (0, half)]
-        return [cell for octant in octants for cell in curve(first + octant, half)]
-
-    numbers = {tuple(cell): number for number, cell in enumerate(cells.tolist())}
-    one = [numbers[cell] for cell in curve(np.zeros(3, int), steps)]
-    assert both.order.tolist() == [*one, *(number + len(cells) for number in one)]

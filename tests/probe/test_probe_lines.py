@@ -11,7 +11,6 @@ from hard_readings import (
     BALL,
     DOWN,
     FLOOR,
-    ROOM,
     SMOOTH,
     grazing,
     in_the_shell,
@@ -29,7 +28,6 @@ from app.probe.reading import Reading
 from app.widgets import formula
 from renderer.camera import Camera
 from renderer.pixels import Indexing
-from renderer.scene import load_scene
 from renderer.scene.model import (
     DirectionalLight,
     Mesh,
@@ -149,16 +147,6 @@ def test_both_forms_hold_the_same_numbers(name):
         assert one == other, line.key
         for form in filter(None, (line.latex, line.latex_numbers)):
             assert not formula.available() or mistake(form) is None
-
-
-def test_rows_and_columns_are_counted_as_asked():
-    """Row 1, column 2, from 0, of 4 columns and 5 rows, in the lecture's viewport."""
-    reading = Probe(ROOM).at((1, 2), Camera(), (4, 5))
-    one, other = by_key(reading), by_key(reading, Indexing.ARRAY)
-    assert one["u"] == ["u = (j - 0.5) / W - 0.5", "= (3 - 0.5) / 4 - 0.5 = 0.125"]
-    assert one["v"] == ["v = -((i - 0.5) / H - 0.5)", "= -((2 - 0.5) / 5 - 0.5) = 0.2"]
-    assert other["u"] == ["u = (j + 0.5) / W - 0.5", "= (2 + 0.5) / 4 - 0.5 = 0.125"]
-    assert other["v"] == ["v = -((i + 0.5) / H - 0.5)", "= -((1 + 0.5) / 5 - 0.5) = 0.2"]
 
 
 def test_which_t_count():
@@ -377,20 +365,3 @@ def test_copied_formulas_stand_below_one_another():
     assert rows[at + 1].startswith("  & |(0,")
     assert rows[-2].startswith(r"  &= \lfloor 255\,") and not rows[-2].endswith("\\")
     assert rows[-1] == r"\end{align*}"
-
-
-def test_copies_hold_every_line():
-    scene = load_scene("still-life")
-    reading = Probe(scene).at((24, 32), scene.view.for_size((64, 48)), (64, 48))
-    lines = all_lines(reading)
-    assert len({one.key for one in lines}) == len(lines)
-    text, latex = as_text(reading), as_latex(reading)
-    for one in lines:
-        assert one.text in text and one.text_numbers in text
-    assert all(entry.name in text for entry in scene.objects)
-    assert latex.count(r"\begin{align*}") == latex.count(r"\end{align*}") == 1
-    assert latex.count("{") == latex.count("}")
-    rows = latex.splitlines()[2:-1]
-    assert len(rows) == sum(1 + bool(one.latex_numbers) for one in lines)
-    assert all(row.count("&") == 1 for row in rows)
-    assert all(row.endswith(r"\\") for row in rows[:-1]) and not rows[-1].endswith("\\")

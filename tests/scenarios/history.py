@@ -85,7 +85,7 @@ def drive_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
 
 def drive_the_history_is_a_list(d: Driver) -> None:
     d.drag_field("eye.x", 30)
-    d.ctx.menu_click("//##MainMenuBar/View/Theme/Light theme")
+    d.drag_field("eye.z", 30)
     d.drag_field("eye.y", 30)
     assert len(d.window.history.past) == 3
     d.ctx.menu_click("//##MainMenuBar/Edit/History/###step0")

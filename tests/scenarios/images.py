@@ -77,7 +77,7 @@ def drive_channels_are_shown_in_both(d):
             assert (difference <= 2).mean() > 0.999, (pane, channel)
         both = np.abs(raster - ray).max(axis=2)
         assert (both > 3).mean() < 0.002, "the same colours in both, the legend too"
-    assert len(d.window.history.past) == 4
+    assert not d.window.can_undo()
 
 
 def drive_channels_follow_a_drag(d):
@@ -182,7 +182,7 @@ def drive_a_large_image_is_seen_in_part(d):
     difference = np.abs(without_overlays(raster) - without_overlays(expected.astype(np.int16)))
     assert difference.max() <= 1
     window.undo()
-    window.undo()
+    assert window.state.images.resolution is None
     d.settle()
 
 
@@ -226,7 +226,7 @@ def drive_the_strip_does_the_same(d):
         d.settle()
         assert check(d.window.state.images), name
     d.ctx.set_ref("")
-    assert len(d.window.history.past) == 5
+    assert len(d.window.history.past) == 1  # the resolution
     assert imgui.get_io().display_size.x > 0
 
 

@@ -83,8 +83,8 @@ def leave(d: Driver) -> None:
 
 
 def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
-    d.window.shell.stage.show_in(YOUR_CODE, layout.CODE)
-    d.until(lambda: layout.current().name == layout.CODE)
+    d.window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+    d.until(lambda: layout.current().name == layout.LOOPS)
     d.ctx.yield_(8)
     d.picture()
     d.ctx.item_click(f"{WINDOW}/Write a file to begin with...")
@@ -157,7 +157,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     d.picture()
     (d.folder / "rays.py").unlink()
     view(d).ask("run")
-    until_told(d, "there is no such file")
+    until_told(d, "does not exist")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
     leave(d)
@@ -209,7 +209,7 @@ def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
     d.until(lambda: not (children() & processes))
     model.LIMITS = usual
     write(d, RIGHT)
-    d.window.shell.stage.show_in(YOUR_CODE, layout.CODE)
+    d.window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
     until_told(d, "Every ray is correct.")
     leave(d)
 
@@ -339,11 +339,11 @@ def children() -> set[int]:
 
 def drive_presentation_leaves_the_code_in_sight(d: Driver) -> None:
     opened(d, RIGHT)
-    layout.switch(layout.CODE)
-    d.until(lambda: layout.current().name == layout.CODE)
+    layout.switch(layout.LOOPS)
+    d.until(lambda: layout.current().name == layout.LOOPS)
     for key, presented in ((Key.f9, True), (Key.escape, False)):
         d.press(int(key))
         assert d.window.state.preferences.presentation is presented
         d.ctx.yield_(4)
-        assert layout.current().name == layout.CODE
+        assert layout.current().name == layout.LOOPS
         assert YOUR_CODE in d.window.shell.stage.rects

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gltf_files import gltf, load_gltf
 
 from app.window.files import Files
 from app.window.opening import Opened
@@ -122,19 +121,6 @@ def test_a_model_read_apart_is_the_same_model(tmp_path: Path, not_here: None):
             assert not getattr(other, name).flags.writeable
 
 
-def test_a_gltf_model_brings_its_views_and_its_instances_share_arrays(
-    tmp_path: Path, not_here: None
-):
-    nodes = [{"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0]}, {"camera": 0, "name": "eye"}]
-    camera = {"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}
-    tree = gltf(nodes=nodes, scenes=[{"nodes": [0, 1, 2]}], cameras=[camera])
-    load_gltf(tree, tmp_path)
-    model = ModelReader().read(tmp_path / "t.gltf")
-    one, other = map(mesh_of, model.objects)
-    assert one.vertices is other.vertices
-    assert [named.name for named in model.views] == ["eye"]
-
-
 def test_models_inside_scene_files_are_read_apart_too(tmp_path: Path, not_here: None):
     written(tmp_path / "part.obj", TRIANGLE)
     scene = written(tmp_path / "s.toml", '[[objects]]\ntype = "model"\nfile = "part.obj"\n')
@@ -163,16 +149,6 @@ def test_a_model_that_memory_is_too_small_for_is_one_line(tmp_path: Path, child)
     with pytest.raises(LucidaError, match=r"huge\.obj: was given up.*137.*smaller model") as caught:
         ModelReader().read(path)
     assert "\n" not in str(caught.value)
-
-
-def test_a_bug_in_the_process_is_told_as_one(tmp_path: Path, child):
-    child(
-        "from renderer.scene import subprocess_reader as apart\n"
-        "def broken(path):\n    raise ZeroDivisionError('by 0')\n"
-        "apart.read_model = broken\nmain = apart.main\n"
-    )
-    with pytest.raises(RuntimeError, match="ZeroDivisionError: by 0"):
-        ModelReader().read(written(tmp_path / "a.obj", TRIANGLE))
 
 
 # Where there can be no process.
@@ -269,21 +245,6 @@ def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path: Path, ch
     assert files.poll() is None
     assert files.message == ""
     assert files.poll_said() == [f"Loading {name} was cancelled." for name in names[:-1]]
-    files.close()
-
-
-def test_what_was_opened_before_has_no_message_either(tmp_path: Path):
-    woken = threading.Semaphore(0)
-    files = Files(woken.release, native=False)
-    files.open(str(tmp_path / "none.obj"))
-    for _ in ("the list of recent files", "the loading"):  # is done, and nobody has asked
-        assert woken.acquire(timeout=PATIENT_S)
-    files.open(str(written(tmp_path / "next.obj", TRIANGLE)))
-    came: list[Opened | None] = []
-    wait_for(lambda: came.append(files.poll()) or came[-1])
-    assert files.message == ""
-    assert came[-1] is not None
-    assert came[-1].sources == (str(tmp_path / "next.obj"),)
     files.close()
 
 

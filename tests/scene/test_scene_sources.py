@@ -221,14 +221,3 @@ def test_the_file_that_names_a_missing_one_is_not_suggested(
     with pytest.raises(LucidaError, match=re.escape(missing)) as error:
         load(name)
     assert "did you mean" not in str(error.value)
-
-
-def test_a_scene_that_names_a_model_twice_has_it_suggested(tmp_path: Path, monkeypatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("bunny.obj").write_text(TRIANGLE, "utf-8")
-    entries = [
-        f'[[objects]]\ntype = "model"\nfile = "{name}"\n' for name in ("bunny.obj", "buny.obj")
-    ]
-    Path("scene.toml").write_text("lucida = 1\n" + "".join(entries), "utf-8")
-    with pytest.raises(LucidaError, match=r"buny\.obj: .*; did you mean 'bunny\.obj'\?"):
-        load_scene("scene.toml")

@@ -88,6 +88,36 @@ def test_undo_walks_a_list_of_states(acts: list[str | float]) -> None:
         assert len(history.past) == here
 
 
+LOOKS = (
+    {"preferences": {"theme": "light"}},
+    {"preferences": {"presentation": True, "font_scale": 2.0}},
+    {"images": {"channel": "depth", "exposure_ev": 1.0, "magnification": 8.0}},
+)
+
+
+@pytest.mark.parametrize("looks", LOOKS)
+def test_undo_leaves_the_looks_as_they_are(looks: dict[str, dict[str, object]]) -> None:
+    history = History(STATE).change(moved(1.0)).change(moved(2.0)).undo()
+    seen = history.change(history.present.with_options(**looks), "a drag")
+    assert (seen.past, seen.future) == (history.past, history.future)  # no step, and no end of redo
+    assert seen.undo().present == STATE.with_options(**looks)
+    assert seen.redo().present == moved(2.0).with_options(**looks)
+    both = seen.change(moved(3.0))  # and the looks of before
+    assert both.present == moved(3.0) and both.undo().present == moved(1.0)
+
+
+def test_undo_is_for_what_the_images_are() -> None:
+    for options in ({"images": {"resolution": (64, 36)}}, {"shadows": True}, {"mirrors": True}):
+        history = History(STATE).change(STATE.with_options(**options))
+        assert history.undo().present == STATE
+
+
+def test_undo_of_a_lectures_step_brings_its_display_back() -> None:
+    shown = IN_LECTURE.with_options(images={"channel": "id"})
+    after = replace(STATE, step=("a lecture", 3))
+    assert History(shown).change(after).undo().present == shown
+
+
 def test_undo_has_a_limit() -> None:
     history = History(STATE)
     for x in range(MOST_UNDO_STEPS + 5):
@@ -135,7 +165,7 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
         (STATE, STATE.with_fit(False), "fit to the aspect ratio"),
         (STATE, STATE.with_keep_orthonormal(False), "keep orthonormal"),
         (STATE, STATE.with_view(View(SKEWED, fit=True)), "camera: view"),
-        (STATE, STATE.with_options(images={"exposure_ev": 1.0}), "exposure"),
+        (STATE, STATE.with_options(images={"pixel_size": 4}), "pixel size"),
         (STATE, STATE.with_options(outside={"camera": SKEWED}), "camera"),
         (
             moved(3.0).with_options(shadows=True, outside={"ray": False, "grid": False}),

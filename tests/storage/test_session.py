@@ -10,10 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.host.layout import CHOICES
 from app.state.app_state import AppState
 from app.state.options import Bookmark
 from app.storage.session import (
     LARGEST_BYTES,
+    NEAREST,
     VERSION,
     Arrangement,
     NewerVersionError,
@@ -64,10 +66,14 @@ def test_a_lens_comes_back_and_a_damaged_one_is_refused(state):
         from_bytes(data.replace(b'"brown"', b'"fog"'))
 
 
-def test_a_layout_that_had_another_name_comes_back(state):
-    old = replace(ARRANGEMENT, layout="Presentation", parts={"Presentation/RightSpace": 0.4})
-    read = from_bytes(to_bytes(session_of(state, old))).arrangement
-    assert (read.layout, read.parts) == ("Images", {"Images/RightSpace": 0.4})
+@pytest.mark.parametrize(
+    ("old", "nearest"),
+    [("Presentation", "Side by side"), ("Scene", "Four views"), ("Laboratory", "Loops")],
+)
+def test_a_layout_that_left_is_the_nearest_one(state, old, nearest):
+    read = from_bytes(to_bytes(session_of(state, replace(ARRANGEMENT, layout=old)))).arrangement
+    assert read == replace(ARRANGEMENT, layout=nearest)
+    assert {one.name for one in CHOICES} >= set(NEAREST.values())
 
 
 @given(

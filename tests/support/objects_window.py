@@ -34,9 +34,12 @@ translate = [2.5, 0.5, 0]
 
 
 def enter(d: Driver) -> None:
-    if hello_imgui.current_layout_name() != "Scene":
-        hello_imgui.switch_layout("Scene")
+    if hello_imgui.current_layout_name() != "Four views":
+        hello_imgui.switch_layout("Four views")
         d.ctx.yield_(5)
+        for name in ("Objects", "Inspector"):
+            d.window.shell.stage.show(name)
+            d.ctx.yield_(3)
     d.window.change(
         d.window.state.with_options(objects={"chosen": (), "selects": False, "handle": "none"})
     )

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 from app.host.action import ALT, CTRL, SHIFT, Key
 from app.state.app_state import AppState
-from app.state.changes import change
 from app.window.action_table import ACTIONS, MENUS
 from app.window.instruments import INSTRUMENTS, make_views
 from app.window.palette_entries import SYNONYMS, pages
@@ -103,7 +100,6 @@ PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
         ("lcd", "Display: LCD"),
         ("lights", "Add point light"),
         ("quiz", "Mistakes: what will this line do?"),
-        ("by rays", "Loop stepper: object order by rays"),
     ],
 )
 def test_the_words_of_other_programs_find_what_is_meant(query, wanted):
@@ -169,18 +165,6 @@ def test_the_sheets_columns_are_equal_where_words_are_broken():
     parts = [(str(k), [("", "")]) for k in range(4)]
     placed = in_columns(parts, 2, [9, 1, 1, 1])
     assert [len(column) for column in placed] == [1, 3]
-
-
-def test_steps_of_undo_have_words():
-    state = AppState.for_scene(load_scene("spheres"))
-    moved = state.with_camera(replace(state.camera, eye=(1, 2, 3)))
-    assert change(state, moved) == "camera: eye"
-    assert change(state, state.with_options(images={"exposure_ev": 1.0})) == "exposure"
-    assert change(state, state.with_options(preferences={"theme": "light"})) == "theme"
-    assert change(state, state.with_scene(load_scene("canonical"))).startswith("scene: ")
-    assert change(state, state.with_fit(not state.view.fit)) == "fit to the aspect ratio"
-    assert change(state, state) == "nothing to be seen"
-    assert change(state, replace(moved, step=("x.toml", 4))) == "lecture: step 5"
 
 
 def test_a_plus_is_a_plus_with_or_without_shift():

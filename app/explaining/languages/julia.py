@@ -18,7 +18,7 @@ from renderer.pixels import Indexing
 INDENT = "    "
 VECTOR, SCALAR = "vector", "scalar"
 # How tightly operators bind.
-OR, AND, COMPARE, SUM, PRODUCT, SIGN, POWER, ATOM = range(8)
+COMPARE, SUM, PRODUCT, SIGN, POWER, ATOM = range(6)
 OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
     ast.Add: ("+", SUM),
     ast.Sub: ("-", SUM),
@@ -81,7 +81,7 @@ class _Julia:
         self.kinds: dict[str, str] = {}  # of the variables so far
         self._counted, self._from_one = counted, indexing is Indexing.LECTURE
 
-    def text(self, node: ast.expr, least: int = OR) -> str:
+    def text(self, node: ast.expr, least: int = COMPARE) -> str:
         """Return the expression, in parentheses if it binds less tightly than `least`."""
         written, binds = self.written(node)
         return f"({written})" if binds < least else written
@@ -98,7 +98,7 @@ class _Julia:
             case ast.Subscript(value=value, slice=ast.Tuple(elts=places)) if not self._from_one:
                 return f"{self.text(value, ATOM)}[{', '.join(map(self._from_next, places))}]", ATOM
             case ast.Subscript(value=value, slice=place):
-                return f"{self.text(value, ATOM)}[{self.text(place, -2)}]", ATOM
+                return f"{self.text(value, ATOM)}[{self.text(place, -1)}]", ATOM
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
                 return self.power(left, right)
             case ast.BinOp(left=left, op=ast.MatMult(), right=right):
@@ -109,13 +109,8 @@ class _Julia:
                 return f"-{self.text(operand, SIGN)}", SIGN
             case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in OPERATORS:
                 return self.binary(left, op, right)
-            case ast.BoolOp(op=op, values=values):
-                word, binds = ("||", OR) if isinstance(op, ast.Or) else ("&&", AND)
-                return f" {word} ".join(self.text(value, binds + 1) for value in values), binds
-            case ast.UnaryOp(op=ast.Not(), operand=operand):
-                return f"!{self.text(operand, SIGN)}", SIGN
             case ast.Tuple(elts=parts):
-                return ", ".join(self.text(part) for part in parts), OR - 1
+                return ", ".join(self.text(part) for part in parts), -1
             case ast.Attribute(value=value, attr=name):
                 return f"{self.text(value, ATOM)}.{name}", ATOM
             case ast.Call():
@@ -243,10 +238,6 @@ def _block(
         if inner is None:
             continue
         _block(words, inner, depth + 1, lines, line_of)
-        rest = getattr(node, "orelse", [])
-        if rest:
-            lines.append(INDENT * depth + "else")
-            _block(words, rest, depth + 1, lines, line_of)
         lines.append(INDENT * depth + "end")
 
 
@@ -256,8 +247,6 @@ def _header(words: _Julia, node: ast.stmt) -> str:
             return f"function {name}({', '.join(one.arg for one in arguments.args)})"
         case ast.For(target=target, iter=over):
             return f"for {words.text(target, -1)} in {words.text(over)}"
-        case ast.While(test=test):
-            return f"while {words.text(test)}"
         case ast.If(test=test):
             return f"if {words.text(test)}"
     return _statement(words, node)

@@ -15,7 +15,6 @@ TABLES = (
     "processor",
     "lenses",
     "shading",
-    "secondary",
     "build",
     "scaling",
     "compilation",
