@@ -4,12 +4,8 @@ image explains it.
 This module defines parity: the tolerances, the causes and the errors. difference.py defines the
 differences, and their colours.
 
-Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below. A
-disagreement is explained if the pixel's centre is within TOLERANCE_PX of a line where the exact
-image is discontinuous (renderer/edges.py): a rasterizer that snaps vertices may then see the other
-side. The same holds if float32, in which both compute, cannot distinguish the sides: edges.py
-derives the distance, which is a thousandth of a pixel in usual views. Only lines of the two visible
-primitives count, never those of a hidden one.
+Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below.
+explained.py finds out whether a line of the image explains that they do not.
 """
 
 from __future__ import annotations
@@ -31,11 +27,10 @@ from renderer.difference import (
     most,
     signed_difference,
 )
-from renderer.edges import Discontinuities
-from renderer.explained import DEPTH_RELATIVE, LINES, NORMAL, Differing, line_causes, looked_up
+from renderer.explained import CAUSES, DEPTH_RELATIVE, NORMAL, Differing, explained
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
-from renderer.lens_faces import ENLARGEMENT, Faces, looked_up_faces
+from renderer.lens_faces import ENLARGEMENT
 from renderer.pixels import Indexing, Pixel
 from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
@@ -44,7 +39,6 @@ from renderer.shared_numbers import MUTED, SRGB_SLOPE
 
 COLOR = 2 / 255  # after the display transform
 
-CAUSES = (*LINES, "lookup")
 # Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both with a
 # different colour, and no line explains it.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
@@ -73,14 +67,7 @@ class ChannelError:
 class Comparison:
     """Counts of pixels, the errors, and a label per pixel.
 
-    explained: pixels by cause. "outline": at the edge of a primitive that one of the two images
-    shows. "meeting": where two surfaces meet. "clip": where near or far cuts, or nearer to the eye
-    than triangles are rasterized. "checker": at a cell's border. "texture": only the colour
-    differs, and within TOLERANCE_PX the texture varies as much. "grazing": the surface is so
-    oblique, or so small, that TOLERANCE_PX changes its depth, its smooth normal or its vertices'
-    colours by more than the difference. "cutout": at the border of a hole. "lookup": of a lens's
-    image, the texel that was looked up sees something else than the pixel, on either side of a
-    line. unexplained: all others.
+    explained: pixels by cause, see renderer/explained.py. unexplained: all others.
     shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
     among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
     times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
@@ -257,7 +244,7 @@ def compare_frames(
     labels[same_hit & ~agree] = SHADING
     i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
     if 0 < len(i) <= MOST_EXAMINED:
-        causes = _explain(flat, camera, size, Differing(raster, ray, i, j), enlargement)
+        causes = explained(flat, camera, size, Differing(raster, ray, i, j), enlargement)
         labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
     outside = 0
     if camera.lens is not None:
@@ -286,36 +273,6 @@ def compare_frames(
         nothing_hit=why_nothing_is_hit(flat, camera).text if hits_nothing(raster, ray) else "",
         outside=outside,
     )
-
-
-def _explain(
-    flat: FlatScene,
-    camera: Camera,
-    size: tuple[int, int],
-    pixels: Differing,
-    enlargement: int | None,
-) -> NDArray[np.uint8]:
-    """Return the labels of disagreeing pixels; AGREE for those without a cause."""
-    if camera.lens is None:
-        lines = Discontinuities(flat, camera, size)
-        return line_causes(lines, pixels, pixels.i, pixels.j)
-    faces: Faces = looked_up_faces(camera, size, enlargement or 1)
-    labels = np.full(len(pixels.i), AGREE, np.uint8)
-    for number, face in enumerate(faces.faces):
-        (mine,) = np.nonzero(faces.positions[pixels.i, pixels.j, 2] == number)
-        if not len(mine):
-            continue
-        part = pixels.part(mine)
-        lines = Discontinuities(flat, face.camera, face.size, face)
-        i, j = faces.place(number, part.i, part.j)
-        labels[mine] = line_causes(lines, part, i, j)
-        if enlargement is not None:
-            # The rasterizer saw the middles of texels, and snapped vertices there.
-            places = faces.texel(number, part.i, part.j)
-            at_texel = line_causes(lines, part, *places, of_pixel=False)
-            at_texel[looked_up(lines, part, (i, j), places)] = 1 + CAUSES.index("lookup")
-            labels[mine] = np.where(labels[mine] == AGREE, at_texel, labels[mine])
-    return labels
 
 
 def _differences(

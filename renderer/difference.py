@@ -30,13 +30,9 @@ STEPS = 511  # colours of a map; odd, so that the signed map has a middle
 UNEXPLAINED_COLOR = (255, 94, 0)
 SHADING_COLOR = (238, 51, 119)
 CAUSE_COLORS = {
-    "outline": (86, 180, 233),
-    "meeting": (0, 158, 115),
+    "edge": (86, 180, 233),
+    "pattern": (170, 170, 0),
     "clip": (170, 68, 153),
-    "checker": (170, 170, 0),
-    "texture": (221, 204, 119),
-    "grazing": (51, 102, 204),
-    "cutout": (136, 34, 85),
     "lookup": (160, 220, 90),
 }
 

@@ -1,4 +1,21 @@
-"""Which line of the image explains that two images differ at a pixel; see renderer/compare.py."""
+"""Why two images of one view differ at a pixel: which discontinuity of the exact image is near.
+
+A rasterizer snaps vertices to 1/256 pixel. A pixel whose centre is within TOLERANCE_PX of a line
+where the exact image jumps may therefore see either side of it. Both renderers compute in float32:
+the same holds within float32's error of such a line. Everywhere else the images must agree.
+
+Only lines of the two primitives that the images show at the pixel count. All of this is float64,
+and each line is the zero of a smooth function of the position in the image, so that its distance
+in pixels is the function's value over its slope:
+
+    edge     an edge of a triangle, the outline of a sphere; where the two surfaces meet; a surface
+             so oblique or small that its depth, smooth normal or vertex colours differ as much
+             within TOLERANCE_PX
+    pattern  a border of a checker's cell or of a hole; a texture that varies as much
+    clip     where near or far cuts, or what OpenGL clips right before the eye
+    lookup   an edge, a clip line or a hole within half a texel, in the pinhole image in which a
+             lens's pixel is looked up
+"""
 
 from __future__ import annotations
 
@@ -7,19 +24,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Floats
-from renderer.edges import Discontinuities
+from renderer.camera import Camera, Floats
 from renderer.frame import Frame
-from renderer.seen_surfaces import Bools, Ints, Numbers
+from renderer.lens_faces import looked_up_faces
+from renderer.scene.flat import FlatScene
+from renderer.seen_surfaces import (
+    TOLERANCE_PX,
+    Bools,
+    Numbers,
+    Surfaces,
+    View,
+    is_within,
+    length,
+    quiet,
+    slope_of,
+)
 
-TOLERANCE_PX = 1 / 128
+CAUSES = ("edge", "pattern", "clip", "lookup")
+HALF_TEXEL_PX = 0.5**0.5 + TOLERANCE_PX  # from a texel's middle to its corner
 DEPTH_RELATIVE = 1e-4
 NORMAL = 1e-3  # per component
 ROUNDED_LIGHT = 1e-4  # relative: float32's error in a colour
-HALF_TEXEL = 0.5**0.5 + TOLERANCE_PX  # from a texel's middle to its corner
-
-LINES = ("outline", "meeting", "clip", "checker", "texture", "grazing", "cutout")
-PARTING = ("outline", "meeting", "clip", "cutout")  # which part two primitives
 
 
 @dataclass(frozen=True)
@@ -35,95 +60,105 @@ class Differing:
         """Return both images' values, (2, n, ...)."""
         return np.stack([frame.channel(name)[self.i, self.j] for frame in (self.raster, self.ray)])
 
-    @property
-    def seen(self) -> tuple[tuple[Ints, Floats], tuple[Ints, Floats]]:
-        """The primitive and the ray parameter in either image."""
-        primitives, depths = self.channel("primitive"), self.channel("depth").astype(float)
-        return (primitives[0], depths[0]), (primitives[1], depths[1])
-
     def part(self, numbers: NDArray[np.intp]) -> Differing:
         return Differing(self.raster, self.ray, self.i[numbers], self.j[numbers])
 
 
-def line_causes(
-    lines: Discontinuities, pixels: Differing, i: Numbers, j: Numbers, of_pixel: bool = True
+def explained(
+    flat: FlatScene,
+    camera: Camera,
+    size: tuple[int, int],
+    pixels: Differing,
+    enlargement: int | None,
 ) -> NDArray[np.uint8]:
-    """Return for each of n pixels 1 + the index in LINES of the line that explains it; 0 for none.
+    """Return for each of n pixels 1 + the index in CAUSES of what explains it; 0 for nothing.
 
-    i, j: (n,), where its ray is in the image of `lines`. of_pixel: False for another ray near it,
-    where only lines count that part what is seen.
+    enlargement: of the faces in which the raster image of a lens was looked up; None if both images
+    were made from the pixels' rays.
     """
-    (first, t_first), (second, t_second) = pixels.seen
-    same = (first == second) & (first >= 0)
-    # The cases in the order of LINES, each as a distance in pixels.
-    distances = [
-        np.fmin(lines.outline_px(first, i, j), lines.outline_px(second, i, j)),
-        lines.meeting_px(first, second, i, j, t_second),
-        np.fmin(
-            lines.clip_px(first, i, j, t_first, drawn=True), lines.clip_px(second, i, j, t_second)
-        ),
-        np.where(same, lines.checker_px(second, i, j, t_second), np.inf),
-    ]
-    # The distance to a point with the other image's depth and normal, if they differ; otherwise,
-    # to a point with its vertices' colours.
-    turned = np.abs(np.subtract(*pixels.channel("normal"))).max(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        difference = np.abs(t_first - t_second)
-        moved = difference / lines.slope(second, i, j, t_second)
-        moved[difference <= DEPTH_RELATIVE * t_second] = 0
-        normal_slope, unknown = lines.normal_slope(second, i, j)
-        bent = turned / normal_slope
-        bent[turned <= unknown] = TOLERANCE_PX
-        bent[turned <= NORMAL] = 0
-        colors = pixels.channel("color")
-        faded = np.abs(colors[1] - colors[0]) / (
-            colors.max(axis=0) * lines.tint_slope(second, i, j)
-        )
-        faded[colors[0] == colors[1]] = 0
-    # If only the colour differs: does the texture vary as much nearby?
-    with np.errstate(divide="ignore", invalid="ignore"):
-        part = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
-    part[(colors[0] == colors[1]) | (part <= ROUNDED_LIGHT)] = 0
-    varies = lines.texture_varies(second, i, j, t_second, TOLERANCE_PX)
-    is_varied = (
-        same & (moved <= 0) & (bent <= 0) & (part <= varies).all(axis=1) & varies.any(axis=1)
-    )
-    distances.append(np.where(is_varied, 0.0, np.inf))
-    jump = np.where((moved > 0) | (bent > 0), np.maximum(moved, bent), faded.max(axis=1))
-    distances.append(np.where(same & (jump > 0), jump, np.inf))
-    at_hole = lines.is_at_hole(first, i, j, t_first, TOLERANCE_PX)
-    at_hole |= lines.is_at_hole(second, i, j, t_second, TOLERANCE_PX)
-    distances.append(np.where(at_hole & (first != second), 0.0, np.inf))
-    labels = np.zeros(len(i), np.uint8)
-    for label in range(len(LINES), 0, -1):
-        if not of_pixel and LINES[label - 1] not in PARTING:
+    if camera.lens is None:
+        return _causes(View(flat, camera, size), pixels, pixels.i, pixels.j)
+    faces = looked_up_faces(camera, size, enlargement or 1)
+    labels = np.zeros(len(pixels.i), np.uint8)
+    for number, face in enumerate(faces.faces):
+        (mine,) = np.nonzero(faces.positions[pixels.i, pixels.j, 2] == number)
+        if not len(mine):
             continue
-        labels[distances[label - 1] <= TOLERANCE_PX] = label
+        view, part = View(flat, face.camera, face.size, face), pixels.part(mine)
+        labels[mine] = _causes(view, part, *faces.place(number, part.i, part.j))
+        if enlargement is None:
+            continue
+        for places in (faces.place(number, part.i, part.j), faces.texel(number, part.i, part.j)):
+            near = _parting(view, part, *places, HALF_TEXEL_PX).any(axis=0)
+            labels[mine[near & (labels[mine] == 0)]] = 1 + CAUSES.index("lookup")
     return labels
 
 
-def looked_up(
-    lines: Discontinuities,
-    pixels: Differing,
-    here: tuple[Numbers, Numbers],
-    there: tuple[Numbers, Numbers],
-) -> Bools:
-    """Return which pixels differ since the texel that they looked up sees something else.
-
-    here, there: where the rays of the pixels, and of the texels' middles, are in the image of
-    `lines`. The raster image shows what is in front there: either it is not on the pixel's own ray,
-    or what is on that is not on the texel's, or the one that is nearer changes between them.
+def _causes(view: View, pixels: Differing, i: Numbers, j: Numbers) -> NDArray[np.uint8]:
+    """Return labels (n,) as explained() does, without lookups. i, j: where the pixels' rays are
+    in this image.
     """
-    (first, t_first), (second, t_second) = pixels.seen
-    missed = (first >= 0) & ~lines.sees(first, *here, t_first)
-    missed |= (second >= 0) & ~lines.sees(second, *there, t_second)
-    with np.errstate(invalid="ignore"):
-        before, after = (
-            lines.parameter(first, *place, t_first) - lines.parameter(second, *place, t_second)
-            for place in (here, there)
-        )
-        missed |= (before > 0) != (after > 0)
-    missed |= lines.is_at_hole(first, *here, t_first, HALF_TEXEL)
-    missed |= lines.is_at_hole(second, *here, t_second, HALF_TEXEL)
-    different: Bools = missed & (first != second)
-    return different
+    edge, hole, clip = _parting(view, pixels, i, j, TOLERANCE_PX)
+    first, second = pixels.channel("primitive")
+    t = pixels.channel("depth").astype(float)
+    same = (first == second) & (first >= 0)
+    seen = Surfaces(view, second, t[1])
+    jumps, is_shade = _jumps(seen, pixels, i, j)
+    edge |= same & jumps
+    border = same & (seen.checker_px(i, j) <= TOLERANCE_PX)
+    light = pixels.channel("color")
+    with quiet():
+        part = np.abs(light[1] - light[0]) / light.max(axis=0)
+    part[(light[0] == light[1]) | (part <= ROUNDED_LIGHT)] = 0
+    varies = seen.texture_varies(i, j)
+    border |= same & is_shade & (part <= varies).all(axis=1) & varies.any(axis=1)
+    return np.select([clip, edge, border | hole], [3, 1, 2], 0).astype(np.uint8)
+
+
+def _parting(view: View, pixels: Differing, i: Numbers, j: Numbers, px: float) -> Bools:
+    """Return which pixels are within `px` of a line that parts two primitives: an edge, a hole,
+    a clip line, (3, n).
+    """
+    primitives, depths = pixels.channel("primitive"), pixels.channel("depth").astype(float)
+    first, second = (Surfaces(view, *one) for one in zip(primitives, depths, strict=True))
+    edge = first.at_outline(i, j, px) | second.at_outline(i, j, px)
+    edge |= _meet(first, second, i, j, px)
+    clip = first.at_clip(i, j, px, drawn=True) | second.at_clip(i, j, px)
+    differ = primitives[0] != primitives[1]
+    hole = differ & (first.at_hole(i, j, px) | second.at_hole(i, j, px))
+    return np.array([edge, hole, clip])
+
+
+def _meet(first: Surfaces, second: Surfaces, i: Numbers, j: Numbers, px: float) -> Bools:
+    """Return which pixels are within px of where the surfaces of two primitives meet."""
+
+    def gap(i: Numbers, j: Numbers) -> Floats:
+        return first.parameter(i, j) - second.parameter(i, j)
+
+    pair = (first.primitive >= 0) & (second.primitive >= 0)
+    pair &= first.primitive != second.primitive
+    with quiet():  # the depth buffer's last place
+        same = np.abs(gap(i, j)) <= 4e-6 * np.abs(second.t)
+    return pair & (same | is_within(gap, i, j, px))
+
+
+def _jumps(seen: Surfaces, pixels: Differing, i: Numbers, j: Numbers) -> tuple[Bools, Bools]:
+    """Return for pixels that show one primitive: does its depth, smooth normal or vertices' colour
+    change as much as it differs within TOLERANCE_PX; do depth and normal not differ.
+    """
+    t, colors = pixels.channel("depth").astype(float), pixels.channel("color")
+    turned = np.abs(np.subtract(*pixels.channel("normal"))).max(axis=1)
+    with quiet():
+        slopes = slope_of(seen.interpolated, i, j)
+        moved = np.abs(t[0] - t[1])
+        moved[moved <= DEPTH_RELATIVE * t[1]] = 0
+        is_moved = ~(moved <= TOLERANCE_PX * slope_of(seen.parameter, i, j))
+        turned[turned <= NORMAL] = 0
+        bend = TOLERANCE_PX * length(slopes[:, :3])
+        tint = slopes[:, 3:] / seen.interpolated(i, j)[:, 3:]
+        faded = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
+        faded[colors[0] == colors[1]] = 0
+        fades = (faded <= TOLERANCE_PX * np.nan_to_num(tint)).all(axis=1) & faded.any(axis=1)
+    differs = ~((moved == 0) & (turned == 0))
+    is_near = ~(is_moved & (moved != 0)) & (turned <= bend)
+    return np.where(differs, is_near, fades), ~differs

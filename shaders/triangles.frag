@@ -6,12 +6,10 @@
 #include "chunks/meeting.glsl"
 #include "chunks/texture.glsl"
 
-uniform int first_triangle;  // of this draw
-
 out int primitive;
 
 void main() {
-    int number = first_triangle + gl_PrimitiveID;
+    int number = gl_PrimitiveID;
     vec2 xy = image_position(gl_FragCoord.xy);
     float t = triangle_t(texelFetch(triangle_rows, texel(number), 0).xyz, xy);
     if (!counts(t, xy)) {

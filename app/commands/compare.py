@@ -20,10 +20,9 @@ also lie within half a texel of such a line in the image that was looked up."""
 
 EPILOG = """\
 The picture shows the raster image dark, with the differing pixels in their causes' colours:
-outline light blue, meeting green, clip purple, checker olive, texture sand, grazing blue, lookup
-light green; unexplained vermilion, or pink where only the colour differs. Or the difference as
-false colours: absolute, black (none) to white; signed, blue (raster larger) over white (none)
-to orange (ray larger).
+edge light blue, pattern olive, clip purple, lookup light green; unexplained vermilion, or pink
+where only the colour differs. Or the difference as false colours: absolute, black (none) to
+white; signed, blue (raster larger) over white (none) to orange (ray larger).
 exit status: 0 no unexplained pixels, 1 some, or nothing is hit in either image, so that nothing
 was compared; 2 a mistake or a failure, 130 interrupted
 

@@ -47,14 +47,10 @@ class Cause:
 
 
 LABELS = (
-    Cause(1, "edge", "The pixel's centre lies on the outline of what one of the two images sees."),
-    Cause(2, "meeting", "The pixel's centre lies on the line where two surfaces meet."),
+    Cause(1, "edge", "Within 1/128 pixel is an edge, or a line where two surfaces meet."),
+    Cause(2, "pattern", "Within 1/128 pixel, a checker, a hole or a texture changes as much."),
     Cause(3, "clip", "Near or far cuts a surface there, or it is too near the eye for OpenGL."),
-    Cause(4, "checker", "The pixel's centre lies on the border of a checker's cell."),
-    Cause(5, "texture", "Within the 1/128 pixel, the texture there has as different colours."),
-    Cause(6, "grazing", "Seen obliquely, or small: depth, normal or colour jump within a pixel."),
-    Cause(7, "cutout", "The pixel's centre lies on the border of a hole that a texture cuts out."),
-    Cause(8, "lookup", "The texel that the pixel looked up sees past an edge, up to half a texel."),
+    Cause(4, "lookup", "The texel that the pixel looked up sees past an edge, up to half a texel."),
     Cause(SHADING, "shading", "Both see the same point, but in another colour."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )

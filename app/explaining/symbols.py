@@ -60,7 +60,6 @@ _LETTERS = {one.code: one.letter for one in TABLE} | {
 }
 _WORDS = {one.letter: one.code for one in TABLE}
 _ARGUMENTS = {one.code: one.book for one in TABLE if one.code not in ("x", "y", "point")}
-_ALONE = re.compile(r"(?<![\w'])[deWH](?![\w'])")  # letters that are no words
 _LATEX = re.compile(
     r"\\mathbf\{(?P<vector>\w+)\}"
     r"|\\(?:mathrm|mathit|text|begin|end)\{[^{}]*\}|\\[A-Za-z]+|_(?:\{[^{}]*\}|\w)"  # stays
@@ -153,12 +152,6 @@ def vectors(code: str, notation: Notation) -> list[tuple[int, str, str]]:
 def arguments(text: str, notation: Notation) -> str:
     """Return the arguments of a function, or fields of a camera, in a notation: `i, W, e`."""
     return text if notation == "code" else _renamed(text, _ARGUMENTS)
-
-
-def marked(sentence: str) -> str:
-    """Return a sentence with bare letters of the book as words() takes it: d as `distance`."""
-    letters = {one.book: one.code for one in TABLE if one.code not in ("direction",)}
-    return _ALONE.sub(lambda found: f"`{letters[found[0]]}`", sentence)
 
 
 @functools.lru_cache(256)

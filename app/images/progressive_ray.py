@@ -68,8 +68,8 @@ class LiveTrace:
     """Traces the newest request.
 
     wake: called on its thread when there is something new. make_tracer: returns a Tracer for a
-    request; called on that thread. begin: called there first. first_ever: no image at all has
-    arrived, so preparing includes compiling. Requests and polls come from one thread, the window's.
+    request; called on that thread. begin: called there first. Requests and polls come from one
+    thread, the window's.
     """
 
     def __init__(
@@ -92,7 +92,6 @@ class LiveTrace:
         self._closed = False
         self._error: Exception | None = None
         self._began_s = 0.0
-        self.first_ever = True
         self._ready: tuple[Scene, Tracer] | None = None
         self._thread = threading.Thread(target=self._run, name="lucida-live", daemon=True)
         self._thread.start()
@@ -152,6 +151,12 @@ class LiveTrace:
         """
         with self._changed:
             return time.monotonic() - self._began_s if self._began_s else 0.0
+
+    @property
+    def is_compiling(self) -> bool:
+        """True while an image waits for kernels to be compiled."""
+        ready = self._ready
+        return ready is not None and ready[1].is_compiling
 
     def tracer_of(self, scene: Scene) -> Tracer | None:
         """Return the tracer that has prepared a scene, for other rays; None until there is one.
@@ -231,7 +236,7 @@ class LiveTrace:
             if not frame.complete:
                 return
             self._arrived = RayImage(request, frame, factor)
-            self._began_s, self.first_ever = 0.0, False
+            self._began_s = 0.0
             if request.samples == 1:
                 self._finished = wanted
         self._wake()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Hashable
 from typing import Any, Generic, TypeVar
@@ -13,50 +14,54 @@ from app.images.progressive_ray import LiveTrace
 from app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
 from app.widgets.background import Background
 from renderer.errors import LucidaError
-from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
 from renderer.scene_editing.documents import are_versions
-from renderer.shaded_rays import RayShading, shaded
 
 T = TypeVar("T")
+Range = tuple[float, float]
+EVERYWHERE: Range = (0.0, math.inf)
 _Question = tuple[Hashable, Scene]  # compared by identity
 _Answer = tuple[_Question, T | None, Exception | None]  # neither, if it was given up
+AT_ONCE = 1 << 14  # rays: other jobs can run in between
 PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
 
 
 class RayPainter:
     """The rays of one scene, on the thread that makes the pictures."""
 
-    def __init__(
-        self, scene: Scene, flat: FlatScene, tracer: Any, is_wanted: Callable[[], bool]
-    ) -> None:
-        self._scene, self._flat, self.tracer = scene, flat, tracer
-        self._is_wanted = is_wanted
+    def __init__(self, scene: Scene, tracer: Any, is_wanted: Callable[[], bool]) -> None:
+        self._scene, self.tracer, self._is_wanted = scene, tracer, is_wanted
 
     def picture(
-        self, origins: ArrayLike, directions: ArrayLike, shading: RayShading
+        self, origins: ArrayLike, directions: ArrayLike, t_range: Range = EVERYWHERE
     ) -> NDArray[np.float32]:
-        """Return linear light (H, W, 3) along rays, see shaded_rays.shaded().
+        """Return linear light (H, W, 3) along rays, without shadows and mirrors.
 
-        Raises UnwantedError; let it through.
+        origins, directions: (H, W, 3), broadcast together. t_range: limits of the hits. Raises
+        UnwantedError; let it through.
         """
+        start, way = np.broadcast_arrays(origins, directions)
+        start, way = start.reshape(-1, 3), way.reshape(-1, 3)
+        light = np.empty(start.shape, np.float32)
 
-        def traced() -> NDArray[np.float32] | None:
-            return shaded(self.tracer, self._flat, origins, directions, shading, self._is_wanted)
+        def traced() -> None:
+            for first in range(0, len(start), AT_ONCE):
+                if not self._is_wanted():
+                    raise UnwantedError
+                part = slice(first, first + AT_ONCE)
+                light[part] = self.tracer.shaded(start[part], way[part], *t_range)
 
-        light = of_scene(self.tracer, self._scene, traced)
-        if light is None:
-            raise UnwantedError
-        return light
+        of_scene(self.tracer, self._scene, traced)
+        return light.reshape(np.broadcast_shapes(np.shape(origins), np.shape(directions)))
 
-    def hit(self, origin: ArrayLike, direction: ArrayLike, shading: RayShading) -> float:
+    def hit(self, origin: ArrayLike, direction: ArrayLike, t_range: Range = EVERYWHERE) -> float:
         """Return where a ray (3,), (3,) ends, in units of its direction; inf if it hits nothing.
 
         Raises UnwantedError.
         """
 
         def traced() -> float:
-            t = self.tracer.closest_hits([origin], [direction], *shading.t_range)[0]
+            t = self.tracer.closest_hits([origin], [direction], *t_range)[0]
             return float(t[0])
 
         return of_scene(self.tracer, self._scene, traced)
@@ -72,7 +77,6 @@ class RayPictures(Generic[T]):
     def __init__(self, name: str, wake: Callable[[], None]) -> None:
         self._background: Background[_Answer[T]] = Background(name, wake)
         self.tracer = SceneTracer()
-        self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
         self._newest: _Question | None = None
         self._waits = False  # for the window's tracer
         self._made: T | None = None
@@ -140,9 +144,7 @@ class RayPictures(Generic[T]):
 
         scene = question[1]
         try:
-            if self._flat is None or self._flat[0] is not scene:
-                self._flat = (scene, flatten(scene, self._flat))
-            painter = RayPainter(scene, self._flat[1], self.tracer.of(scene, tracer), is_wanted)
+            painter = RayPainter(scene, self.tracer.of(scene, tracer), is_wanted)
             return question, make(painter), None
         except UnwantedError:
             return question, None, None

@@ -326,7 +326,7 @@ class Renderers(ImageSize):
         passed_s = self.live.preparing_s
         if passed_s < NOTE_AFTER_S:
             return ""
-        compiles = compile_note.note() if self.live.first_ever else ""
+        compiles = compile_note.note() if self.live.is_compiling else ""
         return f"{compiles or 'preparing the scene for the ray tracer ...'} ({passed_s:.0f} s)"
 
     # Single pixels.

@@ -16,7 +16,6 @@ from app.mistakes.options import MistakesOptions
 from app.mistakes.question import LETTERS, question, reason
 from app.state.app_state import AppState
 from app.state.options import Notation
-from renderer.scene.flat import flatten
 
 SIZE = (160, 120)  # of the pictures, where a step leaves it to the window
 
@@ -26,7 +25,7 @@ def _painter(state: AppState) -> Iterator[RayPainter]:
     from renderer.trace import Tracer
 
     with Tracer(state.scene) as tracer:
-        yield RayPainter(state.scene, flatten(state.scene), tracer, lambda: True)
+        yield RayPainter(state.scene, tracer, lambda: True)
 
 
 def laboratory(number: int, state: AppState) -> str:
@@ -108,7 +107,7 @@ def quiz(step: Step, state: AppState) -> tuple[str, dict[str, Any]] | None:
 
 def _picture(painter: RayPainter, now: Situation, mistake: Mistake | None) -> Bytes:
     origins, directions = rays_of(now, () if mistake is None else (mistake,))
-    return shown(painter.picture(origins, directions, now.shading), 0.0)
+    return shown(painter.picture(origins, directions, now.camera.t_range), 0.0)
 
 
 def _image(picture: Bytes, alternative: str) -> str:

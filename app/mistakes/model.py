@@ -15,7 +15,6 @@ from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.checking.mistakes.rays import RayTask, camera_rays, ray_program
 from app.explaining.breaking import broken
 from app.images.ray_pictures import RayPainter
-from app.images.request import MIRROR_DEPTH
 from app.mistakes.options import MistakesOptions
 from app.outside.second_camera import GivenRay, corner_rays
 from app.state.app_state import AppState
@@ -23,7 +22,6 @@ from app.state.options import Pixel
 from renderer.camera import Camera, Size
 from renderer.images import to_srgb8
 from renderer.pixels import Indexing
-from renderer.shaded_rays import RayShading
 
 Light = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
@@ -44,7 +42,6 @@ class Situation:
     camera: Camera
     size: Size
     indexing: Indexing
-    shading: RayShading
     pixel: Pixel | None = None
 
     @property
@@ -67,12 +64,10 @@ def situation_of(state: AppState, images: Size) -> Situation:
     """images: the size of the window's own images, whose shape is taken."""
     size = picture_size(state, images)
     camera = state.view.for_size(size)
-    depth = MIRROR_DEPTH if state.options.mirrors else 0
-    shading = RayShading(camera.t_range, state.options.shadows, depth)
     marked, pixel = state.marked, None
     if marked is not None and marked[0] < images[1] and marked[1] < images[0]:
         pixel = scaled_pixel(marked, images, size)
-    return Situation(camera, size, state.options.indexing, shading, pixel)
+    return Situation(camera, size, state.options.indexing, pixel)
 
 
 def picture_size(state: AppState, images: Size) -> Size:
@@ -100,13 +95,13 @@ def rays_of(now: Situation, mistakes: Mistakes) -> tuple[Floats, Floats]:
 
 def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compared:
     """Both pictures; for a thread."""
-    right = painter.picture(*rays_of(now, ()), now.shading)
+    right = painter.picture(*rays_of(now, ()), now.camera.t_range)
     origins, directions = rays_of(now, mistakes)
-    wrong = painter.picture(origins, directions, now.shading) if mistakes else right
+    wrong = painter.picture(origins, directions, now.camera.t_range) if mistakes else right
     ray = None
     if now.pixel is not None:
         origin, direction = origins[now.pixel], directions[now.pixel]
-        ray = GivenRay(origin, direction, painter.hit(origin, direction, now.shading))
+        ray = GivenRay(origin, direction, painter.hit(origin, direction, now.camera.t_range))
     return Compared(right, wrong, corner_rays(origins, directions), ray)
 
 

@@ -54,10 +54,10 @@ def question(
     """
     program = now.program
     by_name = {mistake.name: mistake for mistake in program.mistakes}
-    right = painter.picture(*rays_of(now, ()), now.shading)
+    right = painter.picture(*rays_of(now, ()), now.camera.t_range)
 
     def picture(mistake: Mistake) -> Light:
-        return painter.picture(*rays_of(now, (mistake,)), now.shading)
+        return painter.picture(*rays_of(now, (mistake,)), now.camera.t_range)
 
     if len(names) == CHOICES and all(name in by_name for name in names):
         pictures = tuple(picture(by_name[name]) for name in names)

@@ -37,10 +37,10 @@ _PULLED = (
     ),
 )
 _NUMBERED = (
-    ("first_triangle + gl_PrimitiveID", "drawn"),
+    ("gl_PrimitiveID", "drawn"),
     (
-        "uniform int first_triangle;",
-        "flat in int drawn;",
+        "out int primitive;",
+        "flat in int drawn;\nout int primitive;",
     ),
 )
 _SHOWN = (

@@ -18,9 +18,8 @@ TALK = "To talk about tomorrow"
 BY_STEP, OVER_TIME, UNREAD = "By step", "Over time", "Not read"
 KEY = ("correct at once", "correct later", "not correct yet")
 KINDS = ("right", "later", "wrong")
-TRANSPOSED = "ᵀ"
 LATEX = (  # what the replies of lectures hold, as signs
-    (r"^\mathsf{T}", TRANSPOSED), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
+    (r"^\mathsf{T}", "ᵀ"), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
     (r"\,", " "), ("{", ""), ("}", ""), ("-", "\u2212"),
 )  # fmt: skip
 MOST_LABELS, COLUMN_REM = 4, 4.5  # of columns: labels that have room; their height
@@ -148,11 +147,6 @@ def _key(kinds: Sequence[str], words: Sequence[str]) -> str:
 
 def _part(title: str) -> str:
     return f'<h2 class="part">{title}</h2>\n'
-
-
-def plain(text: str) -> str:
-    """Return a lecture's text without its marks, in letters that the window's fonts have."""
-    return "".join(words for words, _ in _words(text)).replace(TRANSPOSED, "^T")
 
 
 def _marked(text: str) -> str:

@@ -27,7 +27,6 @@ from app.your_code.report import CodeReport
 from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
-from renderer.shaded_rays import RayShading
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,11 +94,11 @@ class PicturesShown:
         if not self._painting:
             self.pictures = None
             return
-        shading = RayShading(rays.camera.t_range)
+        t_range = rays.camera.t_range
 
         def make(painter: RayPainter) -> _Painted:
-            given = painter.picture(rays.origins, rays.directions, shading)
-            right = painter.picture(rays.right_origins, rays.right_directions, shading)
+            given = painter.picture(rays.origins, rays.directions, t_range)
+            right = painter.picture(rays.right_origins, rays.right_directions, t_range)
             return _Painted(rays, given, right)
 
         made = self._painter.follow(rays, state.scene, host.renderers.live, make)

@@ -24,7 +24,7 @@ from app.widgets.lettering import lettering
 from app.widgets.rows import follow, tip
 from app.widgets.theme import Fonts
 from app.your_code.report import CodeReport
-from app.your_code.words import ToldLine, ToldRole, in_columns, verdict_of
+from app.your_code.words import ToldLine, ToldRole, verdict_of
 from renderer.camera import Size
 from renderer.errors import one_line
 
@@ -197,7 +197,7 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
             with lettering(*_lettering(line, number, fonts)):
                 if line.role == "code":
                     imgui.push_text_wrap_pos(0.0)
-                    imgui.text_colored(_color(line.role), _broken(line.text, left.x))
+                    imgui.text_colored(_color(line.role), line.text)
                     imgui.pop_text_wrap_pos()
                 else:
                     coded_text(line.text, left.x, _color(line.role), fonts)
@@ -212,14 +212,6 @@ def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont 
     if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
         return fonts.bold, VERDICT
     return fonts.text, 1.0
-
-
-def _broken(text: str, width: float) -> str:
-    """Return a line of code with the marks under it, broken to fit. Other lines break between
-    words.
-    """
-    letter = imgui.calc_text_size("m").x
-    return in_columns(text, max(int(width / letter), 1)) if "\n" in text else text
 
 
 def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -30,7 +30,7 @@ class ToldLine:
     """A line of words.
 
     role: its meaning, which determines its look.
-    code: in a fixed-width font. A traceback's line may be followed by a line of marks under it.
+    code: in a fixed-width font.
     """
 
     role: ToldRole
@@ -40,29 +40,14 @@ class ToldLine:
 def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
     """Return all findings, the most helpful first. pixel: the marked one, in the pictures."""
     lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
-    return [*_with_marks(lines), *_of_output(report)]
-
-
-def in_columns(text: str, columns: int) -> str:
-    """Break a line of code after this many characters. Marks under it stay below what they mark."""
-    code, _, marks = text.partition("\n")
-    pieces = []
-    for first in range(0, max(len(code), 1), columns):
-        pieces.append(code[first : first + columns])
-        if under := marks[first : first + columns].rstrip():
-            pieces.append(under)
-    return "\n".join(pieces)
-
-
-def _with_marks(lines: list[ToldLine]) -> Iterator[ToldLine]:
-    """Yield the lines; a traceback's line of code is joined with the ^^^ under it."""
-    for line, after in zip(lines, [*lines[1:], None], strict=True):
-        if not _is_marks(line):
-            marked = after is not None and _is_marks(after) and line.role == "code"
-            yield replace(line, text=f"{line.text}\n{after.text}") if after and marked else line
+    lines = [line for line in lines if not _is_marks(line)]
+    return [*lines, *_of_output(report)]
 
 
 def _is_marks(line: ToldLine) -> bool:
+    """Return True for a traceback's line of ^^^ alone: wrapped text would separate it from its
+    code.
+    """
     return line.role == "code" and re.fullmatch(r" *[~^][ ~^]*", line.text) is not None
 
 

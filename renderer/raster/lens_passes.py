@@ -23,11 +23,11 @@ class Way(Protocol):
 
     count: int
 
-    def see(self, first: int, count: int | None) -> bool:
-        """Draw the nearest primitives, a part of the triangles; return True after the last part."""
+    def see(self) -> None:
+        """Draw the nearest primitives."""
 
-    def shade(self, rows: tuple[int, int]) -> None:
-        """Draw hits and colours of some rows."""
+    def shade(self) -> None:
+        """Draw hits and colours."""
 
 
 class Pinhole:
@@ -39,12 +39,12 @@ class Pinhole:
         self._targets, self._data = targets, data
         data.set_view(RasterView(camera, targets.size))
 
-    def see(self, first: int, count: int | None) -> bool:
+    def see(self) -> None:
         self._targets.seen.use()
-        return self._data.see(first, count)
+        self._data.see()
 
-    def shade(self, rows: tuple[int, int]) -> None:
-        self._targets.shade_rows(rows)
+    def shade(self) -> None:
+        self._targets.shaded.use()
         self._data.shade(self._targets.textures.primitive)
 
 
@@ -65,24 +65,22 @@ class LookedUp:
         else:  # the lens sees nothing
             data.set_view(RasterView(camera.pinhole, targets.size))
 
-    def see(self, first: int, count: int | None) -> bool:
+    def see(self) -> None:
         targets, data = self._targets, self._data
         if not self._faces.faces:
             targets.seen.use()
             data.clear()
-            return True
+            return
         seen = targets.lens.face(self._faces.faces)
         seen.use()
-        done = data.see(first, count)
-        if done:
-            targets.seen.use()
-            if self._number == 0:
-                data.clear()
-            data.look_up(_texture(seen, 0), self._lookup)
-        return done
+        data.see()
+        targets.seen.use()
+        if self._number == 0:
+            data.clear()
+        data.look_up(_texture(seen, 0), self._lookup)
 
-    def shade(self, rows: tuple[int, int]) -> None:
-        self._targets.shade_rows(rows)
+    def shade(self) -> None:
+        self._targets.shaded.use()
         if self._faces.faces:
             self._data.shade(self._targets.textures.primitive, self._lookup)
         else:

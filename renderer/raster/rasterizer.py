@@ -19,9 +19,9 @@ import moderngl
 from renderer.camera import Camera, check_camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame, check_channels, check_size
-from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS, looked_up_faces
+from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
 from renderer.raster.contexts import check_process, is_inherited, open_platform
-from renderer.raster.lens_passes import Way, way_of
+from renderer.raster.lens_passes import way_of
 from renderer.raster.prepared import Prepared, prepare
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
@@ -113,57 +113,6 @@ class Rasterizer:
         with self._passes():
             return self._draw(camera, check_size(size), place, enlargement).textures
 
-    def faces(self, camera: Camera, size: tuple[int, int], enlargement: int = ENLARGEMENT) -> int:
-        """Return how often draw() runs both passes, each time for another part of a lens's
-        image.
-        """
-        if camera.lens is None:
-            return 1
-        return max(1, len(looked_up_faces(camera, size, enlargement).faces))
-
-    def see(
-        self,
-        camera: Camera,
-        size: tuple[int, int],
-        place: str,
-        first: int,
-        count: int,
-        enlargement: int = ENLARGEMENT,
-        face: int = 0,
-    ) -> bool:
-        """Run a part of draw()'s first pass: only `count` of the scene's triangles, from number
-        `first` on, so that no call takes long.
-
-        The parts must come in order, with the same camera, size, place, drawing and scene; drawing
-        to other places in between is allowed. Returns True after the last part. face: from 0 to
-        faces() - 1; shade() one face before seeing the next.
-        """
-        with self._passes():
-            way, _ = self._way(camera, check_size(size), place, enlargement, face)
-            return way.see(first, count)
-
-    def shade(
-        self,
-        camera: Camera,
-        size: tuple[int, int],
-        place: str,
-        rows: tuple[int, int],
-        enlargement: int = ENLARGEMENT,
-        face: int = 0,
-    ) -> Textures:
-        """Run a part of draw()'s second pass, after all of see(): rows[0] up to, not including,
-        rows[1].
-        """
-        with self._passes():
-            way, targets = self._way(camera, check_size(size), place, enlargement, face)
-            way.shade(rows)
-            return targets.textures
-
-    @property
-    def triangles(self) -> int:
-        """The number of triangles in the scene, without spheres."""
-        return self._data.triangles if self._data is not None else 0
-
     def render(
         self,
         camera: Camera,
@@ -247,28 +196,17 @@ class Rasterizer:
 
     def _draw(self, camera: Camera, size: tuple[int, int], place: str, enlargement: int) -> Targets:
         """Run both passes, for all faces, within _passes()."""
-        number, count = 0, 1
-        while number < count:
-            way, targets = self._way(camera, size, place, enlargement, number)
-            way.see(0, None)
-            way.shade((0, size[1]))
-            number, count = number + 1, way.count
-        return targets
-
-    def _way(
-        self,
-        camera: Camera,
-        size: tuple[int, int],
-        place: str,
-        enlargement: int,
-        number: int,
-    ) -> tuple[Way, Targets]:
-        """Return pass `number` of the image, whose inputs are bound, and its targets."""
         gl, data = self._platform.context, self._data
         assert data is not None  # current() has checked that
         targets = self._targets_of(gl, size, place)
         data.bind()
-        return way_of(camera, enlargement, number, data, targets), targets
+        number, count = 0, 1
+        while number < count:
+            way = way_of(camera, enlargement, number, data, targets)
+            way.see()
+            way.shade()
+            number, count = number + 1, way.count
+        return targets
 
     def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:
         targets = self._targets.get(place)

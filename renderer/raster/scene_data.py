@@ -173,11 +173,7 @@ class SceneData:
         return self._flat
 
     def set_view(self, view: RasterView) -> None:
-        """Fill the tables that depend on the camera, unless they are already this camera's.
-
-        The triangles' table is only filled as far as it is drawn: a million triangles take as long
-        as a frame.
-        """
+        """Fill the tables that depend on the camera, unless they are already this camera's."""
         if self._last == view:
             return
         camera, size = view.camera, view.size
@@ -198,30 +194,20 @@ class SceneData:
             self._write_triangles(low, high)
         self._camera, self._rows, self._moved = self._last, filled, []
 
-    def see(self, first: int = 0, count: int | None = None) -> bool:
-        """Run the first pass: draw the nearest primitive of each pixel into the bound framebuffer.
-
-        first, count: a part of the triangles; the parts must come in order. count None: to the last
-        one. Returns True after the last part.
-        """
+    def see(self) -> None:
+        """Run the first pass: draw each pixel's nearest primitive into the bound framebuffer."""
         context, view = self._context, self._last
         assert view is not None, "set_view() comes first"
         (width, height), (x, y) = view.size, self._margin
-        total = len(self._flat.faces)
-        last = total if count is None else min(first + count, total)
-        self._fill_triangles(last)
+        self._fill_triangles()
         context.viewport = -x, -y, width + 2 * x, height + 2 * y
-        if first == 0:
-            self.clear()
+        self.clear()
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<"
         has_lens = view.face is not None
-        if first < last:
+        if len(self._flat.faces):
             triangles = self._array("triangles", has_lens)
-            set_uniform(triangles.program, "first_triangle", first)
-            triangles.render(moderngl.TRIANGLES, vertices=3 * (last - first), first=3 * first)
-        if last < total:
-            return False
+            triangles.render(moderngl.TRIANGLES, vertices=3 * len(self._flat.faces))
         if len(self._flat.spheres):
             array = self._array_of(self._programs.spheres(has_lens))
             context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
@@ -230,7 +216,6 @@ class SceneData:
             context.cull_face = "front"
             spheres = len(self._flat.spheres)
             array.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=spheres)
-        return True
 
     def clear(self) -> None:
         """Clear the bound framebuffer: no primitive anywhere."""
@@ -247,7 +232,7 @@ class SceneData:
         if not len(self._flat.materials):
             return
         self._use(primitives, face)
-        self._fill_triangles(len(self._flat.faces))  # another camera may have been set since
+        self._fill_triangles()  # another camera may have been set since
         array = self._array("shade", face is not None)
         self._cover(array, ">", face)
 
@@ -273,9 +258,9 @@ class SceneData:
         for name, table in self._tables.items():
             table.texture.use(UNITS[name])
 
-    def _fill_triangles(self, last: int) -> None:
-        """Fill the table of triangles for this camera, up to a number."""
-        wanted = -(-last // TABLE_WIDTH)
+    def _fill_triangles(self) -> None:
+        """Fill the table of triangles for this camera."""
+        wanted = -(-len(self._flat.faces) // TABLE_WIDTH)
         if wanted <= self._rows:
             return
         self._write_triangles(self._rows, wanted)

@@ -76,14 +76,6 @@ class Targets:
         self.shaded = own(context.framebuffer(shaded, depth))
         self.shaded.depth_mask = False
 
-    def shade_rows(self, rows: tuple[int, int]) -> None:
-        """Bind the framebuffer for shading, limited to rows[0] up to, not including, rows[1]."""
-        first, last = rows
-        width, height = self.size
-        part = None if rows == (0, height) else (0, first, width, last - first)
-        self.shaded.scissor = part  # type: ignore[assignment]
-        self.shaded.use()
-
     def read(
         self, channels: Iterable[str], region: Region | None = None
     ) -> dict[str, NDArray[np.float32] | NDArray[np.int32]]:

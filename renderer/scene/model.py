@@ -356,13 +356,9 @@ def triangles_of(objects: Iterable[SceneObject]) -> int:
 
 
 def has_textures(scene: Scene) -> bool:
-    """Return whether any object of the scene has a texture."""
-    return any(entry.material.image is not None for entry in scene.objects)
-
-
-def has_metals(scene: Scene) -> bool:
-    """Return whether any object of the scene has a metal map."""
-    return any(entry.material.metal is not None for entry in scene.objects)
+    """Return True if any object of the scene has a texture or a metal map."""
+    materials = [entry.material for entry in scene.objects]
+    return any(each.image is not None or each.metal is not None for each in materials)
 
 
 def check_scene(scene: object) -> Scene:

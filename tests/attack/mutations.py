@@ -45,7 +45,7 @@ TESTS = {
 }
 NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machine code
 # Tests of windows, of other processes and of installations: they take minutes.
-SLOW = ("/window/", "checking/running", "checking/cheats", "/test_wheel", "/test_isolation")
+SLOW = ("/window/", "checking/running", "/test_wheel", "/test_isolation")
 NOTICED, TRIED = 0.8, 20  # the share that must be noticed, once so many were tried
 ARGUMENTS = ("-x", "-q", "-p", "no:cacheprovider", "-W", "ignore:Module already imported")
 MEMORY_BYTES = 16 << 30

@@ -24,7 +24,6 @@
 namespace {
 
 constexpr int BLOCK = 64;      // pixels a side that a thread takes at once
-constexpr size_t CHUNK = 4096;  // rays of an array that a thread takes at once
 constexpr float INF = std::numeric_limits<float>::infinity();
 
 // As tests/benchmarks/embree.py writes it: a pixel's image point is left + (column + 0.5) dx, and so on.
@@ -34,7 +33,7 @@ struct Camera {
   int width, height, parallel;
 };
 
-struct Image {  // or the answers to rays of an array; normal: unit, three floats a ray
+struct Image {  // normal: unit, three floats a pixel
   float* t;
   int* primitive;
   float* normal;
@@ -128,24 +127,20 @@ struct Embree {
 struct Ask {
 #if EMBREE == 4
   RTCIntersectArguments closest;
-  RTCOccludedArguments any;
 
-  explicit Ask(bool coherent) {
+  Ask() {
     rtcInitIntersectArguments(&closest);
-    rtcInitOccludedArguments(&any);
-    closest.flags = any.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    closest.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   }
   void trace(const int* valid, RTCScene scene, RTCRayHit16* rays) { rtcIntersect16(valid, scene, rays, &closest); }
-  void shadow(const int* valid, RTCScene scene, RTCRay16* rays) { rtcOccluded16(valid, scene, rays, &any); }
 #else
   RTCIntersectContext context;
 
-  explicit Ask(bool coherent) {
+  Ask() {
     rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
   void trace(const int* valid, RTCScene scene, RTCRayHit16* rays) { rtcIntersect16(valid, scene, &context, rays); }
-  void shadow(const int* valid, RTCScene scene, RTCRay16* rays) { rtcOccluded16(valid, scene, &context, rays); }
 #endif
 };
 
@@ -182,24 +177,12 @@ struct Packet {
     image.normal[3 * at + 1] = rays.hit.Ng_y[i];
     image.normal[3 * at + 2] = rays.hit.Ng_z[i];
   }
-
-  // Rays of an array from `begin`; the last one again where there are no more.
-  void load(const float* origins, const float* directions, size_t begin, size_t end) {
-    for (size_t i = 0; i < 16; ++i) {
-      valid[i] = begin + i < end ? -1 : 0;
-      const size_t at = 3 * std::min(begin + i, end - 1);
-      for (int k = 0; k < 3; ++k) {
-        org[k][i] = origins[at + k];
-        dir[k][i] = directions[at + k];
-      }
-    }
-  }
 };
 
 // One block of the image, 4x4 pixels at a time. directions: of a lens's rays, pixel by pixel, or nullptr.
 void trace_block(const Embree& e, const Camera& c, const float* directions, const Image& image, int column0,
                  int row0) {
-  Ask ask(true);
+  Ask ask;
   Packet packet;
   for (int k = 0; k < 3; ++k) {
     std::fill_n(packet.org[k], 16, c.eye[k]);
@@ -260,32 +243,6 @@ void embree_image(Embree* e, const Camera* camera, const float* directions, Imag
   const size_t across = (camera->width + BLOCK - 1) / BLOCK, down = (camera->height + BLOCK - 1) / BLOCK;
   e->share(across * down, 1, [&](size_t block, size_t) {
     trace_block(*e, *camera, directions, image, int(block % across) * BLOCK, int(block / across) * BLOCK);
-  });
-}
-
-void embree_closest(Embree* e, size_t count, const float* origins, const float* directions, Image answer) {
-  e->share(count, CHUNK, [&](size_t begin, size_t end) {
-    Ask ask(false);
-    Packet packet;
-    for (size_t at = begin; at < end; at += 16) {
-      packet.load(origins, directions, at, end);
-      packet.trace(ask, e->scene);
-      for (int i = 0; i < 16 && at + i < end; ++i) packet.store(i, answer, at + i);
-    }
-  });
-}
-
-void embree_any(Embree* e, size_t count, const float* origins, const float* directions, bool* occluded) {
-  e->share(count, CHUNK, [&](size_t begin, size_t end) {
-    Ask ask(false);
-    Packet packet;
-    RTCRay16& rays = packet.rays.ray;
-    for (size_t at = begin; at < end; at += 16) {
-      packet.load(origins, directions, at, end);
-      std::fill_n(rays.tfar, 16, INF);
-      ask.shadow(packet.valid, e->scene, &rays);
-      for (int i = 0; i < 16 && at + i < end; ++i) occluded[at + i] = rays.tfar[i] < 0;
-    }
   });
 }
 

@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 from renderer.camera import Camera, Size
-from tests.benchmarks.cameras import Rays
 from tests.benchmarks.meshes import Faces, Vertices
 from tests.benchmarks.peers import Hits, Peer, processors
 
@@ -45,9 +44,8 @@ class ImageStruct(ctypes.Structure):
 
 
 class NativeEmbree(Peer):
-    """rtcIntersect16: coherent packets of 4x4 pixels; single rays 16 at a time, as they come, which
-    is faster than rtcIntersect1. Not robust: Embree's faster mode, in which rays may slip between
-    triangles."""
+    """rtcIntersect16 on coherent packets of 4x4 pixels. Not robust: in Embree's faster mode, rays
+    may slip between triangles."""
 
     name = "Embree (C++)"
 
@@ -86,16 +84,6 @@ class NativeEmbree(Peer):
         self._library.embree_image(self._embree, ctypes.byref(struct), ways, image)
         return answer
 
-    def closest_hits(self, batch: Any) -> Any:
-        answer, image = self._image(len(batch[0]))
-        self._library.embree_closest(self._embree, *_addresses(batch), image)
-        return answer
-
-    def any_hits(self, batch: Any) -> Any:
-        occluded = np.empty(len(batch[0]), bool)
-        self._library.embree_any(self._embree, *_addresses(batch), occluded.ctypes.data_as(FLOATS))
-        return occluded
-
     def read(self, answer: Any) -> Hits:
         return Hits(*(part.copy() for part in answer))
 
@@ -127,12 +115,6 @@ class NativeEmbree(Peer):
         return self._answer, ImageStruct(*pointers)
 
 
-def _addresses(batch: tuple[Rays, Rays]) -> tuple[Any, ...]:
-    origins, directions = (np.ascontiguousarray(part, np.float32) for part in batch)
-    count = ctypes.c_size_t(len(origins))
-    return count, origins.ctypes.data_as(FLOATS), directions.ctypes.data_as(FLOATS)
-
-
 def _library() -> ctypes.CDLL:
     """embree.cpp, compiled if it has changed. Raises ImportError with the remedy."""
     library = ctypes.CDLL(str(compiled(SOURCE, FOLDER)))
@@ -141,8 +123,6 @@ def _library() -> ctypes.CDLL:
     library.embree_new.restype = pointer
     library.embree_free.argtypes = [pointer]
     library.embree_image.argtypes = [pointer, pointer, FLOATS, ImageStruct]
-    library.embree_closest.argtypes = [pointer, ctypes.c_size_t, FLOATS, FLOATS, ImageStruct]
-    library.embree_any.argtypes = [pointer, ctypes.c_size_t, FLOATS, FLOATS, FLOATS]
     return library
 
 

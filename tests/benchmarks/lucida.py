@@ -5,10 +5,6 @@ Owns how it is called, by its public interface only.
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.scene import Mesh, Scene, SceneObject
@@ -35,21 +31,12 @@ class Lucida(Peer):
     def trace(self, camera: Camera, size: Size) -> Frame:
         return self.tracer.render(camera, size, VISIBILITY)
 
-    def closest_hits(self, batch: Any) -> Any:
-        return self.tracer.closest_hits(*batch)
-
-    def any_hits(self, batch: Any) -> Any:
-        return self.tracer.any_hits(*batch)
-
-    def read(self, answer: Any) -> Hits:
-        if isinstance(answer, Frame):
-            return Hits(
-                answer.channel("depth").ravel(),
-                answer.channel("primitive").ravel(),
-                answer.channel("normal").reshape(-1, 3),
-            )
-        t, primitive = answer[0], answer[1]
-        return Hits(t, primitive, np.zeros((len(t), 3), np.float32))
+    def read(self, answer: Frame) -> Hits:
+        return Hits(
+            answer.channel("depth").ravel(),
+            answer.channel("primitive").ravel(),
+            answer.channel("normal").reshape(-1, 3),
+        )
 
     def close(self) -> None:
         if hasattr(self, "tracer"):

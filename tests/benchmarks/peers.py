@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from renderer.camera import Camera, Size
-from tests.benchmarks.cameras import Rays, rays
+from tests.benchmarks.cameras import rays
 from tests.benchmarks.meshes import Faces, Vertices
 
 
@@ -29,8 +29,8 @@ class Hits(NamedTuple):
 class Peer:
     """One ray tracer and one mesh.
 
-    trace, closest_hits and any_hits answer in the tracer's own form, complete in memory; read and
-    read_any turn that into arrays, which is not timed.
+    trace answers in the tracer's own form, complete in memory; read turns that into arrays, and is
+    not timed.
     """
 
     name: str  # in tables
@@ -52,22 +52,8 @@ class Peer:
     def trace(self, camera: Camera, size: Size) -> Any:
         """Ray parameter, primitive and normal of each pixel."""
 
-    def batch(self, origins: Rays, directions: Rays) -> Any:
-        """Arbitrary rays, float32 (n, 3) each, in the form that the tracer takes."""
-        return origins, directions
-
-    def closest_hits(self, batch: Any) -> Any:
-        """The closest hit of each ray, as trace."""
-
-    def any_hits(self, batch: Any) -> Any:
-        """Return for each ray whether it hits anything."""
-
     def read(self, answer: Any) -> Hits:
-        """Convert the result of trace or closest_hits."""
-
-    def read_any(self, answer: Any) -> np.ndarray:
-        """Convert the result of any_hits to bool (n,)."""
-        return np.asarray(answer)
+        """Convert the result of trace."""
 
     def close(self) -> None:
         """Frees threads, if the tracer has its own."""
@@ -95,7 +81,7 @@ class Mitsuba(Peer):
         parameters["faces"] = faces.ravel().astype(np.uint32)
         parameters.update()
         self._scene = self._mi.load_dict({"type": "scene", "mesh": mesh})
-        self.any_hits(self.batch(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32)))
+        self._intersect(self._vector((0, 0, 0)), self._vector((1, 1, 1)))
 
     def trace(self, camera: Camera, size: Size) -> Any:
         mi, dr = self._mi, self._dr
@@ -116,35 +102,16 @@ class Mitsuba(Peer):
             else:
                 origin = self._vector(camera.eye) + 0 * across
                 direction = across - self._vector([camera.distance * w for w in camera.w])
-            return self._intersect(origin, direction, coherent=True)
-
-    def batch(self, origins: Rays, directions: Rays) -> Any:
-        vectors = [self._mi.Vector3f(np.ascontiguousarray(a.T)) for a in (origins, directions)]
-        self._dr.eval(*vectors)
-        self._dr.sync_thread()
-        return vectors
-
-    def closest_hits(self, batch: Any) -> Any:
-        with self._dr.suspend_grad():
-            return self._intersect(batch[0], batch[1], coherent=False)
-
-    def any_hits(self, batch: Any) -> Any:
-        origin, direction = batch
-        with self._dr.suspend_grad():
-            ray = self._mi.Ray3f(self._mi.Point3f(origin), direction)
-            hit = self._scene.ray_test(ray, coherent=False)
-            self._dr.eval(hit)
-            self._dr.sync_thread()
-        return hit
+            return self._intersect(origin, direction)
 
     def read(self, answer: Any) -> Hits:
         t, primitive, normal = (np.array(part) for part in answer)
         none = ~np.isfinite(t)
         return Hits(t, np.where(none, -1, primitive.astype(np.int64)).astype(np.int32), normal.T)
 
-    def _intersect(self, origin: Any, direction: Any, coherent: bool) -> Any:
+    def _intersect(self, origin: Any, direction: Any) -> Any:
         ray = self._mi.Ray3f(self._mi.Point3f(origin), direction)
-        hit = self._scene.ray_intersect_preliminary(ray, coherent=coherent)
+        hit = self._scene.ray_intersect_preliminary(ray, coherent=True)
         normal = hit.compute_surface_interaction(ray, self._mi.RayFlags.Minimal).n
         self._dr.eval(hit.t, hit.prim_index, normal)
         self._dr.sync_thread()
@@ -181,24 +148,13 @@ class Open3D(Peer):
         self._scene.cast_rays(tensor(np.zeros((1, 6), np.float32)))
 
     def trace(self, camera: Camera, size: Size) -> Any:
-        return self.closest_hits(self.batch(*rays(camera, size)))
-
-    def batch(self, origins: Rays, directions: Rays) -> Any:
-        both = np.concatenate([origins, directions], axis=1)
-        return self._open3d.core.Tensor.from_numpy(both)
-
-    def closest_hits(self, batch: Any) -> Any:
-        return self._scene.cast_rays(batch, nthreads=self._threads)
-
-    def any_hits(self, batch: Any) -> Any:
-        return self._scene.test_occlusions(batch, nthreads=self._threads)
+        both = np.concatenate(rays(camera, size), axis=1)
+        tensor = self._open3d.core.Tensor.from_numpy(both)
+        return self._scene.cast_rays(tensor, nthreads=self._threads)
 
     def read(self, answer: Any) -> Hits:
         primitive = answer["primitive_ids"].numpy().astype(np.int32)  # 2**32 - 1 becomes -1
         return Hits(answer["t_hit"].numpy(), primitive, answer["primitive_normals"].numpy())
-
-    def read_any(self, answer: Any) -> np.ndarray:
-        return answer.numpy()
 
 
 def processors() -> int:

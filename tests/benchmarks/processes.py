@@ -18,7 +18,6 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from renderer.camera import Camera, Size
-from tests.benchmarks.cameras import Rays
 from tests.benchmarks.measure import Call, Plan, Stopwatch, Turn, turn
 from tests.benchmarks.peers import Hits, Peer
 from tests.benchmarks.scenes import Subject
@@ -55,16 +54,12 @@ class TracerProcess:
         """Choose an image to be timed and read."""
         self._ask(_set_image, camera, size)
 
-    def batch(self, origins: Rays, directions: Rays, any_hit: bool = False) -> None:
-        """Choose single rays to be timed and read."""
-        self._ask(_set_batch, origins, directions, any_hit)
-
     def building(self, subject: Subject) -> None:
         """Choose the building of this scene, next to those already prepared, to be timed."""
         self._ask(_set_building, subject)
 
     def hits(self) -> Hits:
-        """Return the hits of the image or of the batch."""
+        """Return the hits of the image."""
         hits: Hits = self._ask(_hits)
         return hits
 
@@ -149,12 +144,6 @@ def _chosen(state: _State) -> Call:
 
 def _set_image(state: _State, camera: Camera, size: Size) -> None:
     state.call = partial(_prepared(state).trace, camera, size)
-
-
-def _set_batch(state: _State, origins: Rays, directions: Rays, any_hit: bool) -> None:
-    tracer = _prepared(state)
-    trace = tracer.any_hits if any_hit else tracer.closest_hits
-    state.call = partial(trace, tracer.batch(origins, directions))
 
 
 def _set_building(state: _State, subject: Subject) -> None:

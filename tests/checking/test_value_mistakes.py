@@ -182,15 +182,6 @@ def test_two_at_once(name):
         assert said.candidates
 
 
-@pytest.mark.parametrize("name", ["closest", "sphere", "triangle"])
-def test_nothing_is_told_of_right_answers(name):
-    program, cases = program_and_cases(name, 8)
-    right = answers(program, cases)
-    assert diagnosed(program, cases, right) is None
-    asked = [ValueCase(*one, one[1]) for one in zip(cases, right, strict=True)]
-    assert diagnose_values(program, asked, np.ones(len(cases), bool)).candidates == ()
-
-
 @pytest.mark.parametrize("kind", ["sphere", "triangle"])
 def test_the_right_lines_are_the_checker_s(kind):
     program, cases = program_and_cases(kind, 2)
@@ -260,13 +251,6 @@ class TestRender:
                 same = answers(program, known, others)
                 assert all(np.array_equal(a, b) for a, b in zip(given, same, strict=True))
         assert len(missed) <= 2  # what does not show in these few images
-
-    def test_rows_from_the_bottom(self):
-        task, _, known = self.cases("perspective", from_top=False)
-        top, _, known_top = self.cases("perspective")
-        for one, other in zip(known, known_top, strict=True):
-            (image,), (turned,) = render_program(task).run(one), render_program(top).run(other)
-            assert np.array_equal(image, turned[::-1])
 
 
 def test_facts():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 
 import numpy as np
@@ -130,12 +129,6 @@ def test_a_file_that_fails_while_it_is_imported(check, tmp_path):
     assert "return 1 / 0" in told and "so far" in told
 
 
-def test_what_is_no_python(check, tmp_path):
-    (tmp_path / "rays.jl").write_text("viewing_ray(i, j) = 1\n")
-    status, _, err = check(None, "rays.jl")
-    assert status == 2 and "rays.jl: is no Python file" in err and "--command" in err
-
-
 def test_what_was_printed_is_shown(check):
     text = RIGHT.replace("    return", "    print('row', i)\n    return")
     status, out, _ = check(text)
@@ -167,20 +160,6 @@ def test_a_failure_is_told_whatever_the_feedback_is(check, tmp_path):
     (tmp_path / "hw.toml").write_text(TASKS.format(feedback="nothing"))
     status, out, _ = check(RAISES + ALSO, "--tasks", "hw.toml")
     assert status == 2 and "ZeroDivisionError" in out
-
-
-def test_a_terminal_has_colours_unless_it_does_not_want_them(check, monkeypatch):
-    monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
-    monkeypatch.delenv("NO_COLOR", raising=False)
-    monkeypatch.setenv("TERM", "xterm")
-    colored = "\x1b[32mcorrect\x1b[0m memory-offset\x1b[2m  1 of 1 point\x1b[0m\n"
-    assert check(RIGHT)[1] == colored
-    for name, value in (("NO_COLOR", "1"), ("TERM", "dumb")):
-        with monkeypatch.context() as changed:
-            changed.setenv(name, value)
-            assert check(RIGHT)[1] == "correct memory-offset  1 of 1 point\n"
-    monkeypatch.setenv("NO_COLOR", "")
-    assert check(RIGHT)[1] == colored
 
 
 def test_a_starter_is_never_written_over_another_file(check, tmp_path):
@@ -308,21 +287,3 @@ def test_lecture_parts_are_steps_of_the_lecture():
 
     titles = {step.title for step in load_lecture(LECTURE).steps}
     assert {task.part for task in BUILTIN} <= titles
-
-
-def test_a_check_of_rays_is_light(tmp_path):
-    """Neither the compiler of the tracer nor OpenGL nor a reader of models, and no window."""
-    file = tmp_path / "rays.py"
-    file.write_text("def viewing_ray(i, j, *others):\n    return (0, 0, 0), (i, j, 1)\n")
-    save_view(tmp_path / "corner.toml", View(CORNER, False))
-    code = (
-        "import sys\nfrom app.cli import main\n"
-        f"for words in ([], ['--view', {str(tmp_path / 'corner.toml')!r}]):\n"
-        f"    main(['check', {str(file)!r}, *words])\n"
-        "heavy = {'numba', 'llvmlite', 'trimesh', 'moderngl', 'glfw', 'imgui_bundle'}\n"
-        "print(sorted(heavy & set(sys.modules)))\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False
-    )
-    assert done.stdout.splitlines()[-1] == "[]", done.stderr

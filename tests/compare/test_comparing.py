@@ -40,13 +40,11 @@ def test_the_headline_says_what_matters():
         False,
     )
     explained = replace(
-        one, unexplained=0, shading=0, explained=dict.fromkeys(CAUSES, 0) | {"outline": 1}
+        one, unexplained=0, shading=0, explained=dict.fromkeys(CAUSES, 0) | {"edge": 1}
     )
     assert comparing.headline(explained) == ("Agree but for 1 pixel: edge", True)
-    two = replace(
-        explained, agree=45, explained=dict.fromkeys(CAUSES, 0) | {"outline": 1, "meeting": 2}
-    )
-    assert comparing.headline(two) == ("Agree but for 3 pixels: edge and meeting", True)
+    two = replace(explained, agree=45, explained=dict.fromkeys(CAUSES, 0) | {"edge": 1, "clip": 2})
+    assert comparing.headline(two) == ("Agree but for 3 pixels: edge and clip", True)
 
 
 def test_pixels_are_counted_by_cause():

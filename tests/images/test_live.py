@@ -65,6 +65,7 @@ class Tracer:
     jobs: list[Job] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
     closed: bool = False
+    is_compiling: bool = False
 
     def start(self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = ()) -> Job:
         if self.error is not None:
@@ -197,7 +198,7 @@ def test_an_image_that_takes_too_long_is_cancelled_by_the_newest(rig, factor, mo
     # The jobs never end by themselves: any call that waited for them would hang.
     monkeypatch.setattr(live, "FULL_PATIENCE_S", 0.0)
     monkeypatch.setattr(live, "COARSE_PATIENCE_S", 0.0)
-    rig.settings = {"held": True}
+    rig.settings = {"held": True, "is_compiling": True}
     rig.live.request(request(), factor)
     rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     tracer = rig.tracers[0]
@@ -207,7 +208,7 @@ def test_an_image_that_takes_too_long_is_cancelled_by_the_newest(rig, factor, mo
     rig.live.request(request(2.0), factor)
     rig.until(lambda: tracer.cameras[-1].eye[0] == 2.0)
     assert tracer.jobs[0].cancelled
-    assert rig.live.first_ever
+    assert rig.live.is_compiling
 
 
 def test_a_coarse_image_is_finished_despite_changes(rig, monkeypatch):
@@ -232,7 +233,6 @@ def test_another_scene_is_followed_by_the_same_tracer(rig):
     images = rig.images()
     assert [(image.request.scene, image.factor) for image in images] == [(OTHER, 1)]
     assert [(tracer.scene, tracer.closed) for tracer in rig.tracers] == [(OTHER, False)]
-    assert not rig.live.first_ever
     assert rig.live.preparing_s == 0
 
 

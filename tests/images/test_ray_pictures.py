@@ -14,7 +14,6 @@ from app.images.ray_pictures import RayPictures
 from app.images.scene_tracer import UnwantedError
 from renderer.errors import LucidaError
 from renderer.scene.model import Scene, SceneObject, Sphere
-from renderer.shaded_rays import RayShading
 
 SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene((), background=(0.1, 0.2, 0.3))
 ORIGINS, DIRECTIONS = np.zeros((2, 3, 3)), np.broadcast_to((0.0, 0.0, -1.0), (2, 3, 3))
@@ -29,9 +28,12 @@ class Hitless:
     scenes: int = 1
 
     def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
+        return np.full(len(origins), np.inf, np.float32), np.full(len(origins), -1, np.int32)
+
+    def shaded(self, origins, directions, t_min=0.0, t_max=0.0):
         if self.gone:
             raise LucidaError("tracer", "is closed", "make a new Tracer")
-        return np.full(len(origins), np.inf, np.float32), np.full(len(origins), -1, np.int32)
+        return np.full((len(origins), 3), self.scene.background, np.float32)
 
 
 @dataclass
@@ -65,7 +67,7 @@ def followed(pictures, key, scene, asked, make) -> Any:
 
 
 def along(painter):
-    return painter.picture(ORIGINS, DIRECTIONS, RayShading())
+    return painter.picture(ORIGINS, DIRECTIONS)
 
 
 def test_a_picture_comes_and_is_made_once(pictures):
@@ -157,14 +159,18 @@ def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures,
 
         def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
             self.scene = SCENE
-            return np.ones(len(origins), np.float32), np.full(len(origins), 7, np.int32)
+            return super().closest_hits(origins, directions)
+
+        def shaded(self, origins, directions, t_min=0.0, t_max=0.0):
+            self.scene = SCENE
+            return super().shaded(origins, directions)
 
     asked, calls = Source({id(OTHER): GoesOn(OTHER)}), []
 
     def make(painter):
         calls.append(painter)
         if asks == "hit":
-            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0], RayShading())
+            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0])
         return along(painter)
 
     def again() -> bool:
@@ -182,16 +188,20 @@ def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures,
     class ComesBack(Hitless):
         def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
             self.scenes += 2 * (not calls[1:])
+            return super().closest_hits(origins, directions)
+
+        def shaded(self, origins, directions, t_min=0.0, t_max=0.0):
+            self.scenes += 2 * (not calls[1:])
             if asks == "error" and not calls[1:]:
                 raise IndexError("of the other scene's objects")
-            return super().closest_hits(origins, directions, t_min, t_max)
+            return super().shaded(origins, directions)
 
     asked, calls = Source({id(OTHER): ComesBack(OTHER)}), []
 
     def make(painter):
         calls.append(painter)
         if asks == "hit":
-            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0], RayShading())
+            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0])
         return along(painter)
 
     wait_for(lambda: pictures.follow("key", OTHER, asked, make) is not None)

@@ -17,7 +17,6 @@ from app.state.app_state import AppState
 from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
 from renderer.errors import LucidaError
 from renderer.scene import load_scene
-from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace import Tracer
 
@@ -31,7 +30,7 @@ PARALLEL = STATE.with_camera(
 @pytest.fixture(scope="module")
 def painter():
     with Tracer(STATE.scene) as tracer:
-        yield RayPainter(STATE.scene, flatten(STATE.scene), tracer, lambda: True)
+        yield RayPainter(STATE.scene, tracer, lambda: True)
 
 
 def situation(state: AppState = STATE):
@@ -50,7 +49,7 @@ def test_four_pictures_differ_and_one_of_them_is_it(painter, state, seed) -> Non
     assert not any(quiz.is_blank(look) for look in looks)
     for name, light in zip(asked.names, asked.pictures, strict=True):
         rays = model.rays_of(now, model.named(now.program, (name,)))
-        assert np.array_equal(painter.picture(*rays, now.shading), light)
+        assert np.array_equal(painter.picture(*rays, now.camera.t_range), light)
 
 
 def test_a_seed_asks_the_same_again_and_others_ask_others(painter) -> None:
@@ -98,7 +97,7 @@ def test_it_is_told_where_the_camera_cannot_tell(painter) -> None:
     assert not asked.names and "normalised" in asked.problem
     scene = Scene(())
     with Tracer(scene) as tracer:
-        empty = RayPainter(scene, flatten(scene), tracer, lambda: True)
+        empty = RayPainter(scene, tracer, lambda: True)
         asked = quiz.question(empty, situation(), MistakesOptions())
     assert not asked.names and "too few" in asked.problem
 

@@ -18,7 +18,6 @@ from app.state.app_state import AppState
 from app.widgets.picture_grid import columns_for
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
-from renderer.scene.flat import flatten
 from renderer.trace import Tracer
 
 SIZE = (80, 60)
@@ -36,7 +35,7 @@ PROGRAMS = [
 @pytest.fixture(scope="module")
 def painter():
     with Tracer(STATE.scene) as tracer:
-        yield RayPainter(STATE.scene, flatten(STATE.scene), tracer, lambda: True)
+        yield RayPainter(STATE.scene, tracer, lambda: True)
 
 
 def situation(state: AppState = STATE, columns: int = 64) -> Situation:

@@ -29,7 +29,7 @@ def test_what_is_told_of_a_comparison():
     lines = comparison.summary().split("\n")
     assert lines[:3] == [
         "32x24: 744 of 768 pixels agree",
-        "explained:   24 (outline 24)",
+        "explained:   24 (edge 24)",
         "unexplained: 0",
     ]
     assert lines[-1] == "raster 2.5 ms, ray 2.5 ms"

@@ -11,14 +11,12 @@ from textured import WHITE, floor, lit, noise, on_ball, on_wall, slopes, wall
 from app.probe.model import Probe
 from renderer import Camera, Rasterizer, Tracer
 from renderer.compare import CHANNELS, compare_frames
-from renderer.edges import Discontinuities
-from renderer.explained import TOLERANCE_PX
 from renderer.images.display import from_srgb
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
 from renderer.scene.sampling import between, sampled
 from renderer.scene.texture import WRAPS, Texture, packed_texels
-from renderer.shaded_rays import RayShading, shaded
+from renderer.seen_surfaces import Surfaces, View
 
 SIZE = (96, 64)
 SKEWED = Camera(u=(1.1, 0.2, 0.1), v=(-0.1, 0.9, 0.2), w=(0.05, -0.1, 1.0))
@@ -115,17 +113,19 @@ def test_texels_are_the_images_own_light():
     np.testing.assert_allclose(looked_up[:, 0], light.ravel(), atol=1e-12)
 
 
+def rays_of(camera: Camera) -> tuple[np.ndarray, np.ndarray]:
+    origins, directions = np.broadcast_arrays(*camera.rays(SIZE))
+    return origins.reshape(-1, 3), directions.reshape(-1, 3)
+
+
 def test_the_probe_the_shaded_rays_and_the_image_tell_the_same_colour():
     texture = Texture(slopes(20, 20), scale=(2, 2))
     scene = lit(*on_wall(texture).objects, *on_ball(texture).objects)
     camera = Camera()
     with Tracer(scene) as tracer:
         image = tracer.render(camera, SIZE)
-        rays = camera.rays(SIZE)
-        light = shaded(
-            tracer, flatten(scene), rays.origin, rays.direction, RayShading(), lambda: True
-        )
-        assert light is not None
+        origins, directions = rays_of(camera)
+        light = tracer.shaded(origins, directions).reshape(image.color.shape)
         np.testing.assert_allclose(light, image.color, atol=2e-3)
     for pixel in ((32, 48), (5, 5), (32, 60)):
         read = Probe(scene).at(pixel, camera, SIZE)
@@ -147,11 +147,10 @@ def test_mirrors_and_shadows_see_textures():
         frame = tracer.render(camera, SIZE)
         mirrored = frame.id == 1
         assert mirrored.sum() > 100
-        rays = camera.rays(SIZE)
-        shading = RayShading(shadows=True, mirror_depth=1)
-        light = shaded(tracer, flatten(scene), rays.origin, rays.direction, shading, lambda: True)
-        assert light is not None
-    np.testing.assert_allclose(frame.color[mirrored], light[mirrored], atol=5e-3)
+        origins, directions = (part.reshape(*mirrored.shape, 3) for part in rays_of(camera))
+        points = origins + frame.depth[..., None] * directions
+        light = tracer.shaded(points[mirrored], directions[mirrored] * (1, -1, 1), 1e-4)
+    np.testing.assert_allclose(frame.color[mirrored], light, atol=5e-3)
     assert np.ptp(frame.color[mirrored][:, 0]) > 0.3
 
 
@@ -173,7 +172,7 @@ def test_a_scene_gets_and_loses_its_textures():
             assert result.unexplained == 0, result.summary()
 
 
-@pytest.mark.parametrize(("part", "cause"), [(0.9, "texture"), (1.2, "unexplained")])
+@pytest.mark.parametrize(("part", "cause"), [(0.9, "pattern"), (1.2, "unexplained")])
 def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
     """The colour alone is changed, by a part of how much the texture's varies near the pixel."""
     scene = ambient_only(on_wall(Texture(noise(1024, 1024))))
@@ -183,8 +182,7 @@ def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
         raster = tracer.render(camera, SIZE, channels=CHANNELS)
     at = np.array([30]), np.array([40])
     primitive, t = ray.primitive[at], ray.depth[at].astype(float)
-    lines = Discontinuities(flat, camera, SIZE)
-    varies = lines.texture_varies(primitive, *at, t, TOLERANCE_PX)[0]
+    varies = Surfaces(View(flat, camera, SIZE), primitive, t).texture_varies(*at)[0]
     assert (varies > 0.02).any()
     raster.color[30, 40] *= 1 - part * varies
     result = compare_frames(flat, camera, SIZE, raster, ray)
@@ -194,10 +192,8 @@ def test_a_texture_explains_what_it_varies_by_and_no_more(part, cause):
 
 def test_a_plain_surface_is_not_explained_by_textures():
     scene = lit(SceneObject(Sphere((0, 0, -3), 1)))
-    lines = Discontinuities(flatten(scene), Camera(), SIZE)
-    primitive = np.array([0, -1])
-    varies = lines.texture_varies(primitive, *np.zeros((2, 2), int), np.ones(2), TOLERANCE_PX)
-    assert not varies.any()
+    seen = Surfaces(View(flatten(scene), Camera(), SIZE), np.array([0, -1]), np.ones(2))
+    assert not seen.texture_varies(*np.zeros((2, 2), int)).any()
 
 
 @pytest.mark.parametrize(

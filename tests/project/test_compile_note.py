@@ -9,38 +9,12 @@ import pytest
 from app.commands.arguments import progress_bar
 from app.window.status import is_good_news, told
 from renderer import compile_note
-from renderer.trace.compile import compiled
-
-
-def doubled(x):
-    return 2 * x
 
 
 @pytest.fixture(autouse=True)
 def nothing_noted(monkeypatch):
     # It counts for a whole process, and nothing but its end takes it back.
     monkeypatch.setattr(compile_note, "_note", "")
-
-
-def test_what_the_cache_holds_is_not_compiled(monkeypatch, tmp_path):
-    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
-    assert compiled.kernel(doubled)(4) == 8
-    assert compile_note.note() == compile_note.ONCE
-    monkeypatch.setattr(compile_note, "_note", "")
-    assert compiled.kernel(doubled)(4) == 8
-    assert compile_note.note() == ""
-    for file in tmp_path.rglob("*.nbc"):
-        file.write_bytes(b"damaged")
-    assert compiled.kernel(doubled)(4) == 8
-    assert compile_note.note() == compile_note.ONCE
-
-
-def test_without_a_folder_it_is_compiled_each_time(monkeypatch):
-    monkeypatch.setattr(compiled, "cache_folder", lambda: None)
-    for _ in range(2):
-        monkeypatch.setattr(compile_note, "_note", "")
-        assert compiled.kernel(doubled)(4) == 8
-        assert compile_note.note() == compile_note.EACH_TIME
 
 
 def test_the_command_line_says_it_once_also_where_nobody_sees_a_bar(capsys):

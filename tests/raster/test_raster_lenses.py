@@ -65,22 +65,6 @@ def test_a_lens_that_does_nothing_shows_the_pinholes_image(rasterizer):
     np.testing.assert_allclose(frame.color, pinhole.color, atol=1e-4)
 
 
-def test_parts_make_the_same_image(rasterizer):
-    rasterizer.set_scene(still_life())
-    camera, given = through("equirectangular"), (SIZE, "parts")
-    whole = rasterizer.render(camera, SIZE, CHANNELS)
-    for face in range(rasterizer.faces(camera, SIZE)):
-        first = 0
-        while not rasterizer.see(camera, *given, first, 5, face=face):
-            first += 5
-            rasterizer.draw(through("cylindrical"), SIZE)  # elsewhere
-        for row in range(0, SIZE[1], 10):
-            rasterizer.shade(camera, *given, (row, min(row + 10, SIZE[1])), face=face)
-    parts = rasterizer.read(CHANNELS, place="parts")
-    for channel in CHANNELS:
-        np.testing.assert_array_equal(parts[channel], whole.channel(channel))
-
-
 def test_samples_and_a_lens_that_sees_nothing(rasterizer):
     rasterizer.set_scene(still_life())
     four = rasterizer.render(through("fisheye"), SIZE, samples=4)

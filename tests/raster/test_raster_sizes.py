@@ -1,4 +1,4 @@
-"""Images of any size, of scenes that change, and drawn in parts."""
+"""Images of any size, and of scenes that change."""
 
 import gc
 from concurrent.futures import ThreadPoolExecutor
@@ -10,79 +10,13 @@ from raster_scenes import CAMERAS, SIZE, WIDE, agrees, square, still_life
 from renderer.camera import Camera
 from renderer.compare import CHANNELS
 from renderer.errors import LucidaError
-from renderer.raster import prepare, scene_data
-from renderer.raster.tables import TABLE_WIDTH
+from renderer.raster import prepare
 from renderer.scene.model import (
     Mesh,
     Scene,
     SceneObject,
     Sphere,
 )
-
-
-class TestParts:
-    """An image drawn in several calls is that of one call."""
-
-    @pytest.mark.parametrize("count", [1, 5, 1000])
-    def test_parts_make_the_same_image(self, rasterizer, count):
-        rasterizer.set_scene(still_life())
-        expected = rasterizer.render(WIDE, SIZE, CHANNELS)
-        first, is_seen, other = 0, False, Camera(eye=(1.0, 2.0, 9.0))
-        while not is_seen:
-            assert first < rasterizer.triangles
-            is_seen = rasterizer.see(WIDE, SIZE, "parts", first, count)
-            first += count
-            rasterizer.draw(other, (20, 10), "another camera's, in between")
-        for row in range(0, SIZE[1], 7):
-            rasterizer.shade(WIDE, SIZE, "parts", (row, min(row + 7, SIZE[1])))
-            rasterizer.draw(other, SIZE, "another camera's, in between")
-        for channel, values in rasterizer.read(CHANNELS, place="parts").items():
-            np.testing.assert_array_equal(values, expected.channel(channel))
-
-    def test_a_part_prepares_no_more_triangles_than_it_draws(self, rasterizer, monkeypatch):
-        """A million of them for a new camera take as long as a frame."""
-        heights = np.random.default_rng(5).uniform(-0.3, 0.3, (151, 151))
-        rows, columns = np.indices(heights.shape)
-        places = np.stack([columns / 37.5 - 2, rows / 37.5 - 2, heights], axis=-1).reshape(-1, 3)
-        corner = (151 * rows + columns)[:-1, :-1].ravel()
-        faces = [corner, corner + 1, corner + 152, corner, corner + 152, corner + 151]
-        rasterizer.set_scene(Scene((SceneObject(Mesh(places, np.stack(faces, 1).reshape(-1, 3))),)))
-        expected = rasterizer.render(WIDE, SIZE, CHANNELS)
-        rasterizer.draw(Camera(eye=(1.0, 2.0, 9.0)), SIZE, "another camera's")
-        prepared, fill = [], scene_data.triangle_rows
-
-        def counted(flat, setup, bases, is_parallel, out, first=0):
-            prepared.append((first, len(out)))
-            fill(flat, setup, bases, is_parallel, out, first)
-
-        monkeypatch.setattr(scene_data, "triangle_rows", counted)
-        count = TABLE_WIDTH + 100
-        for first in range(0, rasterizer.triangles, count):
-            rasterizer.see(WIDE, SIZE, "parts", first, count)
-            assert sum(each for _, each in prepared) < first + count + TABLE_WIDTH
-        rasterizer.shade(WIDE, SIZE, "parts", (0, SIZE[1]))
-        assert len(prepared) > 2
-        assert sum(each for _, each in prepared) == rasterizer.triangles == 45_000  # each once
-        for channel, values in rasterizer.read(CHANNELS, place="parts").items():
-            np.testing.assert_array_equal(values, expected.channel(channel))
-
-    def test_a_scene_without_triangles_is_one_part(self, rasterizer):
-        rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5), 3.0)),)))
-        assert rasterizer.triangles == 0
-        assert rasterizer.see(WIDE, SIZE, "parts", 0, 0)
-
-    def test_rows_are_shaded_and_no_others(self, rasterizer):
-        rasterizer.set_scene(still_life())
-        expected = rasterizer.render(WIDE, SIZE, CHANNELS)
-        rasterizer.draw(Camera(eye=(1.0, 2.0, 9.0)), SIZE, "rows")
-        before = rasterizer.read(CHANNELS, place="rows")
-        assert rasterizer.see(WIDE, SIZE, "rows", 0, rasterizer.triangles)
-        rasterizer.shade(WIDE, SIZE, "rows", (5, 11))
-        after = rasterizer.read(("color",), place="rows")["color"]
-        np.testing.assert_array_equal(after[5:11], expected.color[5:11])
-        others = [row for row in range(SIZE[1]) if not 5 <= row < 11]
-        np.testing.assert_array_equal(after[others], before["color"][others])
-        assert (after[others] != expected.color[others]).any()
 
 
 class TestSizesAndScenes:

@@ -167,7 +167,7 @@ def widened(d: Driver, name: str) -> None:
 def drive_layouts_come_back_with_their_widths(d: Driver) -> None:
     """Also where the camera's panel has another width, and in columns beside the main view."""
     before = {}
-    for name, moved in ((SIDE, CAMERA), (layout.OUTSIDE, RASTER), ("Mistakes", "Outside")):
+    for name, moved in ((SIDE, CAMERA), (layout.OUTSIDE, RASTER), ("Probe", "Outside")):
         into(d, name)
         first = boxes(d)
         widened(d, moved)
@@ -187,11 +187,11 @@ def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None
     stage = d.window.shell.stage
     into(d, SIDE)
     room = boxes(d)[RASTER]
-    stage.show("Detective")
+    stage.show("Mistakes")
     d.ctx.yield_(4)
-    left, top, right, bottom = boxes(d)["Detective"]
+    left, top, right, bottom = boxes(d)["Mistakes"]
     assert (right - left) * (bottom - top) > 0.9 * (room[2] - room[0]) * (room[3] - room[1])
-    stage.show("Detective", False)
+    stage.show("Mistakes", False)
     hello_imgui.change_window_size((600, 900))
     d.ctx.yield_(10)
     upright = boxes(d)

@@ -157,7 +157,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     d.picture()
     (d.folder / "rays.py").unlink()
     view(d).ask("run")
-    until_told(d, "there is no such file")
+    until_told(d, "does not exist")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
     leave(d)

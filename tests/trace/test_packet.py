@@ -17,10 +17,9 @@ from trace_reference import ball
 
 from renderer.camera import Camera
 from renderer.compare import CHANNELS
-from renderer.edges import Discontinuities
-from renderer.explained import TOLERANCE_PX
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from renderer.seen_surfaces import TOLERANCE_PX, Surfaces, View, slope_of
 from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.packets.cells import cells_of
@@ -73,7 +72,8 @@ def test_depth_is_exact_to_a_few_roundings(projection: str, both) -> None:
     i, j = np.nonzero(same)
     exact = reference.depth[i, j].astype(float)
     # A ray that is off by a 1,000th of a pixel sees another depth on an oblique surface.
-    slope = Discontinuities(pair.flat, camera, size).slope(reference.primitive[i, j], i, j, exact)
+    seen = Surfaces(View(pair.flat, camera, size), reference.primitive[i, j], exact)
+    slope = slope_of(seen.parameter, i, j)
     error = np.abs(packets.depth[i, j] - exact)
     inside = np.isfinite(slope)  # it has none within a 256th of a pixel of a silhouette
     assert np.all(error[inside] <= (DEPTH * exact + 1e-3 * slope)[inside])
@@ -90,8 +90,8 @@ def test_pixels_that_differ_touch_an_outline(both) -> None:
         reference, packets = pair.frames(camera, (160, 120), ("id", "primitive"))
         i, j = np.nonzero(reference.id != packets.id)
         seen = np.maximum(reference.primitive[i, j], packets.primitive[i, j])
-        distance = Discontinuities(pair.flat, camera, (160, 120)).outline_px(seen, i, j)
-        assert (distance < TOLERANCE_PX / 4).all()
+        surfaces = Surfaces(View(pair.flat, camera, (160, 120)), seen, np.ones(len(i)))
+        assert surfaces.at_outline(i, j, TOLERANCE_PX / 4).all()
         differ += len(i)
     assert differ < 20
 

@@ -6,7 +6,6 @@ import os
 import platform
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -151,12 +150,11 @@ def halves(source, out):
     simd_memory.store_half(room, 8, half)
     for k in range(24):
         out[16 + k] = room[k]
-    return simd_memory.is_line(room, 0)
 
 
 def test_halves_and_memory_on_the_stack() -> None:
     source, out = np.arange(100, 111, dtype=np.float32), np.empty(40, np.float32)
-    assert halves(source, out)
+    halves(source, out)
     half = source[3:]
     assert np.array_equal(out[:16], np.tile(half, 2))
     assert np.array_equal(out[16:], np.concatenate([np.arange(8), half, np.arange(16, 24)]))
@@ -238,16 +236,3 @@ def test_older_processors() -> None:
     command += ["-k", "not processors"]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=280)
     assert done.returncode == 0, done.stdout[-3000:]
-
-
-def test_other_processors(tmp_path: Path) -> None:
-    """LLVM's target for ARM compiles the packet kernels without calls that only x86 has."""
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    command = [sys.executable, "-m", "tests.support.other_processor"]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=280)
-    assert done.returncode == 0, done.stderr[-3000:]
-    lines = [line.split() for line in done.stdout.splitlines()]
-    assert {"trace_packets", "prepare_writing"} <= {name for name, *_ in lines}
-    for name, kind, is_arm, foreign in lines:
-        assert (is_arm, foreign) == ("True", "False"), name
-        assert kind == "vectors" or name not in ("trace_packets", "prepare_writing"), name

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -28,10 +29,12 @@ def tripled(x):
     return 3 * x
 """
 SCRIPT = """
+from numba.core import event
 from renderer.trace.compile import cache_folder
 from small_kernel import tripled
-assert tripled(4) == 12
-print(cache_folder.cache_folder(), sum(tripled.stats.cache_hits.values()))
+with event.install_recorder("numba:compile") as compiled:
+    assert tripled(4) == 12
+print(cache_folder.cache_folder(), not compiled.buffer)
 """
 
 
@@ -75,13 +78,13 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     for process in [start(installation, cache) for _ in range(2)]:  # both compile, at once
         folder = finish(process).rsplit(" ", 1)[0]
         assert Path(folder).is_relative_to(cache)
-    assert finish(start(installation, cache)) == f"{folder} 1"
+    assert finish(start(installation, cache)) == f"{folder} True"
 
-    # A damaged file costs compiling again, and is replaced.
+    # A damaged file costs compiling again: at once, and at the next start for the cache.
     for file in Path(folder).rglob("*.nb?"):
         file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-    assert finish(start(installation, cache)) == f"{folder} 0"
-    assert finish(start(installation, cache)) == f"{folder} 1"
+    for is_loaded in (False, False, True):
+        assert finish(start(installation, cache)) == f"{folder} {is_loaded}"
 
     # An edit of any file that kernels consist of leads to another folder.
     shown = "from renderer.trace.compile import cache_folder; print(cache_folder.cache_folder())"
@@ -96,26 +99,26 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
 
 
 def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(compile_note, "_note", "")
     monkeypatch.setattr(compiled, "cache_folder", lambda: None)
     assert compiled.kernel(tripled)(4) == 12
-    assert compile_note.note() == compile_note.EACH_TIME
+    assert not compiled.is_cached()
 
 
 def test_a_kernel_that_cannot_be_stored_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(compile_note, "_note", "")  # which counts for a whole process
+    monkeypatch.setattr(compiled, "_has_failed", threading.Event())
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
-    # Where numba writes: a disk that is full is told from there.
-    monkeypatch.setattr(caching.IndexDataCacheFile, "_save_data", full)
+    monkeypatch.setattr(caching.Cache, "save_overload", full)
     assert compiled.kernel(tripled)(4) == 12
+    assert not compiled.is_cached()
     assert compile_note.note() == compile_note.EACH_TIME
     compile_note.begin(kept=True)  # another kernel's
     assert compile_note.note() == compile_note.EACH_TIME
 
 
-def full(self: object, name: str, data: object) -> None:
+def full(self: object, signature: object, data: object) -> None:
     raise OSError(errno.ENOSPC, "No space left on device")
 
 

@@ -25,7 +25,6 @@ from renderer.scene.model import Mesh, Scene, Sphere
 from renderer.trace import TraceJob, Tracer
 from renderer.trace.arguments.image import BLOCK
 from renderer.trace.bvh import instances
-from renderer.trace.compile.gc_pause import no_full_collections
 from renderer.trace.threads.thread_pool import Team
 
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
@@ -315,18 +314,6 @@ def test_the_image_does_not_depend_on_the_threads() -> None:
         assert all(
             np.array_equal(getattr(frame, channel), getattr(frames[0], channel)) for frame in frames
         )
-
-
-def test_preparing_leaves_the_garbage_collector_as_it_was() -> None:
-    before = gc.get_threshold()
-    with no_full_collections(), no_full_collections():
-        assert gc.get_threshold()[:2] == before[:2]
-        assert gc.get_threshold()[2] > 1_000_000
-    assert gc.get_threshold() == before
-    with no_full_collections():
-        gc.set_threshold(before[0], before[1], 77)  # somebody else's wish
-    assert gc.get_threshold()[2] == 77
-    gc.set_threshold(*before)
 
 
 def test_an_error_in_the_team_reaches_the_caller() -> None:

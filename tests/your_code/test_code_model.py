@@ -9,7 +9,7 @@ import pytest
 from right_code import right_ray
 
 from app.checking.builtin import BUILTIN
-from app.checking.calls import Call, Failure, Run
+from app.checking.calls import Call, Run
 from app.checking.kinds import KINDS
 from app.your_code.model import (
     BASIS,
@@ -80,16 +80,6 @@ def test_a_run_that_ended_early_has_the_rays_that_came():
     assert not rays.wrong.any()
 
 
-def test_calls_that_failed_have_no_ray():
-    asked = task(RAY)
-    cases = cases_for(asked, CAMERA, SIZE)
-    values = [right_ray(dict(case.arguments)) for case in cases]
-    values[7] = Failure("exception", "ZeroDivisionError")
-    rays = rays_of(asked, CAMERA, SIZE, cases, Run(tuple(values)))
-    assert rays.result.status == "failed"
-    assert np.argwhere(~rays.came).tolist() == [[1, 1]]
-
-
 def right_basis(known):
     w = np.subtract(known["eye"], known["target"])
     w = w / np.linalg.norm(w)
@@ -116,13 +106,6 @@ def test_a_basis_makes_the_rays_of_the_camera(camera):
     other = camera.ray(1, SIZE[0] - 1 - 4, SIZE)  # the viewport is symmetric
     assert np.allclose(wrong.origins[1, 4], other.origin)
     assert np.allclose(wrong.directions[1, 4], other.direction)
-
-
-def test_no_basis_makes_no_rays():
-    rays = answered(CAMERA, lambda known: None, BASIS)
-    assert rays.result.status == "failed"
-    assert not rays.came.any()
-    assert not rays.wrong.any()
 
 
 def test_which_tasks_a_file_has_and_which_comes_first():

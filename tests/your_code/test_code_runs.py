@@ -137,22 +137,6 @@ def test_the_same_question_is_asked_once_and_old_answers_are_kept(desk):
     assert len(desk.made) == 1
 
 
-def test_a_run_that_failed_is_asked_again(desk):
-    """Only answers are kept, though the file is the same."""
-    failed = Run((), "", Failure("memory", "rays.py: needs too much", call=0))
-    desk.prepare = lambda student: setattr(student, "call", lambda calls: failed)
-    assert desk.told(QUESTION).rays.result.failure == failed.failure
-    del desk.made[0].call
-    desk.told(replace(QUESTION, size=(2, 2)))  # another camera would not be asked
-    assert desk.told(QUESTION).rays.result.status == "right"
-
-
-def test_nothing_is_asked_where_nothing_is_wanted(desk):
-    desk.runs.follow(None)
-    assert desk.settled() is None
-    assert not desk.made
-
-
 def test_a_saved_file_is_run_anew_in_another_process(desk):
     desk.told(QUESTION)
     newer = replace(QUESTION, version=2)
@@ -179,33 +163,6 @@ def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
     assert report.rays.result.status == "right"
     assert desk.runs.running_s == 0
     assert desk.runs.progress == 0
-
-
-def test_ending_a_run_that_has_just_ended_does_not_end_the_next(desk, monkeypatch):
-    monkeypatch.setattr(runs_module, "OVERTAKEN_S", 0.0)
-    gate = desk.hangs()
-    desk.runs.follow(QUESTION)
-    wait_for(lambda: desk.made and desk.made[0].answered == 6)
-    (student,) = desk.made
-    next_gate, stop = threading.Event(), student.stop
-
-    def stop_late() -> None:
-        """The run is over by itself before it is ended; nothing else may have begun."""
-        student.gate = next_gate
-        gate.set()
-        begun = threading.Event()
-        call = student.call
-        student.call = lambda calls: (begun.set(), call(calls))[1]
-        assert not begun.wait(0.05)
-        stop()
-
-    student.stop = stop_late
-    desk.runs.follow(OTHER)
-    desk.runs.tick()
-    next_gate.set()
-    report = desk.settled()
-    assert report.question == OTHER
-    assert report.rays.result.status == "right"
 
 
 def test_what_was_stopped_is_not_run_again_by_itself(desk):
@@ -282,14 +239,6 @@ def test_a_failure_of_our_own_is_told(desk):
     assert "ZeroDivisionError" in report.failure.text
 
 
-def test_a_file_without_known_functions(desk):
-    desk.prepare = lambda student: setattr(student, "names", frozenset(("main",)))
-    report = desk.told(QUESTION)
-    assert report.chosen is None
-    assert report.tasks == ()
-    assert report.failure is None
-
-
 def test_a_function_that_is_not_of_the_camera_has_no_rays(desk):
     def answer(student, call):
         known = dict(call.arguments)
@@ -312,28 +261,6 @@ def test_forgetting_ends_the_process(desk):
     assert desk.told(QUESTION).rays.result.status == "right"
     assert len(desk.made) == 2
     assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
-
-
-def test_a_failure_of_an_overtaken_run_is_not_the_newest_s(desk):
-    gate = threading.Event()
-
-    def breaks(student):
-        def call(calls):
-            student.answered = 6
-            gate.wait(60)
-            raise OSError("broken")
-
-        student.call = call
-
-    desk.prepare = breaks
-    desk.runs.follow(QUESTION)
-    wait_for(lambda: desk.made and desk.made[0].answered == 6)
-    desk.prepare = lambda student: None
-    desk.runs.follow(replace(QUESTION, version=2))
-    gate.set()
-    report = desk.settled()
-    assert report.failure is None
-    assert report.rays.result.status == "right"
 
 
 def test_closing_while_it_runs_ends_the_process(desk):

@@ -102,29 +102,6 @@ def test_it_wakes_while_something_runs_and_not_otherwise(tmp_path: Path):
         follower.close()
 
 
-def test_one_of_several_files_is_saved_or_away(tmp_path: Path):
-    code, tasks = tmp_path / "rays.py", tmp_path / "hw2.toml"
-    code.write_text("one")
-    tasks.write_text("one")
-    follower = FileFollower(lambda: None, lambda: False, lambda: None)
-    try:
-        follower.follow(str(code), str(tasks))
-        first = follower.version
-        assert not follower.is_away
-        tasks.write_text("another")
-        wait_for(lambda: follower.version == first + 1)
-        code.unlink()
-        wait_for(lambda: follower.is_away)
-        assert follower.version == first + 1
-        save(code, "back")
-        wait_for(lambda: not follower.is_away)
-        wait_for(lambda: follower.version == first + 2)
-        follower.follow(str(code))
-        assert follower.version == first + 3
-    finally:
-        follower.close()
-
-
 def test_nothing_is_looked_at_while_nobody_sees_it(tmp_path: Path):
     ticks: list[int] = []
     follower = FileFollower(lambda: None, lambda: True, lambda: ticks.append(1))
@@ -142,15 +119,3 @@ def test_each_platform_s_editor_never_what_would_run_it(monkeypatch):
     ):
         monkeypatch.setattr(following.sys, "platform", platform)
         assert following.editor_command("rays.py") == command
-
-
-def test_without_an_editor_it_says_so(monkeypatch):
-    monkeypatch.setattr(following.sys, "platform", "linux")
-    monkeypatch.setattr(following.shutil, "which", lambda name: None)
-    assert not following.open_in_editor("rays.py")
-    begun = []
-    monkeypatch.setattr(following, "editor_command", lambda path: ["no such program", path])
-    assert not following.open_in_editor("rays.py")
-    monkeypatch.setattr(following.subprocess, "Popen", lambda command, **_: begun.append(command))
-    assert following.open_in_editor("rays.py")
-    assert begun == [["no such program", "rays.py"]]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from app.checking.kinds import KINDS
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.your_code.model import BASIS, RAY, cases_for, rays_of
 from app.your_code.report import CodeQuestion, CodeReport
-from app.your_code.words import OUTPUT_LINES, in_columns, told_of, verdict_of
+from app.your_code.words import told_of, verdict_of
 from renderer.camera import Camera
 from renderer.pixels import Indexing
 
@@ -122,11 +121,6 @@ def test_a_function_with_nothing_in_it_is_told_what_it_is_to_do():
     assert verdict_of(report(), TASK) == "right"
 
 
-def test_the_other_projection_s_task_says_how_to_see_it():
-    found = texts(report(chosen=PARALLEL, results={}))
-    assert "viewing-ray-parallel is for parallel projection: P switches to it." in found
-
-
 def test_a_basis_in_numbers():
     task = next(one for one in BUILTIN if one.kind == BASIS)
     cases = cases_for(task, CAMERA, SIZE)
@@ -136,39 +130,3 @@ def test_a_basis_in_numbers():
     assert found[0] == "The basis is wrong."
     assert any(text.startswith("yours    u (") for text in found)
     assert any(text.startswith("correct  u (") for text in found)
-
-
-def test_of_much_that_was_printed_the_end():
-    many = "\n".join(f"line\t{number}" for number in range(100))
-    found = texts(report(output=many))
-    assert f"printed, the last {OUTPUT_LINES} of 100 lines:" in found
-    assert found[-1] == "line    99"
-    assert len([text for text in found if text.startswith("line")]) == OUTPUT_LINES
-
-
-def test_what_was_printed_is_shown_as_it_can_be_seen() -> None:
-    found = texts(report(output="\x1b[31mred\x1b[0m\ta\0b"))
-    assert "\\x1b[31mred\\x1b[0m" in found[-1] and found[-1].endswith("a\\x00b")
-
-
-TRACEBACK = (
-    "Traceback (most recent call last):",
-    '  File "rays.py", line 2, in viewing_ray',
-    "    return origin / (width - width), direction",
-    "           ~~~~~~~^~~~~~~~~~~~~~~~~",
-    "ZeroDivisionError: division by zero",
-)
-
-
-def test_the_marks_of_a_traceback_stay_under_what_they_mark():
-    failure = Failure("exception", "division by zero", TRACEBACK)
-    found = told_of(report(failure=failure), None, Indexing.LECTURE)
-    code = [line.text for line in found if line.role == "code"]
-    assert code == [*TRACEBACK[:2], "\n".join(TRACEBACK[2:4]), TRACEBACK[4]]
-    for columns in range(1, 30):
-        broken = in_columns("direction/(width-width)+origin\n~~~~~~~~~^~~~~~~~~~~~~~", columns)
-        pieces = broken.split("\n")
-        assert max(map(len, pieces)) == columns
-        above = pairwise(pieces)
-        marked = [line[: len(marks)] for line, marks in above if set(marks) <= {"~", "^"}]
-        assert "".join(marked) == "direction/(width-width)"

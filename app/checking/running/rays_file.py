@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -114,49 +114,23 @@ def _from_array(data: bytes, base: int) -> Floats:
 
 def _from_text(data: bytes) -> Floats:
     """Return a table (N, 8)."""
-    lines = list(_lines(data.decode("utf-8-sig", "replace")))
-    if not lines:
-        return np.empty((0, 8))
-    separator = next((sign for sign in ";\t," if sign in lines[0][1]), None)
+    lines = [line.strip() for line in data.decode("utf-8-sig", "replace").splitlines()]
+    lines = [line for line in lines if line and not line.startswith(_COMMENTS)]
+    separator = next((sign for sign in ";\t," if lines and sign in lines[0]), None)
     if separator != ",":  # the decimal point may be a comma
-        lines = [(number, line.replace(",", ".")) for number, line in lines]
+        lines = [line.replace(",", ".") for line in lines]
     columns = list(range(8))
-    first = lines[0][1].split(separator)
-    if any(_number(cell) is None for cell in first if cell.strip()):
-        columns = _places(first, f"line {lines.pop(0)[0]}")
+    if lines and re.search("[a-z]", re.sub(r"nan|inf(inity)?|\de", "", lines[0].lower())):
+        columns = _places(lines.pop(0).split(separator))
     if not lines:
         return np.empty((0, 8))
     try:
-        texts = [line for _, line in lines]
-        return np.loadtxt(texts, delimiter=separator, usecols=columns, ndmin=2, comments=None)
-    except ValueError:
-        return np.array([_row(number, line.split(separator), columns) for number, line in lines])
+        return np.loadtxt(lines, delimiter=separator, usecols=columns, ndmin=2, comments=None)
+    except ValueError as error:
+        raise LucidaError("", shortened(str(error), 120), _NAMES) from None
 
 
-def _lines(text: str) -> Iterator[tuple[int, str]]:
-    """Yield number and text of each line that is neither empty nor a comment."""
-    for number, line in enumerate(text.splitlines(), 1):
-        line = line.strip()
-        if line and not line.startswith(_COMMENTS):
-            yield number, line
-
-
-def _row(line: int, cells: list[str], columns: list[int]) -> list[float]:
-    """Return the numbers of a line that NumPy does not read. Raises LucidaError."""
-    if len(cells) <= max(columns):
-        problem = f"has {len(cells)} values"
-        raise LucidaError(f"line {line}", problem, "give i, j and the six of its ray")
-    numbers = []
-    for name, column in zip(_COLUMNS, columns, strict=True):
-        value = _number(cells[column])
-        if value is None:
-            problem = f"{name} is {shortened(cells[column].strip(), 40)!r}, no number"
-            raise LucidaError(f"line {line}", problem, "write numbers such as -0.25")
-        numbers.append(value)
-    return numbers
-
-
-def _places(names: list[str], place: str) -> list[int]:
+def _places(names: list[str]) -> list[int]:
     """Return the index of each column, in the order of _COLUMNS."""
     plain = [re.sub(r"[^a-z]", "", name.lower()) for name in names]
     plain = [re.sub("^(o|d)[a-z]*([xyz])$", r"\1\2", name) for name in plain]
@@ -164,12 +138,5 @@ def _places(names: list[str], place: str) -> list[int]:
     for name in _COLUMNS:
         if plain.count(name) != 1:
             count = "two columns are named" if name in plain else "there is no column"
-            raise LucidaError(place, f"{count} {name}", _NAMES)
+            raise LucidaError("line 1", f"{count} {name}", _NAMES)
     return [plain.index(name) for name in _COLUMNS]
-
-
-def _number(cell: str) -> float | None:
-    try:
-        return float(cell)
-    except ValueError:
-        return None

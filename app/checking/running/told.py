@@ -3,41 +3,19 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterable
-from typing import Any
 
 from app.checking.calls import Call, Kind, Limits
+from app.checking.kinds.values import text_of
 from app.checking.running.program import ProgramOverError
 from renderer.errors import one_line, shortened
 
-_LONGEST_CALL = 240
 _LONGEST_VALUE = 80
 
 
 def told_call(call: Call) -> str:
     """Return the call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
-    given = [f"{name}={told_value(value)}" for name, value in call.arguments]
-    return one_line(f"{call.function}({_joined(given, _LONGEST_CALL)})")
-
-
-def told_value(value: Any) -> str:
-    """Return a JSON value as Python writes it, shortened."""
-    if isinstance(value, dict):
-        parts = (f"{key}: {told_value(part)}" for key, part in value.items())
-        return "{" + _joined(parts, _LONGEST_VALUE) + "}"
-    if isinstance(value, list | tuple):
-        return "(" + _joined(map(told_value, value), _LONGEST_VALUE) + ")"
-    return f"{value:.6g}" if isinstance(value, float) else shortened(repr(value), _LONGEST_VALUE)
-
-
-def _joined(parts: Iterable[str], most: int) -> str:
-    """Join as many parts as fit, but at least one."""
-    text = ""
-    for part in parts:
-        if text and len(text) + len(part) > most:
-            return text + ", ..."
-        text += (", " if text else "") + part
-    return text
+    given = (f"{name}={shortened(text_of(v), _LONGEST_VALUE)}" for name, v in call.arguments)
+    return one_line(f"{call.function}({', '.join(given)})")
 
 
 def told_over(over: ProgramOverError, limits: Limits, it: str) -> tuple[Kind, str]:

@@ -61,7 +61,7 @@ class World(NamedTuple):
         IS_SINGLE_SIDED, HAS_HOLES.
     dark_cosine: float32, for each object the cosine below which its highlights are negligible.
     spheres: float64, 4 per sphere: centre, radius, in the world. sphere_object: int32.
-    faces, uv, textures, texels: of the FlatScene, for holes.
+    faces, uv, textures, texels: of the FlatScene, for holes; None for images without textures.
     middle: float64, 3: the world point at the origin of the upper tree's space.
     instances, triangles: their numbers; sphere k has the primitive number triangles + k.
     is_empty: there is nothing to hit.
@@ -84,9 +84,9 @@ class World(NamedTuple):
     spheres: NDArray[np.float64]
     sphere_object: NDArray[np.int32]
     faces: NDArray[np.int32]
-    uv: NDArray[np.float32]
-    textures: NDArray[np.int32]
-    texels: NDArray[np.int32]
+    uv: NDArray[np.float32] | None
+    textures: NDArray[np.int32] | None
+    texels: NDArray[np.int32] | None
     middle: NDArray[np.float64]
     top: int
     instances: int

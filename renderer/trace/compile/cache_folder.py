@@ -25,6 +25,7 @@ from functools import cache
 from importlib import import_module, metadata
 from pathlib import Path
 
+import llvmlite.binding as llvm
 import platformdirs
 
 import renderer.scene.flat
@@ -75,16 +76,26 @@ def source_hash() -> str:
     """Return a hash of the compiled code.
 
     It covers the tracer's sources and those that they depend on, the scene's layout and the shared
-    numbers; and the versions of Python and the compilers.
+    numbers; the versions of Python and the compilers; and the processor, since several may share a
+    folder.
     """
     sources = sorted(TRACE_FOLDER.rglob("*.py"))
     digest = hashlib.sha256()
     for path in (*sources, Path(renderer.scene.flat.__file__), Path(shared_numbers.__file__)):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     versions = [_version(name) for name in ("numba", "llvmlite", "numpy")]
-    for text in (sys.version, *versions):
+    for text in (sys.version, *versions, *_processor()):
         digest.update(text.encode() + b"\0")
     return digest.hexdigest()[:20]
+
+
+def _processor() -> Iterator[str]:
+    """Return the name and the features of the processor that numba compiles for."""
+    yield os.environ.get("NUMBA_CPU_NAME", "") or llvm.get_host_cpu_name()
+    try:
+        yield os.environ.get("NUMBA_CPU_FEATURES", "") or llvm.get_host_cpu_features().flatten()
+    except RuntimeError:  # the system does not report them
+        return
 
 
 def _version(package: str) -> str:

@@ -1,95 +1,80 @@
-"""The two decorators that compile the tracer's code, and the cache of its machine code."""
+"""The decorators that compile the tracer's code, and the cache of its machine code."""
 
 from __future__ import annotations
 
-import os
+import shutil
 import threading
 from collections.abc import Callable
+from functools import partial, wraps
 from typing import Any
 
 import numba
 from numba import config
-from numba.core.caching import FunctionCache
-from numba.core.runtime import rtsys
 
 from renderer import compile_note
 from renderer.trace.compile.cache_folder import cache_folder
-from renderer.trace.compile.numba_compiler import KernelCompiler, PartCompiler
-
-# numba reads settings from a file in the current folder, which may come from anywhere. Use only
-# the environment.
-if hasattr(config, "_config_fname") and hasattr(config, "reload_config"):
-    config._config_fname = os.devnull
-    config.reload_config()
 
 _cache_dir_lock = threading.Lock()
+_has_failed = threading.Event()  # set once machine code could not be loaded or saved
+
+
+def is_cached() -> bool:
+    """Return True if the cache has all that was compiled in this process."""
+    return cache_folder() is not None and not _has_failed.is_set()
 
 
 def inlined(function: Callable[..., Any]) -> Any:
     """Decorate a small function that is compiled as a part of kernels.
 
-    It must not create arrays, because it does not count references: the kernel's caller owns all
-    arrays meanwhile. Not fast-math: watertight intersection needs the operations in the order
-    written.
+    It must not create arrays. Not fast-math: watertight intersection needs the operations in the
+    order written.
     """
     return numba.njit(
-        error_model="numpy",
-        forceinline=True,
-        no_cpython_wrapper=True,
-        no_cfunc_wrapper=True,
-        pipeline_class=PartCompiler,
-        _nrt=False,
+        error_model="numpy", forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
     )(function)
+
+
+def pasted(function: Callable[..., Any]) -> Any:
+    """Decorate a function with a single caller, into which its code is copied before compilation.
+
+    For the large ones: each function that is only `inlined` is optimised together with all that it
+    calls, and then once more as a part of its caller.
+    """
+    return numba.njit(inline="always")(function)
 
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Decorate a function that Python calls: compiled at its first call, run without the GIL.
 
-    Use it only at module level, or the cache cannot find the function again.
+    Use it only at module level, or the cache cannot find the function again. If the cache is
+    damaged or its disk is full, the function is compiled without it.
     """
-    compiled = numba.njit(
-        nogil=True, error_model="numpy", no_cfunc_wrapper=True, pipeline_class=KernelCompiler
-    )(function)
+    compile_it = partial(numba.njit, nogil=True, error_model="numpy", no_cfunc_wrapper=True)
+    uncached = compile_it()(function)
     folder = cache_folder()
     if folder is None:
-        compile_note.begin(kept=False)
-        return compiled
-    with _cache_dir_lock:  # a cache reads its folder from numba's settings on creation
-        users = config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES
-        config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = str(folder), "UserProvidedCacheLocator"
+        return uncached
+    with _cache_dir_lock:  # numba reads its folder from its settings
+        users, config.CACHE_DIR = config.CACHE_DIR, str(folder)
         try:
-            compiled._cache = _Cache(function)
+            cached = compile_it(cache=True)(function)
         except RuntimeError:  # the folder is no longer writable
-            compile_note.begin(kept=False)
+            _has_failed.set()
+            return uncached
         finally:
-            config.CACHE_DIR, config.CACHE_LOCATOR_CLASSES = users
-    return compiled
+            config.CACHE_DIR = users
 
-
-class _Cache(FunctionCache):
-    """numba's cache of a function. A damaged file or a full disk is a miss, not an error."""
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        loaded = None
-        try:
-            # Machine code needs only numba's allocator. The inherited method first initialises the
-            # whole compiler, which takes half of the program's startup time.
-            rtsys.initialize(target_context)
-            loaded = self._load_overload(sig, target_context)
-        except Exception:  # unpickling a damaged file may raise anything
-            pass
-        if loaded is None:
-            compile_note.begin(kept=True)
-        return loaded
-
-    def save_overload(self, sig: Any, data: Any) -> None:
-        try:
+    @wraps(function)
+    def call(*arguments: Any) -> Any:
+        if not _has_failed.is_set():
             try:
-                super().save_overload(sig, data)
-            except OSError:
+                return cached(*arguments)
+            except MemoryError:
                 raise
-            except Exception:  # the index is damaged: start a new one
-                self.flush()
-                super().save_overload(sig, data)
-        except OSError:  # the disk is full
-            compile_note.begin(kept=False)
+            except Exception:  # unpickling a damaged file may raise anything
+                _has_failed.set()
+                compile_note.begin(kept=False)
+                shutil.rmtree(folder, ignore_errors=True)
+        return uncached(*arguments)
+
+    return call

@@ -1,7 +1,10 @@
-"""The main function of a process that compiles kernels into the cache for another process.
+"""The tracer's parts, each compiled on its own; and the process that compiles them for another.
 
-Imports the compiler late: with garbage collection turned off, all of this takes a tenth less time,
-at the cost of 40 MB.
+A part is one or more kernels: "trees" builds the trees; "walk" finds the closest hits of viewing
+rays, and "write" shades them; "rays" traces rays that are handed in, and "shade" shades them;
+"reference" is the simple method. "walk-rich" and "write-rich" are for scenes with textures, and for
+shadows and mirrors; "walk-lens" and "write-lens" for all these and a lens, whose table "lens"
+makes.
 """
 
 from __future__ import annotations
@@ -10,7 +13,6 @@ import gc
 import os
 import sys
 
-from renderer import compile_note
 from renderer.child import end_with_parent
 
 
@@ -19,16 +21,16 @@ def main(*parts: str) -> None:
     its time.
 
     The exit status is 1 if the cache could not be written. Several parts are compiled concurrently,
-    each by a fork of this process made after all imports: see is_copied().
+    each by a fork of this process. Without garbage collection, all of this takes a tenth less time,
+    at the cost of 40 MB.
     """
     gc.disable()
     end_with_parent()
     if len(parts) == 1:
-        compile_part(parts[0])
-        os._exit(0 if compile_note.is_kept() else 1)
-    _make_ready()
-    copies = [_compile_in_copy(part, number) for number, part in enumerate(parts)]
-    os._exit(1 if any([os.waitpid(copy, 0)[1] for copy in copies]) else 0)
+        os._exit(_compile(parts[0]))
+    import_compiler()
+    copies = [_start_copy(part) for part in parts]
+    os._exit(max(os.waitpid(copy, 0)[1] != 0 for copy in copies))
 
 
 def is_copied() -> bool:
@@ -36,49 +38,53 @@ def is_copied() -> bool:
     return sys.platform == "linux"
 
 
-def _make_ready() -> None:
-    """Do the work that all parts begin with: half a second."""
-    import numba
-
-    import renderer.trace.packets.engine  # noqa: F401
-
-    numba.njit(lambda: None).compile(())
+def import_compiler() -> None:
+    """Import all modules that compilation, or loading from the cache, needs."""
+    import renderer.trace.jobs.engine  # noqa: F401
 
 
-def _compile_in_copy(part: str, number: int) -> int:
+def _start_copy(part: str) -> int:
     """Compile a part in a fork of this process. Return the fork's process id."""
     copy = os.fork()
     if copy:
         return copy
-    status = 1
     try:
         end_with_parent()
-        os.nice(number)  # the first parts take longest, so they get priority
-        compile_part(part)
-        status = 0 if compile_note.is_kept() else 1
+        os._exit(_compile(part))
     finally:
-        os._exit(status)
+        os._exit(1)
+
+
+def _compile(part: str) -> int:
+    from renderer.trace.compile.compiled import is_cached
+
+    compile_part(part)
+    return 0 if is_cached() else 1
 
 
 def compile_part(part: str) -> None:
-    """Compile a part of precompile.parts_of() or part_of_rays(), or load it from the cache."""
+    """Compile a part, or load it from the cache, by work on nothing."""
     import numpy as np
 
     from renderer.scene.flat import flatten
     from renderer.scene.model import Mesh, Scene, SceneObject
     from renderer.trace.bvh.instances import Instances
+    from renderer.trace.jobs.engine import Engine
     from renderer.trace.packets.engine import PacketEngine
     from renderer.trace.threads.thread_pool import Team
 
+    nothing, alone = Scene(()), Team(1)
     if part == "trees":
         corners, face = np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)
         scene = Scene((SceneObject(Mesh(corners, face)),))
-        Instances(scene, flatten(scene), Team(1))
-    elif part.startswith("rays-"):
-        _, method, origins = part.split("-")
-        engine = PacketEngine(Scene(()), Team(1), kernels=())
-        ray = np.zeros((1, 3), origins), np.zeros((1, 3), np.float32)
-        getattr(engine, method)(*ray, 0.0, np.inf)
+        Instances(scene, flatten(scene), alone)
+    elif part == "rays":
+        ray = np.zeros((1, 3)), np.zeros((1, 3))
+        PacketEngine(nothing, alone).closest_hits(*ray, 0.0, np.inf)
+    elif part == "shade":
+        ray = np.zeros((1, 3)), np.zeros((1, 3))
+        PacketEngine(nothing, alone).shaded(*ray, 0.0, np.inf)
+    elif part == "reference":
+        Engine(nothing, alone).compile()
     else:
-        effects, kernel = "-effects" in part, part.replace("-effects", "")
-        PacketEngine(Scene(()), Team(1), effects, int(effects), (kernel,))  # nothing to build
+        PacketEngine(nothing, alone).compile(part)

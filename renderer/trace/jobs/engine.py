@@ -35,7 +35,9 @@ class Engine:
     def __init__(self, scene: Scene, team: Team) -> None:
         self._team = team
         self.set_scene(scene)
-        # Compile by tracing an image that is already cancelled.
+
+    def compile(self) -> None:
+        """Compile the kernel by tracing an image that is already cancelled."""
         over = new_control()
         cancel(over)
         self.trace(Camera.canonical(), new_image((1, 1), ()), over)

@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from renderer.errors import LucidaError
 
@@ -20,33 +20,20 @@ class RayBatch:
     def __init__(
         self, method: str, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float
     ) -> None:
-        vectors = (
-            _vectors("origins", origins, _exact(origins)),
-            _vectors("directions", directions, np.float32),
-        )
-        self._call = method, vectors
-        self._limits = float(t_min), float(t_max)
+        rays = _vectors("origins", origins), _vectors("directions", directions)
+        if len(rays[0]) != len(rays[1]):
+            problem = f"are {len(rays[1])}"
+            raise LucidaError("directions", problem, f"give {len(rays[0])}: one a ray")
+        self.method, self._arguments = method, (*rays, float(t_min), float(t_max))
         self.finished = threading.Event()
         self._answer: Any = None
         self._error: BaseException | None = None
-        origins, directions = vectors
-        if len(origins) != len(directions):
-            problem = f"are {len(directions)}"
-            raise LucidaError("directions", problem, f"give {len(origins)}: one a ray")
-
-    @property
-    def kernel(self) -> tuple[str, str]:
-        """The key of the kernel that it needs: the method, and the dtype of the origins."""
-        method, (origins, _) = self._call
-        return method, origins.dtype.name
 
     def run(self, engine: Any) -> None:
         """Trace the rays, unless cancelled before. Called once, by the Tracer's thread."""
-        if self.finished.is_set():
-            return
-        method, rays = self._call
-        self._answer = getattr(engine, method)(*rays, *self._limits)
-        self.finished.set()
+        if not self.finished.is_set():
+            self._answer = getattr(engine, self.method)(*self._arguments)
+            self.finished.set()
 
     def fail(self, error: BaseException) -> None:
         """End the batch with an error, which result() raises."""
@@ -71,17 +58,10 @@ class RayBatch:
         return self._answer
 
 
-def _exact(value: ArrayLike) -> type:
-    """Return float64, which is exact for a scene anywhere; or float32 if the values are float32
-    already.
-    """
-    return np.float32 if getattr(value, "dtype", None) == np.float32 else np.float64
-
-
-def _vectors(name: str, value: ArrayLike, dtype: type) -> np.ndarray:
-    """Return contiguous numbers (n, 3). Raises LucidaError."""
+def _vectors(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    """Return numbers (n, 3). Raises LucidaError."""
     try:
-        array: np.ndarray = np.ascontiguousarray(value, dtype)
+        array: NDArray[np.float64] = np.asarray(value, np.float64)
     except (TypeError, ValueError):
         raise LucidaError(name, "is not an array of numbers", "give n x 3 numbers") from None
     if array.ndim != 2 or array.shape[1] != 3:

@@ -77,6 +77,11 @@ class Tracer:
         """
         return self._scenes
 
+    @property
+    def is_compiling(self) -> bool:
+        """True while a job waits for kernels to be compiled, once per installation."""
+        return self._worker.is_compiling
+
     def set_scene(self, scene: Scene) -> None:
         """Set the scene of the images started from now on.
 
@@ -153,6 +158,16 @@ class Tracer:
         Backs of single-sided surfaces count: they cast shadows.
         """
         return self._batch("any_hits", origins, directions, t_min, t_max)
+
+    def shaded(
+        self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
+    ) -> NDArray[np.float32]:
+        """Return linear light, float32 (n, 3), along each of n rays, shaded like an image without
+        shadows and mirrors; see closest_hits().
+
+        A ray that is not finite, or has no direction, sees the background.
+        """
+        return self._batch("shaded", origins, directions, t_min, t_max)
 
     def _batch(self, name: str, *rays: Any) -> Any:
         if self.method != "packets":

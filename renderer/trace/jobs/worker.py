@@ -13,21 +13,16 @@ import queue
 import threading
 import weakref
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from renderer.child import check_not_forked
 from renderer.errors import LucidaError
-from renderer.scene.model import Scene, has_metals, has_textures
-from renderer.trace.compile.gc_pause import no_full_collections
+from renderer.scene.model import Scene
 from renderer.trace.jobs.image_job import Task
 from renderer.trace.jobs.ray_batch import RayBatch
 from renderer.trace.threads.thread_pool import AbandonedError, Team
 
-if TYPE_CHECKING:
-    from renderer.trace.jobs.ray_kernels import RayKernels
-
 Work = Task | RayBatch
-_POLL_S = 0.02  # while other processes compile kernels
 
 _imported_pid = os.getpid()
 
@@ -36,8 +31,12 @@ class Worker:
     """Runs tasks in the order of their submission, on a thread that starts with the first."""
 
     def __init__(self, threads: int, method: str, shadows: bool, mirror_depth: int) -> None:
-        self._threads, self._method = threads, method
+        self._team, self._method = Team(threads), method
         self._effects = shadows, mirror_depth
+        self._engine: Any = None
+        self._prepared: Scene | None = None  # the engine's
+        self._compiled: set[str] = set()  # parts that were loaded
+        self.is_compiling = False
         self._queue: queue.SimpleQueue[tuple[Scene, Work] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
@@ -46,8 +45,6 @@ class Worker:
         self._thread: threading.Thread | None = None
         self._pid = os.getpid()  # the thread's
         self._closed = False
-        self._compiled: set[str] = set()  # of parts_of() that are compiled
-        self._rays: RayKernels | None = None  # created with the engine
 
     def submit(self, scene: Scene, task: Work) -> None:
         """Queue a task on a scene.
@@ -103,98 +100,67 @@ class Worker:
                     check_not_forked(worker._pid, "tracer", "another one was at work")
 
     def _serve(self) -> None:
-        team = Team(self._threads)
-        engine = prepared = None
-        while (item := self._take()) is not None:
+        while (item := self._queue.get()) is not None:
             scene, task = item
             self._current = task
-            team.is_over = partial(self._is_unwanted, scene, task)
-            if self._closed:
-                task.cancel()
             try:
-                if scene is not prepared and not task.finished.is_set():
-                    prepared = None  # stays None if preparing fails
-                    if engine is None:
-                        with no_full_collections():
-                            engine = self._new_engine(scene, team)
-                    else:
-                        self._compile_more(scene, task)
-                        engine.set_scene(scene)
-                    prepared = scene
-                team.is_over = None  # a running image is cancelled by its own control
-                if engine is not None and self._rays is not None:
-                    if not self._rays.keeps(scene, task):
-                        self._compile_more(scene, task)
-                        task.run(engine)
-                elif self._closed:
-                    task.cancel()
+                self._run(scene, task)
             except AbandonedError:
                 task.cancel()
             except MemoryError:
                 task.fail(LucidaError("scene", "exceeds the memory", "use a smaller model"))
             except BaseException as error:
                 task.fail(error)
-            team.is_over = None
             del item, task  # frees their buffers while waiting for the next task
             self._current = None
-        if self._rays is not None:
-            self._rays.end()
-        team.close()
+        self._team.close()
+        self._engine = self._prepared = None
 
-    def _take(self) -> tuple[Scene, Work] | None:
-        """Return the next task, with its scene; None if there will be no more."""
-        while self._rays is not None and self._rays.waiting:
-            if (ready := self._rays.take_ready()) is not None:
-                return ready
-            with contextlib.suppress(queue.Empty):
-                return self._queue.get(timeout=_POLL_S)
-        return self._queue.get()
+    def _run(self, scene: Scene, task: Work) -> None:
+        """Compile what the task needs, prepare its scene, and do it, unless it was cancelled."""
+        if self._closed:
+            task.cancel()
+        if task.finished.is_set():
+            return
+        self._compile(scene, task)
+        self._team.is_over = partial(self._is_unwanted, scene, task)
+        if scene is not self._prepared:
+            self._prepared = None  # stays None if preparing fails
+            if self._engine is None:
+                from renderer.trace.jobs.engine import new_engine  # imports numba
+
+                self._engine = new_engine(scene, self._team, self._method, *self._effects)
+            else:
+                self._engine.set_scene(scene)
+            self._prepared = scene
+        self._team.is_over = None  # a running image is cancelled by its own control
+        task.run(self._engine)
+
+    def _compile(self, scene: Scene, task: Work) -> None:
+        """Compile the parts that a task needs, in other processes, and load them."""
+        from renderer.trace.jobs.compile_child import compile_part
+        from renderer.trace.jobs.precompile import parts_of, precompile
+
+        parts = parts_of(self._method, any(self._effects), scene, task)
+        new = [part for part in parts if part not in self._compiled]
+        if not new:
+            return
+        self.is_compiling = True
+        try:
+            precompile(new, lambda: self._closed)
+            for part in new:
+                if self._closed:
+                    raise AbandonedError
+                compile_part(part)
+                self._compiled.add(part)
+        finally:
+            self.is_compiling = False
 
     def _is_unwanted(self, scene: Scene, task: Work) -> bool:
         """Return True if preparing a scene for a task is useless: another scene was requested
         since.
         """
         return self._closed or (task.finished.is_set() and self._newest is not scene)
-
-    def _new_engine(self, scene: Scene, team: Team) -> Any:
-        """Return the engine (engine.py) for a scene; None if this is closed while kernels are
-        compiled.
-        """
-        from renderer.trace.jobs.precompile import Precompilation, parts_of  # imports LLVM
-        from renderer.trace.jobs.ray_kernels import RayKernels
-
-        self._rays = RayKernels()
-        self._compiled.add(images_of(scene))
-        compilation = Precompilation(parts_of(self._method, *self._effects, images_of(scene)))
-        try:
-            # This imports numba.
-            from renderer.trace.jobs.engine import new_engine
-
-            compilation.wait(lambda: self._closed)
-        finally:
-            compilation.end()
-        if self._closed:
-            return None
-        return new_engine(scene, team, self._method, *self._effects)
-
-    def _compile_more(self, scene: Scene, task: Work) -> None:
-        """Compile, in other processes, the kernels for the first scene with textures or metals, and
-        for the first camera with a lens.
-        """
-        has_lens = isinstance(task, Task) and task.camera.lens is not None
-        variant = "-lens" * has_lens + images_of(scene)
-        if variant in self._compiled or not variant or task.finished.is_set():
-            return
-        from renderer.trace.jobs.precompile import Precompilation, parts_of
-
-        self._compiled.add(variant)
-        compilation = Precompilation(parts_of(self._method, *self._effects, variant))
-        compilation.wait(lambda: self._closed)
-
-
-def images_of(scene: Scene) -> str:
-    """Return the images of a scene, for parts_of()."""
-    return "-metals" if has_metals(scene) else "-textures" * has_textures(scene)
 
 
 # Threads must leave their kernels before the interpreter frees the memory.

@@ -33,14 +33,12 @@ class Effects(NamedTuple):
     away: np.float32
 
 
-def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects | None:
-    """Return the effects for a scene within bounds (2, 3), or None if there are none.
+def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects:
+    """Return the effects for a scene within bounds (2, 3).
 
-    None is a type of its own: the kernel is compiled for it without any of this. The eye's distance
-    does not matter: hits are relative to the point of the scene that is nearest to it.
+    The eye's distance does not matter: hits are relative to the point of the scene that is nearest
+    to it.
     """
-    if not shadows and not mirror_depth:
-        return None
     away = AWAY * np.abs(bounds - bounds.mean(axis=0)).max()
     return Effects(shadows, mirror_depth, np.float32(away))
 
@@ -52,9 +50,9 @@ def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, sc
     point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
     to the same, where it is a point (light[3] not 0).
     """
-    faces_light = mask & (dot_lanes(geometric, to_light) > np.float32(0))
     if not effects.shadows:
         return mask
+    faces_light = mask & (dot_lanes(geometric, to_light) > np.float32(0))
     origin = fma_lanes(effects.away, geometric, point)
     reach = splat(np.float32(np.inf))
     if light[3] != np.float32(0):

@@ -160,20 +160,13 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares_open, dept
         covered &= covered - 1
         found = bits((squares_of & np.int32(1 << square)) != np.int32(0))
         if has_holes:
-            call_apart(
-                _rasterize_with_holes,
+            _call_with_holes(
+                world.uv,
                 (
-                    view,
-                    world,
-                    np.int64(found),
-                    leaf,
-                    space,
-                    tile,
-                    square,
-                    scratch.coefficients,
-                    scratch.hit_slot,
+                    view, world, np.int64(found), leaf, space, tile, square,
+                    scratch.coefficients, scratch.hit_slot,
                 ),
-            )
+            )  # fmt: skip
         else:
             rasterize_triangles(view, found, leaf, space, own, square, scratch)
     return smallest(load(scratch.least, 0))
@@ -232,6 +225,13 @@ def rasterize_triangles(view, found, leaf, space, tile, square, scratch):
     owner = select(best > before, splat(np.int32(space)), owner)
     store(scratch.hit_instance, LANES * square, owner)
     scratch.least[square] = smallest(best)
+
+
+@inlined
+def _call_with_holes(uv, arguments):
+    if uv is None:  # in kernels without textures
+        return
+    call_apart(_rasterize_with_holes, arguments)
 
 
 @inlined

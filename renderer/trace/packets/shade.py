@@ -85,6 +85,8 @@ def add_reflections(
     view, world, scene, effects, pixels, square, point, surface, objects, color, scratch
 ):
     """Return the colours of a square with those that its surfaces mirror."""
+    if effects.mirror_depth == 0:
+        return color
     weight = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
     for _ in range(effects.mirror_depth):
         mask = brightest(weight) > np.float32(0)

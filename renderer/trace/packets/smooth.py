@@ -19,6 +19,9 @@ from renderer.trace.simd.lanes import LANES, fma, lane_of, splat
 from renderer.trace.simd.memory import as_float64
 
 OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
+# NumPy integers: numba would compile a version of a function for each Python literal.
+_E0, _E1, _E2 = np.array([0, 3, 6])
+_X, _Y, _Z = np.arange(3)
 
 
 class Vertices(NamedTuple):
@@ -56,10 +59,10 @@ def barycentrics(view, corner, slot, space, points, scratch):
         a = _homogeneous_corner(view, space, corner, at)
         b = _homogeneous_corner(view, space, corner, at + 3 * WIDTH)
         c = _homogeneous_corner(view, space, corner, at + 6 * WIDTH)
-        _keep(edges, 0, cross(b, c))
-        _keep(edges, 3, cross(c, a))
-        _keep(edges, 6, cross(a, b))
-    w0, w1, w2 = _edge(edges, 0, points), _edge(edges, 3, points), _edge(edges, 6, points)
+        _keep(edges, _E0, cross(b, c))
+        _keep(edges, _E1, cross(c, a))
+        _keep(edges, _E2, cross(a, b))
+    w0, w1, w2 = _edge(edges, _E0, points), _edge(edges, _E1, points), _edge(edges, _E2, points)
     scale = splat(np.float32(1)) / (w0 + w1 + w2)
     return w0 * scale, w1 * scale, w2 * scale
 
@@ -139,9 +142,9 @@ def _edge(edges, at, points):
 def blended(array, vertices, weights):
     """Return the weighted mean of three numbers of each vertex."""
     return (
-        _blended(array, 0, vertices, weights),
-        _blended(array, 1, vertices, weights),
-        _blended(array, 2, vertices, weights),
+        _blended(array, _X, vertices, weights),
+        _blended(array, _Y, vertices, weights),
+        _blended(array, _Z, vertices, weights),
     )
 
 

@@ -27,12 +27,12 @@ from renderer.trace.packets.smooth import (
 )
 from renderer.trace.packets.sphere import sphere_normal, sphere_normal_at
 from renderer.trace.packets.texture import (
+    PacketTextures,
     between_vertices,
     glossy,
     nowhere,
     on_sphere,
     textured,
-    textures_of,
 )
 from renderer.trace.packets.tile import FIRST_SPHERE, NOTHING, coordinates
 from renderer.trace.packets.view import ACROSS, DOWN, SHARED, VARYING
@@ -76,14 +76,14 @@ class SceneArrays(NamedTuple):
     background: Any
 
 
-def scene_arrays(flat: FlatScene) -> SceneArrays:
+def scene_arrays(flat: FlatScene, textures: PacketTextures) -> SceneArrays:
     return SceneArrays(
         flat.faces,
         flat.normals,
         flat.colors,
         flat.materials,
         flat.cells,
-        textures_of(flat),
+        textures,
         flat.lights,
         len(flat.lights),
         flat.ambient,

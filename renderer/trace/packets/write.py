@@ -1,14 +1,14 @@
 """The pixels of a tile: their colours and other channels, written into the image.
 
-A tile's picture is completed in the scratch, square by square. Then it goes to the image, which may
-be far away, in whole lines of the cache and past it: a line that is written in parts is first read.
+A tile's picture is completed in the scratch, square by square. Then it is copied to the image in
+whole cache lines with non-temporal stores: through the caches, an image of 18 MB takes 2.4 times as
+long (17.2 ms in place of 7.0 of one thread).
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from renderer.scene.flat import FlatScene
 from renderer.trace.arguments.image import Image
 from renderer.trace.bvh.instances import World
 from renderer.trace.compile.compiled import inlined, kernel
@@ -18,9 +18,9 @@ from renderer.trace.packets.lens_frame import is_later_frame, is_own_pixel, tile
 from renderer.trace.packets.refine import packet_depths, refine_square
 from renderer.trace.packets.shade import add_reflections, shade_square
 from renderer.trace.packets.surface import (
+    SceneArrays,
     find_surfaces,
     points_on,
-    scene_arrays,
     square_rays,
 )
 from renderer.trace.packets.tile import (
@@ -38,6 +38,7 @@ from renderer.trace.scalar.vectors import triple
 from renderer.trace.simd.lanes import LANES, bits, select, splat
 from renderer.trace.simd.math import load3, splat_lanes
 from renderer.trace.simd.memory import (
+    as_int32,
     is_line,
     load,
     pointer,
@@ -49,14 +50,14 @@ from renderer.trace.simd.memory import (
 
 
 def writing_stage(
-    view: PacketView, world: World, scene: FlatScene, effects: Effects | None, image: Image
+    view: PacketView, world: World, scene: SceneArrays, effects: Effects | None, image: Image
 ) -> StagedCode:
     """Return the stage that determines a tile's colours, and writes the image's channels.
 
     The arguments' arrays must be kept.
     """
     room = new_room()
-    return StagedCode(prepare_writing(view, world, scene_arrays(scene), effects, image, room), room)
+    return StagedCode(prepare_writing(view, world, scene, effects, image, room), room)
 
 
 @kernel
@@ -75,16 +76,21 @@ def write_tile(always, row, column, floats, ints):
     tile = new_tile(view, row, column, scratch)
     for square in range(SQUARES):
         draw_square(view, world, scene, effects, image, row, column, tile, square, scratch)
+    # One type for all, or the function would be compiled for each.
+    one, three = np.int64(1), np.int64(3)
     if image.has_depth:
-        write_rows(view, tile, image, image.depth, 1, row, column, scratch.depth, scratch)
+        to, picture = as_int32(image.depth), as_int32(scratch.depth)
+        write_rows(view, tile, image, to, one, row, column, picture, scratch)
     if image.has_normal:
-        write_rows(view, tile, image, image.normal, 3, row, column, scratch.normal, scratch)
+        to, picture = as_int32(image.normal), as_int32(scratch.normal)
+        write_rows(view, tile, image, to, three, row, column, picture, scratch)
     if image.has_color:
-        write_rows(view, tile, image, image.color, 3, row, column, scratch.color, scratch)
+        to, picture = as_int32(image.color), as_int32(scratch.color)
+        write_rows(view, tile, image, to, three, row, column, picture, scratch)
     if image.has_id:
-        write_rows(view, tile, image, image.id, 1, row, column, scratch.id, scratch)
+        write_rows(view, tile, image, image.id, one, row, column, scratch.id, scratch)
     if image.has_primitive:
-        write_rows(view, tile, image, image.primitive, 1, row, column, scratch.primitive, scratch)
+        write_rows(view, tile, image, image.primitive, one, row, column, scratch.primitive, scratch)
 
 
 @inlined

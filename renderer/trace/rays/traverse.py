@@ -21,9 +21,9 @@ from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.rays.holes import without_holes
-from renderer.trace.rays.waiting import WAITING_DEPTHS, nearest_child, without_farther
 from renderer.trace.scalar.vectors import dot, minus, plus, rotated, times, transformed, triple
 from renderer.trace.simd.lanes import (
+    LANES,
     bits,
     fma,
     lowest_bit,
@@ -34,10 +34,11 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load
+from renderer.trace.simd.memory import load, store
 
-ROUNDING = np.float32(5e-7)  # relative: more than the total rounding error of a box test
-STEEP = np.float32(1e-9)  # least size of a direction's component, relative to the largest
+_ROUNDING = np.float32(5e-7)  # relative: more than the total rounding error of a box test
+_STEEP = np.float32(1e-9)  # least size of a direction's component, relative to the largest
+_DEPTHS = LANES  # scratch: depths of the waiting nodes, after those of a node's children
 
 
 class SpaceRay(NamedTuple):
@@ -80,15 +81,15 @@ def space_ray(origin, direction, attributes, space):
     dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
     ax, ay, az = abs(dx), abs(dy), abs(dz)
     # Boxes: no division by 0, and no infinity times 0.
-    least = max(ax, ay, az) * STEEP
+    least = max(ax, ay, az) * _STEEP
     one = np.float32(1)
     ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
-    smaller, larger = one - ROUNDING, one + ROUNDING
+    smaller, larger = one - _ROUNDING, one + _ROUNDING
     enter, leave = (
         (ix * smaller, iy * smaller, iz * smaller),
         (ix * larger, iy * larger, iz * larger),
     )
-    sx, sy, sz = abs(ox * ix) * ROUNDING, abs(oy * iy) * ROUNDING, abs(oz * iz) * ROUNDING
+    sx, sy, sz = abs(ox * ix) * _ROUNDING, abs(oy * iy) * _ROUNDING, abs(oz * iz) * _ROUNDING
     near = (
         (0 if ix >= 0 else 3) * WIDTH,
         (1 if iy >= 0 else 4) * WIDTH,
@@ -158,28 +159,17 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     a = _sheared(corner, at, ray)
     b = _sheared(corner, at + 3 * WIDTH, ray)
     c = _sheared(corner, at + 6 * WIDTH, ray)
-    inside, t = intersect_sheared(a, b, c, ray.shear[2], ray.single_sided, t_min, t_max)
-    return bits(inside), select(inside, t, np.float32(np.inf))
-
-
-@inlined
-def intersect_sheared(a, b, c, scale, single_sided, t_min, t_max):
-    """Return (mask, t): where the z axis intersects sheared triangles within (t_min, t_max).
-
-    a, b, c: their corners. scale: converts z to t. single_sided: 1 to ignore their backs, else 0.
-    """
-    ax, ay, az = a
-    bx, by, bz = b
-    cx, cy, cz = c
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a, b, c
     e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
-    zero = np.float32(0)
+    zero, scale = np.float32(0), ray.shear[2]
     inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
     # t is a mean of the corners', weighted by the edge functions: never outside their range. It is
     # computed even if no triangle is hit: mispredicting the branch would cost more.
     area = e0 + e1 + e2
     t = (e0 * az + e1 * bz + e2 * cz) * scale / area
     inside = inside & (area != zero) & (t > t_min) & (t < t_max)
-    return inside & (area * (scale * single_sided) >= zero), t
+    inside = inside & (area * (scale * ray.single_sided) >= zero)
+    return bits(inside), select(inside, t, np.float32(np.inf))
 
 
 @inlined
@@ -239,39 +229,50 @@ def sphere_on_ray(world, sphere, origin, direction, t_min, t_max):
 
 
 @inlined
+def _push_nearest_last(found, depth, child, node, top, floats, ints):
+    """Push the children in `found` with their depths, the nearest on top. Return the new height."""
+    store(floats, 0, depth)
+    base = top
+    while found != 0:
+        lane = lowest_bit(found)
+        found &= found - 1
+        # Insertion sort: there are few.
+        t, i = floats[lane], top
+        while i > base and floats[_DEPTHS + i - 1] < t:
+            floats[_DEPTHS + i], ints[i] = floats[_DEPTHS + i - 1], ints[i - 1]
+            i -= 1
+        floats[_DEPTHS + i], ints[i] = t, child[node * WIDTH + lane]
+        top += 1
+    return top
+
+
+@inlined
 def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
     """Return (t, slot) of the closest triangle of an instance; (t_max, -1) if there is none.
 
     base: the stack's height.
     """
-    return closest_from(world, ray, np.int64(root), base, base, t_min, t_max, floats, ints)
-
-
-@inlined
-def closest_from(world, ray, node, top, base, t_min, t_max, floats, ints):
-    """Like closest_in_instance(), for a node, and for the waiting nodes between base and top."""
     closest, slot = t_max, np.int64(-1)
-    while True:
+    floats[_DEPTHS + base], ints[base] = np.float32(-np.inf), root
+    top = base + 1
+    while top > base:
+        top -= 1
+        if floats[_DEPTHS + top] >= closest:
+            continue
+        node = np.int64(ints[top])
         if node >= 0:
             inside, depth = children_on_ray(world.box, node, ray, t_min, closest)
-            found = bits(inside)
-            if found != 0:
-                node, top = nearest_child(found, depth, world.child, node, top, floats, ints)
-                continue
-        else:
-            leaf = FIRST_LEAF - node
-            found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
-            if found != 0 and ray.space >= 0:
-                found = without_holes(world, ray, leaf, found)
-                t = select(mask_of(found), t, np.float32(np.inf))
-            if found != 0:
-                closest = smallest(t)
-                slot = leaf * WIDTH + lowest_bit(bits(t == closest))
-        top = without_farther(top, base, closest, floats)
-        if top == base:
-            return closest, slot
-        top -= 1
-        node = np.int64(ints[top])
+            top = _push_nearest_last(bits(inside), depth, world.child, node, top, floats, ints)
+            continue
+        leaf = FIRST_LEAF - node
+        found, t = triangles_on_ray(world.corner, leaf, ray, t_min, closest)
+        if found != 0 and ray.space >= 0:
+            found = without_holes(world, ray, leaf, found)
+            t = select(mask_of(found), t, np.float32(np.inf))
+        if found != 0:
+            closest = smallest(t)
+            slot = leaf * WIDTH + lowest_bit(bits(t == closest))
+    return closest, slot
 
 
 @inlined
@@ -285,20 +286,16 @@ def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
     if world.is_empty:
         return np.float32(np.inf), slot, in_space
     ray = top_ray(world, origin, direction)
-    floats[WAITING_DEPTHS], ints[0] = np.float32(-np.inf), world.top
+    floats[_DEPTHS], ints[0] = np.float32(-np.inf), world.top
     top = 1
     while top > 0:
         top -= 1
-        if floats[WAITING_DEPTHS + top] >= closest:
+        if floats[_DEPTHS + top] >= closest:
             continue
         node = np.int64(ints[top])
         if node >= 0:
             inside, depth = children_on_ray(world.top_box, node, ray, t_min, closest)
-            found = bits(inside)
-            if found != 0:
-                node, top = nearest_child(found, depth, world.top_child, node, top, floats, ints)
-                floats[WAITING_DEPTHS + top], ints[top] = np.float32(-np.inf), node
-                top += 1
+            top = _push_nearest_last(bits(inside), depth, world.top_child, node, top, floats, ints)
             continue
         item = FIRST_LEAF - node
         if item >= world.instances:

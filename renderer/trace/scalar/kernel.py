@@ -9,8 +9,17 @@ import numpy as np
 
 from renderer.trace.arguments.image import BLOCK
 from renderer.trace.compile.compiled import inlined, kernel
-from renderer.trace.scalar.shade import color_at, normals_at, object_of, point_on, rgb
+from renderer.trace.scalar.shade import (
+    color_at,
+    corners_of,
+    normals_at,
+    object_of,
+    point_on,
+    rgb,
+    turned,
+)
 from renderer.trace.scalar.traverse import closest_hit
+from renderer.trace.scalar.vectors import cross, dot, minus, row
 from renderer.trace.threads.atomic import count_done, is_cancelled, take_next
 
 
@@ -90,3 +99,37 @@ def write_pixel(scene, image, i, j, origin, direction, hit):
         image.normal[i, j, 0], image.normal[i, j, 1], image.normal[i, j, 2] = normal
     if image.has_color:
         image.color[i, j, 0], image.color[i, j, 1], image.color[i, j, 2] = color
+
+
+@kernel
+def shade_rays(scene, origins, directions, t, primitives, light):
+    """Write the light that n rays with known hits bring, without shadows and mirrors.
+
+    origins, directions, light: (n, 3). t, primitives: (n,), as from closest_hits().
+    """
+    for i in range(len(t)):
+        color, primitive = rgb(scene.background), np.int64(primitives[i])
+        if primitive >= 0:
+            direction = row(directions, i)
+            point = point_on(row(origins, i), direction, np.float64(t[i]))
+            b1, b2 = _weights(scene, point, primitive)
+            geometric, normal = normals_at(scene, direction, point, primitive, b1, b2)
+            color = color_at(scene, direction, point, geometric, normal, primitive, b1, b2)
+        light[i, 0], light[i, 1], light[i, 2] = color
+
+
+@inlined
+def _weights(scene, point, primitive):
+    """Return a point's barycentrics of a triangle's second and third corner; 0, 0 on a sphere."""
+    if primitive >= len(scene.faces):
+        return 0.0, 0.0
+    i, j, k = corners_of(scene.faces, primitive)
+    matrix = scene.world_from_object[scene.face_object[primitive]]
+    a = row(scene.vertices, i)
+    to_b = turned(matrix, minus(row(scene.vertices, j), a))
+    to_c = turned(matrix, minus(row(scene.vertices, k), a))
+    at_a = turned(matrix, a)
+    place = (matrix[0, 3] + at_a[0], matrix[1, 3] + at_a[1], matrix[2, 3] + at_a[2])
+    inside, across = minus(point, place), cross(to_b, to_c)
+    size = dot(across, across)
+    return dot(cross(inside, to_c), across) / size, dot(cross(to_b, inside), across) / size

@@ -285,17 +285,6 @@ def smallest(typing, x):
 
 
 @intrinsic
-def count_bits(typing, number):
-    """Return the number, int64, of bits set among an integer's low 32 bits."""
-
-    def codegen(context, builder, sig, args):
-        value = context.cast(builder, args[0], sig.args[0], types.int32)
-        return builder.zext(call_llvm(builder, "llvm.ctpop.i32", INT32, [value]), INT64)
-
-    return types.int64(number), codegen
-
-
-@intrinsic
 def lowest_bit(typing, number):
     """Return the index, int64, of the lowest bit set in an integer whose low 32 bits are not 0."""
 

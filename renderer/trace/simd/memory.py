@@ -144,7 +144,7 @@ def stack_room(kind: Any, count: int) -> Any:
 
 @intrinsic
 def as_int32(typing, array):
-    """Return a pointer to float32 as a pointer to int32, to the same memory."""
+    """Return a pointer to 32-bit numbers as a pointer to int32, to the same memory."""
 
     def codegen(context, builder, sig, args):
         return builder.bitcast(args[0], INT32.as_pointer())
@@ -175,29 +175,6 @@ def load(typing, array, index):
         return value
 
     return VECTOR[kind](array, index), codegen
-
-
-@intrinsic
-def load_interleaved(typing, array, index):
-    """Return three vectors x, y, z from array[index : index + 48], which is x, y, z, x, y,
-    z, ...
-    """
-    kind = array_kind(array)
-
-    def codegen(context, builder, sig, args):
-        at = element_address(context, builder, sig, args)
-        whole = llvm_vector(kind, 3 * LANES)
-        value = builder.load(builder.bitcast(at, whole.as_pointer()), typ=whole)
-        value.align = 4
-        nothing = undefined(whole)
-        parts = [
-            shuffled(builder, value, nothing, [3 * lane + k for lane in range(LANES)])
-            for k in range(3)
-        ]
-        return context.make_tuple(builder, sig.return_type, parts)
-
-    three = types.UniTuple(VECTOR[kind], 3)  # type: ignore[attr-defined]
-    return three(array, index), codegen
 
 
 @intrinsic

@@ -6,11 +6,9 @@ work with a control array (atomic.py: for kernels).
 
 from __future__ import annotations
 
-import math
 import os
 import queue
 import threading
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -18,13 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
-from renderer.trace.threads.processors import Processors, confine, others_than_here
 
 MOST_THREADS = 1024
 # The control array of one kernel launch: pieces of work taken and done, and a request to stop.
 NEXT, DONE = 0, 16  # on separate cache lines, to avoid false sharing
 CANCELLED = 1 << 60  # more than any amount of work
-REST_S = 5e-4  # after a longer rest, threads are kept apart when they wake up
 
 
 Control = NDArray[np.int64]
@@ -75,10 +71,9 @@ class Team:
         self.size = size
         self.is_over: Callable[[], bool] | None = None
         self._helpers: list[threading.Thread] = []
-        self._calls: queue.SimpleQueue[
-            tuple[Callable[..., Any], tuple, Processors | None] | None
-        ] = queue.SimpleQueue()
-        self._rests_s = -math.inf  # time of the last work
+        self._calls: queue.SimpleQueue[tuple[Callable[..., Any], tuple] | None] = (
+            queue.SimpleQueue()
+        )
         self._outcomes: queue.SimpleQueue[BaseException | None] = queue.SimpleQueue()
 
     def run(self, kernel: Callable[..., Any], *args: Any, size: int | None = None) -> None:
@@ -95,12 +90,10 @@ class Team:
             helper = threading.Thread(target=self._help, name=name, daemon=True)
             helper.start()
             self._helpers.append(helper)
-        allowed = self._keep_apart() if helpers else None
         for _ in range(helpers):
-            self._calls.put((kernel, args, allowed))
+            self._calls.put((kernel, args))
         errors = [_outcome(kernel, args)]
         errors += [self._outcomes.get() for _ in range(helpers)]
-        self._rests_s = time.monotonic()
         for error in errors:
             if error is not None:
                 raise error
@@ -113,27 +106,10 @@ class Team:
             helper.join()
         self._helpers.clear()
 
-    def _keep_apart(self) -> Processors | None:
-        """After a rest, make helpers wake up on other processors than the caller's.
-
-        Returns the processors that each may use once it is awake; None if nothing was changed.
-        """
-        if time.monotonic() - self._rests_s < REST_S:
-            return None
-        processors = others_than_here()
-        if processors is None:
-            return None
-        others, allowed = processors
-        confine([helper.native_id for helper in self._helpers if helper.native_id], others)
-        return allowed
-
     def _help(self) -> None:
         while (call := self._calls.get()) is not None:
-            kernel, args, allowed = call
-            if allowed is not None:
-                confine([0], allowed)
-            self._outcomes.put(_outcome(kernel, args))
-            del call, kernel, args  # frees their arrays while waiting for the next call
+            self._outcomes.put(_outcome(*call))
+            del call  # frees its arrays while waiting for the next one
 
 
 def _outcome(kernel: Callable[..., Any], args: tuple) -> BaseException | None:

@@ -6,12 +6,11 @@ from collections.abc import Callable
 
 from tests.benchmarks.report import Table
 from tests.benchmarks.run import Run
-from tests.benchmarks.tables import build, lenses, processor, secondary, visibility
+from tests.benchmarks.tables import build, lenses, processor, visibility
 
 TABLES: dict[str, Callable[[Run], list[Table]]] = {
     "visibility": visibility.measure,
     "processor": processor.measure,
     "lenses": lenses.measure,
-    "secondary": secondary.measure,
     "build": build.measure,
 }

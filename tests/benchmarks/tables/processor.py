@@ -12,15 +12,14 @@ from tests.benchmarks.cameras import easy_views
 from tests.benchmarks.measure import Plan, processor_seconds
 from tests.benchmarks.report import Table
 from tests.benchmarks.run import HD, Run
-from tests.benchmarks.tables.secondary import secondary_rays
 
 PLAN = Plan(rounds=5, pause_s=0.0, repeats=3, slow_s=1.0)
 
 
 def measure(run: Run) -> list[Table]:
-    """One table: a row a scene and a view, or a kind of single rays."""
-    header = ("scene", "what", "Lucida ms (quartiles)", *run.peer_columns())
-    title = "Processor time of one thread: visibility at 1280x720, and single rays"
+    """One table: a row a scene and a view."""
+    header = ("scene", "view", "Lucida ms (quartiles)", *run.peer_columns())
+    title = "Processor time of one thread: visibility at 1280x720"
     table = Table("processor", title, header)
     plan = replace(PLAN, rounds=2) if run.quick else PLAN
     for subject in run.subjects("small", "70k", "1M"):
@@ -31,9 +30,4 @@ def measure(run: Run) -> list[Table]:
                     tracer.image(view.camera, view.size)
                 timings = run.time(tracers, plan, processor_seconds)
                 table.compare(subject.name, view.name, timings=timings)
-            for what, rays in secondary_rays(subject).items():
-                for tracer in tracers:
-                    tracer.batch(*rays, what == "shadow")
-                timings = run.time(tracers, plan, processor_seconds)
-                table.compare(subject.name, f"{what} rays", timings=timings)
     return [table]

@@ -51,10 +51,6 @@ def right_float32(eye, target, up):
     return {"w": w, "u": u, "v": np.cross(w, u)}
 
 
-def right_flat(eye, target, up):
-    return right_arrays(eye, target, up).ravel()
-
-
 def wrong_upside_down(eye, target, up):
     u, v, w = right_arrays(eye, target, up)
     return u, -v, w

@@ -53,11 +53,6 @@ def right_none_pair(origin, direction, objects):
     return right_loop(origin, direction, objects) or (None, None)
 
 
-def right_float32(origin, direction, objects):
-    found = right_loop(origin, direction, objects)
-    return [np.int64(found[0]), np.float32(found[1])] if found else False
-
-
 def wrong_last(origin, direction, objects):
     found = list(_hits(origin, direction, objects))
     return found[-1] if found else None

@@ -63,11 +63,6 @@ def right_float32(origin, direction, center, radius):
     return np.array([t]) if t > 0 else None
 
 
-def right_pair(origin, direction, center, radius):
-    t = right_quadratic(origin, direction, center, radius)
-    return (t is not None), t
-
-
 def wrong_far_root(origin, direction, center, radius):
     a, b, disc = _roots(origin, direction, center, radius)
     t = (-b + math.sqrt(max(disc, 0))) / (2 * a)

@@ -38,14 +38,6 @@ def right_branching(i, j, width, height, camera):
     return {"direction": direction * camera.distance, "origin": origin}
 
 
-def right_rows(i, j, width, height, camera):
-    x, y = _uv(i, j, width, height, camera)
-    return np.array([[x, y, 0], [0, 0, -1]]) @ [camera.u, camera.v, camera.w] + [
-        camera.eye,
-        [0] * 3,
-    ]
-
-
 def wrong_at_the_eye(i, j, width, height, camera):
     return camera.eye, -np.array(camera.w)
 
@@ -60,20 +52,6 @@ def wrong_both(i, j, width, height, camera):
     return right_arrays(i, j, width, height, camera)[0], wrong_perspective(
         i, j, width, height, camera
     )[1]
-
-
-def wrong_along_w(i, j, width, height, camera):
-    return right_arrays(i, j, width, height, camera)[0], camera.w
-
-
-def wrong_no_eye(i, j, width, height, camera):
-    x, y = _uv(i, j, width, height, camera)
-    return x * np.array(camera.u) + y * np.array(camera.v), -np.array(camera.w)
-
-
-def wrong_on_the_viewport(i, j, width, height, camera):
-    origin, direction = right_arrays(i, j, width, height, camera)
-    return origin + camera.distance * direction, direction
 
 
 def unusable_none(i, j, width, height, camera):

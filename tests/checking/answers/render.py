@@ -68,25 +68,9 @@ def wrong_perspective_alone(scene, camera, width, height):
     return _image(scene, camera, width, height, ray=viewing_ray.right_arrays)
 
 
-def wrong_channels(scene, camera, width, height):
-    return _image(scene, camera, width, height)[..., ::-1]
-
-
-def wrong_bytes(scene, camera, width, height):
-    return (_image(scene, camera, width, height) * 255).astype(int)
-
-
-def wrong_nan(scene, camera, width, height):
-    return np.full((height, width, 3), np.nan)
-
-
 def unusable_transposed(scene, camera, width, height):
     return _image(scene, camera, width, height).transpose(1, 0, 2)
 
 
 def unusable_gray(scene, camera, width, height):
     return _image(scene, camera, width, height)[..., 0]
-
-
-def unusable_none(scene, camera, width, height):
-    return None

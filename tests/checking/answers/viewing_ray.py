@@ -1,7 +1,5 @@
 """Answers to viewing-ray as students write them: right_, wrong_, unusable_."""
 
-from collections import namedtuple
-
 import numpy as np
 
 
@@ -46,44 +44,6 @@ def right_class(i, j, width, height, camera):
     return Ray(origin, 7.5 * direction)
 
 
-def right_point_on_viewport(i, j, width, height, camera):
-    eye, u, v, w = (np.array(p) for p in (camera.eye, camera.u, camera.v, camera.w))
-    corner = eye - camera.distance * w + camera.left * u + camera.top * v
-    across = (camera.right - camera.left) * u / width
-    down = (camera.bottom - camera.top) * v / height
-    point = corner + (j + 0.5) * across + (i + 0.5) * down
-    return {"origin": eye, "direction": point - eye}
-
-
-def right_bottom_up(i, j, width, height, camera):
-    i = height - 1 - i
-    y = camera.bottom + (i + 0.5) * (camera.top - camera.bottom) / height
-    x = camera.left + (j + 0.5) * (camera.right - camera.left) / width
-    d = [x * a + y * b - camera.distance * c for a, b, c in zip(camera.u, camera.v, camera.w)]
-    return (*camera.eye, *d)
-
-
-Both = namedtuple("Both", "direction origin")
-
-
-def right_named_tuple(i, j, width, height, camera):
-    origin, direction = right_scalars(i, j, width, height, camera)
-    return Both(direction, origin)
-
-
-def right_matrix(i, j, width, height, camera):
-    return np.array(right_scalars(i, j, width, height, camera))
-
-
-def right_column_vectors(i, j, width, height, camera):
-    return [np.array(part).reshape(3, 1) for part in right_scalars(i, j, width, height, camera)]
-
-
-def right_homogeneous(i, j, width, height, camera):
-    origin, direction = right_scalars(i, j, width, height, camera)
-    return (*origin, 1), (*direction, 0)
-
-
 def _made(i, j, width, height, camera, x=None, y=None, distance=None, swap=False):
     c = camera
     x = c.left + (j + 0.5) / width * (c.right - c.left) if x is None else x
@@ -106,46 +66,9 @@ def wrong_origin_on_the_viewport(i, j, width, height, camera):
     return origin + direction, direction
 
 
-def wrong_transposed(i, j, width, height, camera):
-    x, y = j / width - 0.5, 0.5 - i / height
-    return camera.eye, np.array([camera.u, camera.v, camera.w]) @ [x, y, -camera.distance]
-
-
-def wrong_nan(i, j, width, height, camera):
-    return camera.eye, (float("nan"), 0, -1)
-
-
-def wrong_zero(i, j, width, height, camera):
-    return camera.eye, (0, 0, 0)
-
-
-def wrong_backwards(i, j, width, height, camera):
-    return camera.eye, -_made(i, j, width, height, camera)[1]
-
-
-def wrong_infinite(i, j, width, height, camera):
-    return camera.eye, (0, 10**400, -1)
-
-
 def unusable_none(i, j, width, height, camera):
     pass
 
 
 def unusable_two_numbers(i, j, width, height, camera):
     return camera.eye, (1, 2)
-
-
-def unusable_direction_alone(i, j, width, height, camera):
-    return _made(i, j, width, height, camera)[1]
-
-
-def unusable_text(i, j, width, height, camera):
-    return "eye", "d"
-
-
-def unusable_flags(i, j, width, height, camera):
-    return camera.eye, (True, False, True)
-
-
-def unusable_strange_fourth(i, j, width, height, camera):
-    return camera.eye, (0, 0, -1, 5)

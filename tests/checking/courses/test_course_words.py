@@ -14,8 +14,8 @@ from app.checking.checked import check
 from app.checking.conventions import Conventions
 from app.checking.courses import course_names, task_path
 from app.checking.mistakes.candidates import candidates
-from app.checking.mistakes.ray_trial import RayCase, RayTrial, known_values
-from app.checking.mistakes.rays import WORDS, RayTask, ray_program, run_rays
+from app.checking.mistakes.ray_trial import RayCase, RayTrial
+from app.checking.mistakes.rays import WORDS, RayTask, ray_program
 from app.checking.ray_words import ray_task
 from app.checking.reports.told import told
 from app.checking.running.file import FileStudent
@@ -105,19 +105,6 @@ def test_every_mistake_is_known_by_name(task: CheckTask) -> None:
         for others in found:
             assert (trial.apart(given, rays[others], everything) < 1e-9).all(), (mistake, others)
     assert unnamed == unseen(cases) & {mistake.name for mistake in program.mistakes}
-
-
-def test_only_the_words_that_are_given_are_used() -> None:
-    for parameter in TASKS:
-        task = parameter.values[0]
-        cases, asked = cases_of(task)
-        if asked.words >= WORDS - {"i", "j", "x01", "y01"}:
-            continue
-        known = known_values(cases, asked)
-        given = {name: known[name] for name in asked.words & known.keys()}
-        for mistakes in [(), *((one,) for one in ray_program(asked).mistakes)]:
-            made = run_rays(ray_program(asked), given, mistakes)
-            np.testing.assert_array_equal(made, run_rays(ray_program(asked), known, mistakes))
 
 
 SWAPPED = """

@@ -97,13 +97,6 @@ def test_a_task_file_or_a_submission_that_is_none(tmp_path: Path) -> None:
         assert shown.score == 0.0 and shown.output
 
 
-def test_a_verdict_alone(tmp_path: Path) -> None:
-    _, shown = submitted(tmp_path, WRONG, "verdict")
-    assert shown.tests[0][1:] == ("failed", "")
-    _, shown = submitted(tmp_path, RAISES, "verdict")
-    assert "ValueError: no 0" in shown.tests[0][2]
-
-
 def test_nothing_is_known_of_a_hidden_task(tmp_path: Path) -> None:
     told = []
     for code in (RIGHT, WRONG):
@@ -112,13 +105,3 @@ def test_nothing_is_known_of_a_hidden_task(tmp_path: Path) -> None:
         assert [name.partition(":")[0] for name, *_ in shown.tests] == ["to-bitmap"]
         told.append(shown)
     assert told[0] == told[1]
-
-
-def test_a_seed_makes_other_cases_and_the_same_twice(tmp_path: Path, capsys) -> None:
-    code = tmp_path / "wrong.py"
-    code.write_text(WRONG, "utf-8")
-    said = []
-    for seed in ("1", "1", "2"):
-        main(["check", str(code), "--seed", seed])
-        said.append(capsys.readouterr().out)
-    assert said[0] == said[1] != said[2]

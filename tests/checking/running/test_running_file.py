@@ -165,8 +165,9 @@ def test_the_arguments_of_a_call_are_told_in_a_line(student):
     source = "def f(image, text, camera): return object()"
     (failure,) = student(source).call([called("f", **given)]).values
     told = failure.text.partition("called as ")[2]
-    assert told.startswith("f(image=(((0.25, 0.25, 0.25), (0.25, 0.25, 0.25), ")
-    assert "), ...), text='xxx" in told and told.endswith("xxx', ...)")
+    assert told.startswith("f(image=(((0.25, 0.25, 0.25), (0.25, ")
+    assert ", text='xxx" in told
+    assert len(told) < 400
 
 
 def test_the_modules_beside_it_are_known_also_those_that_fail(student, tmp_path):

