@@ -17,7 +17,7 @@ from app.host.view import Host
 from app.laboratory.diagram import bitmap, magnified, outlines
 from app.laboratory.options import LaboratoryOptions
 from app.outside.figure import Figure
-from app.outside.figure_view import Sketch, Sketcher, save_svg
+from app.outside.figure_view import Sketch, Sketcher
 from app.outside.painting import Magnified, paint
 from app.outside.svg import svg
 from app.outside.view import OutsideView
@@ -197,15 +197,6 @@ class VectorPage:
             draw.add_text(
                 below, theme.u32(theme.DIM), fitting_words(caption, pane.high.x - pane.low.x)
             )
-        words = "Export as SVG..."
-        width = imgui.calc_text_size(words).x + em
-        pane = panes[1]
-        if pane.high.x - pane.low.x > width + imgui.calc_text_size(texts[1][1]).x + em:
-            place = ImVec2(pane.high.x - width, pane.low.y - 2.0 * em)
-            imgui.set_cursor_screen_pos(place)
-            if imgui.button(words, ImVec2(width, 0)):
-                figure = self.made.figure  # as it is shown here
-                save_svg(host, lambda: figure, self.made.scene.name)
 
 
 def _both(sketch: Sketch) -> Both:

@@ -64,6 +64,7 @@ class FileStudent:
         self._functions: frozenset[str] = frozenset()
         self._failed: Failure | None = None  # permanent
         self._closed = False
+        self._used_s = 0.0  # time of the process's runs
         self._printed = ""
         self._values: list[Any] = []
 
@@ -88,13 +89,15 @@ class FileStudent:
 
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
-            end = time.monotonic() + self.limits.seconds
+            begin = time.monotonic()
+            end = begin + self.limits.seconds
             values = self._values = []
             failure = self._start(end)
             if failure is None and calls:
                 failure = self._run(calls, values, end)
             if self._program:
                 self._printed += self._program.output()
+            self._used_s += time.monotonic() - begin
             printed, self._printed = self._printed, self._printed if self._failed else ""
             return Run(tuple(values), printed, failure)
 
@@ -115,8 +118,10 @@ class FileStudent:
         closed = Failure("ended", f"{self._name}: it is closed")
         if self._closed or self._failed:
             return self._failed or closed
-        if self._program:
+        if self._program and self._used_s < self.limits.seconds:
             return None
+        self._end()
+        self._used_s = 0.0
         opening = {"path": os.path.realpath(self._path)}
         try:
             opening["source"] = self._source().decode("latin-1")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import queue
 import signal
@@ -177,6 +178,14 @@ class StudentProgram:
                 pipe.flush()
 
 
+def _cpu_seconds(seconds: float) -> int:
+    """Return a limit of CPU time that no run reaches before its time limit, with all processors.
+
+    FileStudent replaces a process whose runs took one time limit, so a process lasts at most two.
+    """
+    return math.ceil(min(seconds, 1e6) * max(2, os.cpu_count() or 1)) + 10
+
+
 def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Sequence[str]:
     """Return the command, run by a shell that limits it and what it starts."""
     if sys.platform == "win32":
@@ -185,6 +194,7 @@ def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Seque
         "ulimit -c 0",
         f"ulimit -f {_LARGEST_FILE >> 9}",  # blocks of 512 bytes
         f"ulimit -d {limits.memory_mb << 10}",  # KiB; not what is only reserved, as by Node.js
+        f"ulimit -t {_cpu_seconds(limits.seconds)}",  # ends it even if this process was killed
     ]
     if has_account:  # otherwise, all processes of this process's user would count
         orders.append(f"ulimit -u {_MOST_PROCESSES} || ulimit -p {_MOST_PROCESSES}")  # bash, dash

@@ -223,6 +223,22 @@ def test_closed_is_closed(student):
 
 
 @LINUX
+def test_the_system_ends_it_if_lucida_cannot(student):
+    """Also a loop that lets no other thread run, once its parent was killed."""
+    source = "import resource\ndef f(): return resource.getrlimit(resource.RLIMIT_CPU)\n"
+    (limits,) = student(source, seconds=7).call([F]).values
+    assert limits == [7 * max(2, os.cpu_count() or 1) + 10] * 2
+
+
+def test_a_process_that_used_its_time_is_replaced(student):
+    one = student("import os, time\ndef f(s): time.sleep(s); return os.getpid()\n")
+    first, second = (one.call([called("f", s=s)]).values for s in (0.0, SHORT))
+    assert first == second
+    one.limits = dataclasses.replace(one.limits, seconds=SHORT)
+    assert one.call([called("f", s=0.0)]).values != first
+
+
+@LINUX
 def test_it_ends_with_lucida_however_that_ends(tmp_path):
     begun, path = tmp_path / "begun", tmp_path / "rays.py"
     source = "import os\ndef f():\n"
