@@ -283,12 +283,6 @@ def test_what_is_told_of_illegal_numbers(changes, told):
     assert told in str(error.value)
 
 
-@pytest.mark.parametrize("fov_y_deg", [0, -1, 180, 180.5])
-def test_no_field_of_view_is_half_a_turn_or_nothing(fov_y_deg):
-    with pytest.raises(LucidaError, match="is not between 0 and 180"):
-        Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=fov_y_deg)
-
-
 def test_a_narrow_viewport_is_legal_where_its_numbers_tell_the_edges_apart():
     for viewport in ((100, 100 + 1.2e-7, 0, 1), (0, 1, 1, 1 + 1.2e-9), 2 * (-1e-20, 1e-20)):
         assert Camera(viewport=viewport).viewport == viewport

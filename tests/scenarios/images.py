@@ -12,7 +12,6 @@ from window_driver import SIZE, Key
 from app.pair.view import RASTER, RAY
 from app.widgets.theme import framebuffer_scale
 from renderer.images import to_srgb8
-from renderer.images.display import picture
 from renderer.lenses import Lens
 from renderer.raster import Display
 
@@ -163,27 +162,6 @@ def reduced(color: np.ndarray, extent: tuple[int, int]) -> np.ndarray:
         at = np.take(sums, low, axis) * (1 - part) + np.take(sums, low + 1, axis) * part
         color = np.diff(at, axis=axis) / (size / count)
     return to_srgb8(color.astype(np.float32)).astype(np.int16)
-
-
-def drive_a_large_image_is_seen_in_part(d):
-    """4096 x 2160: at 1:1 only what is seen goes to the screen, and the window still answers."""
-    window, both = d.window, d.window.renderers
-    choose(d, "Resolution/4096 x 2160")
-    assert both.size == (4096, 2160)
-    choose(d, "Magnification/1:1")
-    at = placement(d)
-    assert not at.sees_all
-    raster = d.images()[0]
-    assert raster.shape[0] <= at.pane[1]
-    assert raster.shape[1] <= at.pane[0]
-    left, top, right, bottom = at.visible
-    x, y = at.origin
-    expected = picture(both.agreement.pair[1])[top - y : bottom - y, left - x : right - x]
-    difference = np.abs(without_overlays(raster) - without_overlays(expected.astype(np.int16)))
-    assert difference.max() <= 1
-    window.undo()
-    assert window.state.images.resolution is None
-    d.settle()
 
 
 def drive_single_channels_and_linear_light(d):
