@@ -38,8 +38,6 @@ from renderer.scene.tables import parse_toml, to_struct
 from renderer.shared_numbers import LUMINANCE
 
 TASKS = 100
-CASES = 1000
-SIDE = 512  # of a task's images
 WITH_CAMERAS = ("viewing-ray", "render")
 VISION = "K, R and t: x right, y down, z forward"
 NAME = re.compile(r"[^\W\d]\w*")
@@ -82,14 +80,7 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     if not 1 <= len(file.tasks) <= TASKS:
         raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
     limits = Limits()
-    if file.seconds is not None:
-        if not 0 < file.seconds <= 3600:
-            raise LucidaError("seconds", f"{file.seconds:g} is out of range", "give up to 3600")
-        limits = replace(limits, seconds=file.seconds)
-    if file.memory_mb is not None:
-        if not 64 <= file.memory_mb <= 1 << 20:
-            raise LucidaError("memory_mb", f"{file.memory_mb} is out of range", "give e.g. 1024")
-        limits = replace(limits, memory_mb=file.memory_mb)
+    limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
     shared = Conventions()
     if file.conventions.camera is not None:
         camera = tuple(_camera("conventions.camera", file.conventions.camera))
@@ -120,21 +111,19 @@ def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -
         )
     _check_rigid_parallel(conventions, projections)
     seed = next(s for s in (entry.seed, file.seed, SEED) if s is not None)
-    if seed < 0:
-        raise LucidaError("seed", f"{seed} is negative", "give e.g. 7")
     task = replace(
         base,
         name=entry.name or entry.kind,
         function=_function(entry.function or kind.function),
         part=entry.part or base.part,
         text=entry.text or _text(entry, kind, base),
-        points=_points(entry.points),
+        points=entry.points,
         conventions=conventions,
         cameras=_cameras(entry, conventions, base),
         projections=projections,
-        count=_count(entry, base),
+        count=base.count if entry.cases is None else entry.cases,
         views=tuple(_views(entry.views, folder)),
-        size=entry.size if entry.size is None else _size(entry.size),
+        size=entry.size,
         seed=seed,
         feedback=entry.feedback or file.feedback,
         vectorised=_vectorised(entry, kind),
@@ -278,20 +267,6 @@ def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) 
         )
 
 
-def _count(entry: TaskTable, base: CheckTask) -> int:
-    if entry.cases is None:
-        return base.count
-    if not 0 <= entry.cases <= CASES:
-        raise LucidaError("cases", f"{entry.cases} is out of range", f"give 0 to {CASES}")
-    return entry.cases
-
-
-def _points(points: float) -> float:
-    if not (math.isfinite(points) and points >= 0):
-        raise LucidaError("points", f"{points:g} is no number of points", "give 0 or more")
-    return points
-
-
 def _function(name: str) -> str:
     _check_name("function", name)
     return name
@@ -300,12 +275,6 @@ def _function(name: str) -> str:
 def _check_name(field: str, name: str) -> None:
     if not NAME.fullmatch(name):
         raise LucidaError(field, f"{name[:40]!r} is no name", "give letters, digits and _")
-
-
-def _size(size: tuple[int, int]) -> tuple[int, int]:
-    if not 1 <= min(size) <= max(size) <= SIDE:
-        raise LucidaError("size", f"{list(size)} is out of range", f"give sides of 1 to {SIDE}")
-    return size
 
 
 def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:

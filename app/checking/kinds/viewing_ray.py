@@ -33,7 +33,7 @@ from app.checking.conventions import (
     vectorised_arguments,
 )
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
-from app.checking.kinds.values import text_of
+from app.checking.kinds.values import shown, text_of
 from app.checking.tasks import CheckCase, CheckTask
 
 Floats = NDArray[np.float64]
@@ -246,17 +246,7 @@ def _vectorised_rays(task: CheckTask, cases: Cases, values: Sequence[Any]) -> Re
                 rays[first:last, place] = array if array.ndim == 1 else array.reshape(-1, 3)
         except (AssertionError, TypeError, ValueError):
             problems[first] = (
-                f"returned {_shape_text(value)}, not {' and '.join(returns)} "
+                f"returned {shown(value)}, not {' and '.join(returns)} "
                 f"with three numbers for each of {last - first} pixels"
             )
     return rays, problems
-
-
-def _shape_text(value: Any) -> str:
-    """Describe a returned value, by its shape if it has one."""
-    if isinstance(value, list):
-        try:
-            return f"an array of shape {np.array(value, float).shape}"
-        except (TypeError, ValueError):
-            return f"a list of {len(value)}"
-    return text_of(value)[:60]
