@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -27,7 +26,6 @@ from app.checking.kinds.kind import CheckKind
 from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
 from app.state.options import Notation
-from renderer.camera import Vector
 from renderer.errors import LucidaError, under
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
@@ -35,7 +33,6 @@ from renderer.scene.noting import noting
 from renderer.scene.places import Places, located
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
-from renderer.shared_numbers import LUMINANCE
 
 TASKS = 100
 WITH_CAMERAS = ("viewing-ray", "render")
@@ -111,10 +108,12 @@ def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -
         )
     _check_rigid_parallel(conventions, projections)
     seed = next(s for s in (entry.seed, file.seed, SEED) if s is not None)
+    function = entry.function or kind.function
+    _check_name("function", function)
     task = replace(
         base,
         name=entry.name or entry.kind,
-        function=_function(entry.function or kind.function),
+        function=function,
         part=entry.part or base.part,
         text=entry.text or _text(entry, kind, base),
         points=entry.points,
@@ -127,7 +126,7 @@ def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -
         seed=seed,
         feedback=entry.feedback or file.feedback,
         vectorised=_vectorised(entry, kind),
-        weights=_weights(entry, base),
+        weights=base.weights if entry.weights is None else entry.weights,
         inclusive=entry.at_threshold != 0,
         column_major=entry.order == "column-major",
         stride=base.stride if entry.stride is None else entry.stride,
@@ -267,11 +266,6 @@ def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) 
         )
 
 
-def _function(name: str) -> str:
-    _check_name("function", name)
-    return name
-
-
 def _check_name(field: str, name: str) -> None:
     if not NAME.fullmatch(name):
         raise LucidaError(field, f"{name[:40]!r} is no name", "give letters, digits and _")
@@ -311,12 +305,6 @@ def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
             "vectorised", f"{kind.name} has no pixels to be called for", "leave it out"
         )
     return entry.vectorised
-
-
-def _weights(entry: TaskTable, base: CheckTask) -> Vector:
-    if entry.weights is not None and not all(map(math.isfinite, entry.weights)):
-        raise LucidaError("weights", "are no finite numbers", f"give e.g. {list(LUMINANCE)}")
-    return base.weights if entry.weights is None else entry.weights
 
 
 def _check(task: CheckTask) -> None:

@@ -175,7 +175,6 @@ OTHERS = {
     '[[tasks]]\nkind = "basis"\nreturns = ["w", "back"]': ("3: tasks[0].returns", "twice"),
     '[[tasks]]\nkind = "hit-sphere"\nreturns = ["t"]': ("3: tasks[0].returns", "leave it out"),
     '[[tasks]]\nkind = "closest-hit"\nreturns = ["t"]': ("3: tasks[0].returns", "one thing"),
-    '[[tasks]]\nkind = "to-gray"\nweights = [1, 2, inf]': ("3: tasks[0].weights", "finite"),
     "[[tasks]\n": ("1: column", ""),
     "lucida = 9": ("1: lucida", "version 9"),
 }
