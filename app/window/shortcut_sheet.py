@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from app.widgets import theme
 from app.widgets.lettering import lettering
