@@ -37,7 +37,7 @@ class Tools(NamedTuple):
     @classmethod
     def of(cls, context: moderngl.Context, animate: Callable[[], None]) -> Tools:
         """Return new ones. animate: called when rays were traced."""
-        return cls(Overlay(context), Ground(context), CloudLayer(context), RayHits(animate))
+        return cls(Overlay(context), Ground(), CloudLayer(context), RayHits(animate))
 
     def release(self) -> None:
         """Release all of them, while the context is current."""
