@@ -101,7 +101,8 @@ def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compare
     ray = None
     if now.pixel is not None:
         origin, direction = origins[now.pixel], directions[now.pixel]
-        ray = GivenRay(origin, direction, painter.hit(origin, direction, now.camera.t_range))
+        t = painter.hits([origin], [direction], now.camera.t_range)
+        ray = GivenRay(origin, direction, float(t[0]))
     return Compared(right, wrong, corner_rays(origins, directions), ray)
 
 

@@ -1,4 +1,4 @@
-"""The scene from outside, without the drawing over it: at once, with smooth edges when it is still."""
+"""The scene from outside, without the drawing over it: its edges are smooth when it is still."""
 
 from __future__ import annotations
 
