@@ -11,7 +11,6 @@ from functools import lru_cache
 
 import numpy as np
 from imgui_bundle import ImVec2
-from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.images.ray_pictures import RayPainter, RayPictures
@@ -31,13 +30,10 @@ from app.outside.teaching import (
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats, Size
 from renderer.memo import Memo, same
 from renderer.navigation import depth_of
 from renderer.raster.overlay import screen_from_world
-
-Floats = NDArray[np.float64]
-Size = tuple[int, int]
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters

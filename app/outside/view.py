@@ -54,13 +54,11 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.theme import framebuffer_scale
-from renderer.camera import Camera
+from renderer.camera import Camera, Size
 from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.memo import same
 from renderer.navigation import orbited
-
-Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
