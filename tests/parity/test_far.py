@@ -203,9 +203,6 @@ def test_probe_loops_and_picking_see_what_the_images_show(view):
             continue
         np.testing.assert_allclose(loop_parts.color_at(model, ray, nearest), reading.color)
         off += bool(np.abs(np.array(reading.color) - frame.color[i, j]).max() > 2e-3)
-        for entry, hit in zip(model.objects, hits, strict=True):
-            rows, columns = loop_parts.bounding_box(entry, camera, SIZE)
-            assert hit is loop_parts.MISS or (i in rows and j in columns)
     assert off <= 2
 
 
