@@ -109,29 +109,6 @@ def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
     d.settle()
 
 
-def drive_a_drag_ends_the_passage_where_it_is(d: Driver) -> None:
-    enter(d)
-    window, clock = d.window, Clock(d)
-    d.ctx.item_click(f"//###{OUTSIDE}/axis y##outside")
-    before = view(d).scope
-    assert before is not None
-    clock.s += 0.5 * DURATION_S
-    d.until(lambda: window.state.options.outside.camera not in (None, before.camera))
-    x, y = empty_place(d)
-    d.drag((x, y), (x + 60, y + 20))
-    assert not window.transition.under_way
-    turned = window.state.options.outside.camera
-    clock.s += DURATION_S
-    d.ctx.yield_(3)
-    assert window.state.options.outside.camera == turned
-    assert turned.w != (0, 1, 0)
-    window.change(d.start.with_options(preferences={"reduced_motion": True}))
-    d.ctx.item_click(f"//###{OUTSIDE}/axis z##outside")
-    d.until(lambda: window.state.options.outside.camera is not None)
-    assert np.allclose(window.state.options.outside.camera.w, (0, 0, 1))
-    d.settle()
-
-
 def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
     enter(d)
     window, inner = d.window, d.window.state.camera
