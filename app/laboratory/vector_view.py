@@ -17,7 +17,7 @@ from app.host.view import Host
 from app.laboratory.diagram import bitmap, magnified, outlines
 from app.laboratory.options import LaboratoryOptions
 from app.outside.figure import Figure
-from app.outside.figure_view import Sketch, Sketcher, save_svg
+from app.outside.figure_view import Sketch, Sketcher
 from app.outside.painting import Magnified, paint
 from app.outside.svg import svg
 from app.outside.view import OutsideView
@@ -28,6 +28,7 @@ from app.widgets.background import Background
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
+from renderer.camera import Size
 from renderer.errors import describe
 from renderer.memo import Memo
 from renderer.scene.model import Scene
@@ -42,8 +43,6 @@ UNITS = (1.6, 1.5)  # of lines and of symbols, in the drawing's pixels
 WHEEL_STEP = 1.25
 STEP = 0.02  # of an arrow key, in parts of what is seen
 NAME = "vector"  # of the raster image's texture
-
-Size = tuple[int, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,15 +196,6 @@ class VectorPage:
             draw.add_text(
                 below, theme.u32(theme.DIM), fitting_words(caption, pane.high.x - pane.low.x)
             )
-        words = "Export as SVG..."
-        width = imgui.calc_text_size(words).x + em
-        pane = panes[1]
-        if pane.high.x - pane.low.x > width + imgui.calc_text_size(texts[1][1]).x + em:
-            place = ImVec2(pane.high.x - width, pane.low.y - 2.0 * em)
-            imgui.set_cursor_screen_pos(place)
-            if imgui.button(words, ImVec2(width, 0)):
-                figure = self.made.figure  # as it is shown here
-                save_svg(host, lambda: figure, self.made.scene.name)
 
 
 def _both(sketch: Sketch) -> Both:

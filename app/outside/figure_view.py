@@ -176,6 +176,7 @@ def _with_image(sketch: Sketch, host: Host) -> Sketch:
         is_hit = np.isfinite(t)[..., None]
         color += np.where(is_hit, drawn, 0)
         covered += is_hit
+    _drawn(both.textures.rasterizer, replace(seen, size=(1, 1)))  # frees the large textures
     rgb = to_srgb8(color / np.maximum(covered, 1), state.images.exposure_ev)
     alpha = np.round(255 / len(SHIFTS) * covered).astype(np.uint8)
     image, picture = np.concatenate([rgb, alpha], axis=2), None
@@ -201,19 +202,14 @@ def export_figure(window: Window, ground: Ground) -> None:
         return
     if ground == "transparent":
         sketch = replace(sketch, ground=None)
-    save_svg(host, sketch.figure, sketch.scene.name)
-
-
-def save_svg(host: Host, make: Callable[[], Figure], scene: str) -> None:
-    """Ask for a file, and write a figure into it. make: called on another thread."""
+    name = sketch.scene.name
+    title = f"{name}: the outside view" if name else "The outside view"
 
     def store(path: str) -> str:
-        title = f"{scene}: the outside view" if scene else "The outside view"
-        content = svg(make(), title).encode()
+        content = svg(sketch.figure(), title).encode()
         with atomic_write(path) as file:
             file.write(content)
         return f"Saved {path}, {len(content)} bytes."
 
-    host.files.save_as_dialog(
-        "Export the figure as SVG", "figure.svg", ("SVG files", ".svg"), store
-    )
+    kind = ("SVG files", ".svg")
+    host.files.save_as_dialog("Export the figure as SVG", "figure.svg", kind, store)

@@ -18,9 +18,8 @@ TALK = "To talk about tomorrow"
 BY_STEP, OVER_TIME, UNREAD = "By step", "Over time", "Not read"
 KEY = ("correct at once", "correct later", "not correct yet")
 KINDS = ("right", "later", "wrong")
-TRANSPOSED = "ᵀ"
 LATEX = (  # what the replies of lectures hold, as signs
-    (r"^\mathsf{T}", TRANSPOSED), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
+    (r"^\mathsf{T}", "ᵀ"), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
     (r"\,", " "), ("{", ""), ("}", ""), ("-", "\u2212"),
 )  # fmt: skip
 MOST_LABELS, COLUMN_REM = 4, 4.5  # of columns: labels that have room; their height

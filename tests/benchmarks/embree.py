@@ -49,11 +49,9 @@ class NativeEmbree(Peer):
 
     name = "Embree (C++)"
 
-    def __init__(
-        self, threads: int | None = None, quality: int = MEDIUM, robust: bool = False
-    ) -> None:
+    def __init__(self, threads: int | None = None) -> None:
         self._library = _library()
-        self._settings = (threads or processors(), quality, int(robust))
+        self._settings = (threads or processors(), MEDIUM, 0)  # 0: not robust
         self._embree: int | None = None
         self._answer: tuple[np.ndarray, ...] = ()
         self._ways: tuple[Any, np.ndarray] = (None, np.empty(0))

@@ -24,11 +24,7 @@ class Lucida(Peer):
         self._threads = threads
 
     def prepare(self, vertices: Vertices, faces: Faces) -> None:
-        self.prepare_scene(Scene((SceneObject(Mesh(vertices, faces)),)))
-
-    def prepare_scene(self, scene: Scene) -> None:
-        """As prepare, for a scene of any objects."""
-        self.tracer = Tracer(scene, self._threads)
+        self.tracer = Tracer(Scene((SceneObject(Mesh(vertices, faces)),)), self._threads)
         # The tracer prepares a scene with its first image.
         self.tracer.render(Camera.canonical(), (1, 1), VISIBILITY)
 

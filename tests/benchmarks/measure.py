@@ -19,11 +19,9 @@ Turn = Callable[[], tuple[float, ...]]  # the seconds of each of its calls
 
 @dataclass(frozen=True)
 class Timing:
-    """The seconds that a call took: in each turn, the median of its calls. first_s: of each turn,
-    its first call, which comes after the pause."""
+    """The seconds that a call took: in each turn, the median of its calls."""
 
     samples_s: tuple[float, ...]
-    first_s: tuple[float, ...] = ()
 
     @property
     def median_s(self) -> float:
@@ -41,7 +39,6 @@ class Timing:
 
     def numbers(self) -> dict[str, float | int]:
         """For the JSON file."""
-        first = {"first_s": float(np.median(self.first_s))} if self.first_s else {}
         return {
             "median_s": self.median_s,
             "low_s": self.low_s,
@@ -49,7 +46,6 @@ class Timing:
             "min_s": min(self.samples_s),
             "max_s": max(self.samples_s),
             "samples": len(self.samples_s),
-            **first,
         }
 
 
@@ -118,6 +114,5 @@ def interleaved(turns: Mapping[str, Turn], plan: Plan) -> dict[str, Timing]:
         for name, own in turns.items():
             taken[name].append(own())
     return {
-        name: Timing(tuple(float(np.median(times)) for times in own), tuple(t[0] for t in own))
-        for name, own in taken.items()
+        name: Timing(tuple(float(np.median(times)) for times in own)) for name, own in taken.items()
     }

@@ -12,10 +12,9 @@ import signal
 import time
 import traceback
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from multiprocessing.connection import Connection
-from pathlib import Path
 from typing import Any
 
 from renderer.camera import Camera, Size
@@ -23,14 +22,13 @@ from tests.benchmarks.measure import Call, Plan, Stopwatch, Turn, turn
 from tests.benchmarks.peers import Hits, Peer
 from tests.benchmarks.scenes import Subject
 
-STATM = Path("/proc/self/statm")
 # Otherwise the threads of NumPy's OpenBLAS, which trimesh uses, wait at work for 26 ms and more.
 QUIET = {"OPENBLAS_THREAD_TIMEOUT": "4"}  # 2 to the 4th clock cycles
 IDLE_S = 0.2
 
 
 class TracerProcess:
-    """One kind of tracer, with any number of scenes, each under a key."""
+    """One kind of tracer and one scene."""
 
     def __init__(self, kind: type[Peer]) -> None:
         self.kind, self.name = kind, kind.name
@@ -44,17 +42,17 @@ class TracerProcess:
     def version(self) -> str:
         return str(self._ask(_version))
 
-    def prepare(self, subject: Subject, threads: int | None = None, key: str = "") -> int:
-        """Builds the scene; gives how many bytes the process has grown by it, -1 if unknown."""
-        return int(self._ask(_prepare, subject, threads, key))
+    def prepare(self, subject: Subject, threads: int | None = None) -> None:
+        """Build the scene."""
+        self._ask(_prepare, subject, threads)
 
     def release(self) -> None:
-        """Frees all scenes."""
+        """Free the scene."""
         self._ask(_release)
 
-    def image(self, camera: Camera, size: Size, key: str = "") -> None:
+    def image(self, camera: Camera, size: Size) -> None:
         """Choose an image to be timed and read."""
-        self._ask(_set_image, camera, size, key)
+        self._ask(_set_image, camera, size)
 
     def building(self, subject: Subject) -> None:
         """Choose the building of this scene, next to those already prepared, to be timed."""
@@ -65,9 +63,9 @@ class TracerProcess:
         hits: Hits = self._ask(_hits)
         return hits
 
-    def turn(self, plan: Plan, stopwatch: Stopwatch, key: str = "") -> Turn:
+    def turn(self, plan: Plan, stopwatch: Stopwatch) -> Turn:
         """The turn of what was set, for measure.interleaved."""
-        return partial(self._ask, _timed, plan, stopwatch, key)
+        return partial(self._ask, _timed, plan, stopwatch)
 
     def idle_share(self) -> float:
         """Return the share of a processor, 0 to 1, that the process takes while it is idle."""
@@ -98,8 +96,8 @@ class TracerProcess:
 @dataclass
 class _State:
     kind: type[Peer]
-    tracers: dict[str, Peer] = field(default_factory=dict)
-    calls: dict[str, Call] = field(default_factory=dict)
+    tracer: Peer | None = None
+    call: Call | None = None
 
 
 def _serve(kind: type[Peer], connection: Connection) -> None:
@@ -121,22 +119,31 @@ def _version(state: _State) -> str:
     return state.kind.version()
 
 
-def _prepare(state: _State, subject: Subject, threads: int | None, key: str) -> int:
-    before = _resident_bytes()
-    state.tracers[key] = state.kind(threads)
-    state.tracers[key].prepare(subject.vertices, subject.faces)
-    return _resident_bytes() - before if STATM.exists() else -1
+def _prepare(state: _State, subject: Subject, threads: int | None) -> None:
+    state.tracer = state.kind(threads)
+    state.tracer.prepare(subject.vertices, subject.faces)
 
 
 def _release(state: _State) -> None:
-    state.calls.clear()
-    for tracer in state.tracers.values():
-        tracer.close()
-    state.tracers.clear()
+    if state.tracer is not None:
+        state.tracer.close()
+    state.tracer = state.call = None
 
 
-def _set_image(state: _State, camera: Camera, size: Size, key: str) -> None:
-    state.calls[key] = partial(state.tracers[key].trace, camera, size)
+def _prepared(state: _State) -> Peer:
+    if state.tracer is None:
+        raise RuntimeError("no scene is prepared")
+    return state.tracer
+
+
+def _chosen(state: _State) -> Call:
+    if state.call is None:
+        raise RuntimeError("nothing is chosen to be timed")
+    return state.call
+
+
+def _set_image(state: _State, camera: Camera, size: Size) -> None:
+    state.call = partial(_prepared(state).trace, camera, size)
 
 
 def _set_building(state: _State, subject: Subject) -> None:
@@ -145,27 +152,20 @@ def _set_building(state: _State, subject: Subject) -> None:
         tracer.prepare(subject.vertices, subject.faces)
         tracer.close()
 
-    state.calls[""] = build
+    state.call = build
 
 
 def _hits(state: _State) -> Hits:
-    return state.tracers[""].read(state.calls[""]())
+    return _prepared(state).read(_chosen(state)())
 
 
-def _timed(state: _State, plan: Plan, stopwatch: Stopwatch, key: str) -> tuple[float, ...]:
-    return turn(state.calls[key], plan, stopwatch)
+def _timed(state: _State, plan: Plan, stopwatch: Stopwatch) -> tuple[float, ...]:
+    return turn(_chosen(state), plan, stopwatch)
 
 
 def _idle_share(state: _State) -> float:
-    for call in state.calls.values():
-        call()
+    _chosen(state)()
     time.sleep(0.02)
     start = time.process_time()
     time.sleep(IDLE_S)
     return (time.process_time() - start) / IDLE_S
-
-
-def _resident_bytes() -> int:
-    if not STATM.exists():
-        return 0
-    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

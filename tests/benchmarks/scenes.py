@@ -13,14 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.scene import (
-    Checker,
-    DirectionalLight,
-    Material,
     Mesh,
-    PointLight,
     Scene,
     SceneObject,
-    Sphere,
     flatten,
     load_scene,
 )
@@ -29,11 +24,9 @@ from tests.benchmarks.interior import interior
 from tests.benchmarks.meshes import (
     Faces,
     Vertices,
-    block,
     bumpy_sphere,
     knot,
     machine_parts,
-    placed,
     scanned_sphere,
     soup,
     table_top,
@@ -102,33 +95,3 @@ def model(path: str | Path) -> Subject:
 def scene_of(subject: Subject) -> Scene:
     """The mesh as a scene of one object."""
     return Scene((SceneObject(Mesh(subject.vertices, subject.faces)),), name=subject.name)
-
-
-def shaded_scene(subject: Subject) -> Scene:
-    """The mesh among spheres, with every kind of shading: diffuse, specular, checker, lights."""
-    centre, radius = subject.centre, subject.radius
-    low = float(subject.vertices[:, 1].min()) - 0.03 * radius
-    board = placed(block((3.0, 0.05, 3.0)), radius, (float(centre[0]), low, float(centre[2])))
-    objects = [
-        SceneObject(
-            Mesh(subject.vertices, subject.faces),
-            Material((0.8, 0.4, 0.2), (0.5, 0.5, 0.5), 40.0),
-        ),
-        SceneObject(
-            Mesh(*board),
-            Material((0.7, 0.7, 0.7), checker=Checker(size=0.2 * radius)),
-        ),
-    ]
-    for turn in range(6):
-        angle = turn * np.pi / 3
-        offset = np.array([np.cos(angle), 0.0, np.sin(angle)]) * 1.1 * radius
-        x, y, z = (centre + offset).tolist()
-        material = Material((0.2, 0.4, 0.8), (0.8, 0.8, 0.8), 100.0)
-        objects.append(SceneObject(Sphere((x, y, z), 0.15 * radius), material))
-    x, y, z = (centre + np.array([1.0, 3.0, 2.0]) * radius).tolist()
-    lights = (
-        PointLight((x, y, z), (0.6, 0.6, 0.6)),
-        DirectionalLight((-1.0, -1.0, -0.5), (0.3, 0.3, 0.25)),
-        DirectionalLight((1.0, -0.5, -1.0), (0.2, 0.2, 0.3)),
-    )
-    return Scene(tuple(objects), lights, background=(0.1, 0.1, 0.15), name=subject.name)

@@ -212,31 +212,6 @@ def test_beyond_what_a_camera_can_be_the_nearer_end_is_seen() -> None:
     assert passage.at(0.55) is end
 
 
-@pytest.mark.parametrize(
-    ("fit", "near", "right", "across", "down", "height"),
-    [
-        (False, None, 1.5, 2, 1 + 2 / 3, 4.5),
-        (False, 3.5, 1.5, 2, 1 + 2 / 3, 2.5),
-        (True, None, 1.5, 1 + 9 / 16, 1 + 2 / 3, 4.5),  # half the width is 16 / 9 * 0.75
-        (True, None, 3.0, 2, 1 + 16 / 27, 4.5),  # the height is 27 / 16
-    ],
-)
-def test_the_farthest_corner_says_when_rays_may_be_parallel(
-    fit, near, right, across, down, height
-) -> None:
-    """From the foot of the eye to it r pixels; so many times as far as the scene, or the first eye,
-    is from the focus's plane: then the corner moves by a fifth of a pixel."""
-    one = Camera((0.0, 0.5, 4.0), viewport=(0.0, right, -0.25, 1.25), near=near)
-    two = switched_projection(one, FOCUS)
-    passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (low, middle) if passage.at(middle).camera.is_parallel else (middle, high)
-    farthest = passage.at(low).camera.eye[2] + 0.5
-    assert farthest == pytest.approx(math.hypot(across * 480, down * 270) * height / 0.2, rel=1e-3)
-
-
 def test_between_a_view_that_is_fitted_and_one_that_is_not_nothing_is_fitted() -> None:
     one, two = Camera(eye=(0, 0, 5)), Camera(eye=(0, 0, 4))
     for fits in ((True, True), (True, False), (False, True), (False, False)):

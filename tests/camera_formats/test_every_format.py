@@ -254,16 +254,3 @@ def test_frames_share_what_is_the_same() -> None:
     table = json.loads(written([replace(PLAIN, name="a"), PLAIN, PLAIN], "nerf")[""])
     assert "fl_x" in table and set(table["frames"][0]) == {"file_path", "transform_matrix"}
     assert table["frames"][2]["file_path"] == "frame_00002"
-
-
-def test_on_a_full_disk_no_file_of_a_folder_is_replaced(tmp_path):
-    resource = pytest.importorskip("resource")
-    save_files(tmp_path / "set", {"a": b"old", "b": b"old"})
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
-    try:
-        with pytest.raises(LucidaError, match="cannot be written"):
-            save_files(tmp_path / "set", {"a": bytes(200), "b": b"new"})
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-    assert {path.read_bytes() for path in (tmp_path / "set").iterdir()} == {b"old"}

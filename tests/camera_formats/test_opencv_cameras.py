@@ -7,8 +7,6 @@ import json
 import numpy as np
 import pytest
 from format_cameras import assert_same_pixels, pasted
-from hypothesis import given
-from hypothesis import strategies as st
 
 from renderer.camera import Camera
 from renderer.camera_formats.given import Options
@@ -311,26 +309,3 @@ def test_a_matrix_without_a_name_is_not_passed_over() -> None:
     for pose in ("[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4]]", "np.array([[1, 0, 0, 0]])"):
         with pytest.raises(LucidaError, match="is not a recognised camera format"):
             pasted(K + pose)
-
-
-@given(
-    st.tuples(st.floats(50, 900), st.floats(50, 900), st.floats(-99, 99)),
-    st.sampled_from([1.0, -1.0, 2.5, -0.01]),
-)
-def test_one_k_by_any_of_its_names_is_one_camera(numbers: tuple, scale: float) -> None:
-    """By its matrix, its numbers one by one, and as a part of P, which any factor leaves alone."""
-    fx, fy, skew = numbers
-    K = np.array([[fx, skew, 300], [0, fy, 250], [0, 0, 1]])
-    size = "image_width: 640\nimage_height: 480\n"
-    matrix = np.array(POSE)[:3]
-    pose = f"R: {matrix[:, :3].tolist()}\nt: {matrix[:, 3].tolist()}\n"
-    texts = [
-        f"{size}K: {K.tolist()}\n{pose}",
-        f"{size}fx: {fx!r}\nfy: {fy!r}\ncx: 300\ncy: 250\nskew: {skew!r}\n{pose}",
-        f"{size}P: {(scale * K @ matrix).tolist()}\n",
-    ]
-    wanted = Camera.from_intrinsics(K, size=(640, 480), camera_from_world=POSE)
-    for text in texts:
-        (read,) = pasted(text, "opencv").cameras
-        assert read.size == (640, 480)
-        assert_same_pixels(wanted, read.camera, (640, 480))

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 
 import pytest
 
 from app.images.marking import followed
-from app.lecture.flow import INDENT, Piece, PieceSize, lay
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import OWN, state_of
-from app.lecture.text import parse
 from app.state.app_state import AppState
 from renderer.scene import load_scene
 
@@ -52,20 +49,3 @@ def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
     assert anchor is not None and anchor.pixel == (19, 40)  # which is the step's own
     again, same = followed(now, (30, 20), anchor, view, (30, 20))
     assert (again, same) == (now, anchor)
-
-
-def test_a_wide_formula_goes_on_in_further_rows_of_the_same_size():
-    def measure(piece: Piece) -> PieceSize:
-        return PieceSize(0.5 * piece.size * len(piece.text), 0.8 * piece.size, 0.2 * piece.size)
-
-    formula = "abcdefghi = jklmnopqr + stuvwxyz"
-    laid = lay(parse(f"Some text.\n\n$$\n{formula}\n$$\n"), 300.0, 24.0, measure)
-    assert laid.width <= 300.0
-    assert {placed.piece.size for placed in laid.pieces} == {24.0}
-    rows = [placed for placed in laid.pieces if placed.kind == "formula"]
-    assert [row.piece.text for row in rows] == ["abcdefghi = jklmnopqr", "+ stuvwxyz"]
-    assert {row.x for row in rows} == {INDENT * 24.0}
-    assert all(above.baseline < below.baseline for above, below in pairwise(rows))
-    # What cannot break keeps its size too, and has the whole column.
-    (whole,) = lay(parse("$$\nabcdefghijklmnopqrstuvw\n$$\n"), 300.0, 24.0, measure).pieces
-    assert (whole.piece.size, whole.x) == (24.0, 0.0)

@@ -61,6 +61,7 @@ FLOORS = (
     "renderer.precision",
     "renderer.black",
     "renderer.difference",
+    "renderer.seen_surfaces",
     "renderer.explained",
     "renderer.compare",
     "renderer.doctor",

@@ -3,20 +3,16 @@ paste."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from held_clock import Clock
 from imgui_bundle import imgui
 from window_driver import Driver, Key, changed
 
-from app.camera_panel import projection
 from app.cameras.lens_choices import LENS_PRESETS
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
 from app.pair.options import PairOptions
-from app.state.app_state import is_orthonormal
 from app.widgets import typed
 from renderer.camera import Camera
 from renderer.lenses import Lens
@@ -185,11 +181,6 @@ def drive_every_preset_frames_the_scene_in_both_images(d: Driver) -> None:
         d.ctx.item_click(f"//Camera/{preset.name}")
         camera = d.window.state.camera
         assert (camera.u, camera.v, camera.w) == (preset.u, preset.v, preset.w)
-        assert camera.is_parallel
-        assert d.window.state.keep_orthonormal is not preset.oblique
-        corners = d.window.renderers.camera(d.window.state).project(d.window.focus.framed, SIZE)
-        assert -0.5 < corners.row.min() <= corners.row.max() < SIZE[1] - 0.5
-        assert -0.5 < corners.column.min() <= corners.column.max() < SIZE[0] - 0.5
         if preset.name in ("Left", "Isometric", "Cabinet"):
             d.agreeing_images()
     d.ctx.item_click("//Camera/in perspective")
@@ -271,39 +262,6 @@ def drive_look_at_is_typed(d: Driver) -> None:
     close_sections(d)
 
 
-def drive_what_is_copied_is_pasted(d: Driver) -> None:
-    close_sections(d)
-    open_section(d, "Copy and paste")
-    start = d.window.state
-    shown = d.window.renderers.camera(start)
-    for form in ("View file", "Command line", "Python", "OpenGL matrices"):
-        d.ctx.item_click(f"//Camera/{form}")
-        d.ctx.yield_(2)
-        text = imgui.get_clipboard_text()
-        assert len(text) > 100
-        d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
-        assert d.window.state.camera == Camera.canonical()
-        d.ctx.item_click("//Camera/Paste")
-        state = d.window.state
-        if form == "OpenGL matrices":
-            assert not state.view.fit
-            assert np.allclose(state.camera.viewport, np.array(shown.viewport) / shown.distance)
-            assert np.allclose(state.camera.eye, shown.eye)
-        else:
-            assert state.view == start.view
-    imgui.set_clipboard_text("no camera at all")
-    was = d.window.state
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.v))
-    d.ctx.yield_(2)
-    assert d.window.state == was
-    assert "holds no camera" in d.window.files.message
-    d.window.files.message = ""
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.mod_shift) | int(Key.c))
-    d.ctx.yield_(2)
-    assert imgui.get_clipboard_text().startswith("lucida = ")
-    close_sections(d)
-
-
 def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock = Clock(d)
     d.ctx.key_press(int(Key.p))
@@ -329,39 +287,6 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     assert window.state == d.start
 
 
-def drive_a_passage_ends_where_the_user_does_something_else(d: Driver) -> None:
-    clock = Clock(d)
-    d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
-    clock.s += 0.4 * DURATION_S
-    d.ctx.yield_(2)
-    under_way = d.window.state.camera
-    assert under_way not in (d.start.camera, Camera.canonical())
-    d.type("eye.x", "1.5")
-    assert not d.window.transition.under_way
-    assert d.window.state.camera == replace(under_way, eye=(1.5, *under_way.eye[1:]))
-    clock.s += DURATION_S
-    d.ctx.yield_(3)
-    assert d.window.state.camera.eye[0] == 1.5
-    d.window.change(d.start.with_options(preferences={"reduced_motion": True}))
-    d.ctx.key_press(int(Key.p))
-    assert d.window.state.camera.is_parallel  # at once
-
-
-def drive_the_readout_tells_a_left_handed_skewed_basis(d: Driver) -> None:
-    assert is_orthonormal(d.window.state.camera)
-    before = d.picture()
-    d.ctx.item_click("//Camera/keep orthonormal")
-    d.type("u.x", "-0.8")
-    d.ctx.yield_(2)
-    after = d.picture()
-    box = d.ctx.item_info("//Camera/keep orthonormal").rect_full
-    fields = d.ctx.item_info(d.field("w.x")).rect_full
-    top, bottom = round(fields.max.y), round(box.min.y)
-    right = round(d.ctx.get_window_by_ref("//Camera").rect().max.x)
-    difference = np.abs(before.astype(int) - after)[top:bottom, :right]
-    assert (difference.max(axis=2) > 30).mean() > 0.05
-
-
 def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
     view, stage = d.window.views["Camera"], d.window.shell.stage
     close_sections(d)
@@ -376,25 +301,6 @@ def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
     assert d.ctx.item_info("//Camera/##look.eye.x").id_ != 0
     assert view.sections == ("Look at",)
     close_sections(d)
-
-
-def drive_the_exposure_is_told_in_stops(d: Driver) -> None:
-    d.type("exposure", "-1/2")
-    assert d.window.state.images.exposure_ev == -0.5, d.window.state.images.exposure_ev
-    d.settle()
-    before = d.images()[0].mean()
-    d.type("exposure", "1")
-    d.settle()
-    assert d.images()[0].mean() > before + 10
-    real, units = projection.number_field, []
-    projection.number_field = lambda *rest, **named: (
-        units.append((rest[0], rest[9])) or real(*rest, **named)
-    )
-    try:
-        d.ctx.yield_(2)
-    finally:
-        projection.number_field = real
-    assert ("exposure", " EV") in units
 
 
 def drive_large_numbers_keep_their_digits(d: Driver) -> None:

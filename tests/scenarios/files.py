@@ -11,10 +11,8 @@ from typing import Any
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
-from app.objects.options import ObjectsOptions
 from app.widgets import folders, messages
 from app.widgets.folders import FolderContent
-from app.window.dropping import OPEN
 from app.window.palette_entries import entries
 from app.window.viewer import IDLE_FPS, WAITING_FPS
 from renderer.camera import Camera
@@ -116,54 +114,6 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     d.window.change(d.window.state.with_options(mirrors=False))
     d.agreeing_images()
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
-
-
-def drive_a_name_that_is_not_utf8_is_shown_and_told(d: Driver) -> None:
-    if sys.platform in ("win32", "darwin"):
-        return  # names are Unicode there
-    window = d.window
-    path = os.fsdecode(os.fsencode(d.folder) + b"/caf\xe9 \xff.obj")
-    with open(path, "w") as file:
-        file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    d.drop([path])
-    d.until(lambda: window.files.question is not None)
-    d.ctx.yield_(2)
-    d.ctx.item_click(f"//##message/{OPEN}")
-    d.until(lambda: window.state.scene is not d.start.scene)
-    assert window.state.of(ObjectsOptions).dropped == "open"
-    assert window.state.scene.name == r"caf\xe9 \xff"
-    assert window.files.recent.entries[0].path == path
-    d.agreeing_images()
-    d.ctx.menu_click("//##MainMenuBar/File")
-    d.ctx.menu_action(imgui.test_engine.TestAction.hover, "//##MainMenuBar/File/Recent files")
-    d.ctx.yield_(3)
-    d.ctx.key_press(int(Key.escape), 3)
-    window.files.say(f"Saved {path}.")
-    os.unlink(path)
-    window.open(path)
-    d.until(lambda: bool(window.files.message))
-    d.ctx.yield_(3)
-    assert r"caf\xe9 \xff.obj: does not exist" in window.files.message
-    window.files.message = ""
-
-
-def drive_a_dropped_scene_asks_before_it_reads_elsewhere(d: Driver) -> None:
-    window = d.window
-    mine = d.folder / "mine"
-    mine.mkdir(exist_ok=True)
-    (d.folder / "out.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    scene = mine / "asks.toml"
-    scene.write_text("[[objects]]\ntype = 'model'\nfile = '../out.obj'\n")
-    for answer in ("Cancel", "Open anyway"):
-        d.drop([str(scene)])
-        d.until(lambda: window.files.question is not None)
-        assert window.state == d.start
-        d.ctx.yield_(3)
-        d.ctx.item_click(f"//##message/{answer}")
-        d.ctx.yield_(2)
-        assert window.files.question is None
-    d.until(lambda: window.state.scene.name == "asks")
-    d.agreeing_images()
 
 
 def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:

@@ -11,8 +11,6 @@ from window_driver import SIZE, Key
 
 from app.pair.view import RASTER, RAY
 from app.widgets.theme import framebuffer_scale
-from renderer.images import to_srgb8
-from renderer.images.display import picture
 from renderer.lenses import Lens
 from renderer.raster import Display
 
@@ -121,11 +119,6 @@ def drive_resolutions_are_fixed_and_fitted(d):
             scale = framebuffer_scale()
             assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
         assert at.whole == (size[0] < 1000)
-    # Minified: the mean of what a screen pixel covers, in linear light.
-    for number, (name, image) in enumerate(zip((RASTER, RAY), d.images(), strict=True)):
-        expected = reduced(both.agreement.pair[1 + number].color, placement(d, name).extent)
-        difference = np.abs(without_overlays(image) - without_overlays(expected))
-        assert (difference <= 2).mean() > 0.999, name
     # A size of one's own.
     d.ctx.key_press(ALT | int(Key.s))
     d.ctx.yield_(3)
@@ -145,45 +138,6 @@ def drive_resolutions_are_fixed_and_fitted(d):
         window.undo()
     d.settle()
     assert window.state == d.start
-
-
-def reduced(color: np.ndarray, extent: tuple[int, int]) -> np.ndarray:
-    """Linear light averaged by area over (width, height) pixels, as sRGB, int16."""
-    for axis, count in ((1, extent[0]), (0, extent[1])):
-        size = color.shape[axis]
-        edges = np.arange(count + 1) * (size / count)
-        sums = np.concatenate(
-            [np.zeros_like(np.take(color, [0], axis)), color.clip(0, 1).cumsum(axis, np.float64)],
-            axis,
-        )
-        low = np.minimum(edges.astype(int), size - 1)
-        shape = [1, 1, 1]
-        shape[axis] = -1
-        part = (edges - low).reshape(shape)
-        at = np.take(sums, low, axis) * (1 - part) + np.take(sums, low + 1, axis) * part
-        color = np.diff(at, axis=axis) / (size / count)
-    return to_srgb8(color.astype(np.float32)).astype(np.int16)
-
-
-def drive_a_large_image_is_seen_in_part(d):
-    """4096 x 2160: at 1:1 only what is seen goes to the screen, and the window still answers."""
-    window, both = d.window, d.window.renderers
-    choose(d, "Resolution/4096 x 2160")
-    assert both.size == (4096, 2160)
-    choose(d, "Magnification/1:1")
-    at = placement(d)
-    assert not at.sees_all
-    raster = d.images()[0]
-    assert raster.shape[0] <= at.pane[1]
-    assert raster.shape[1] <= at.pane[0]
-    left, top, right, bottom = at.visible
-    x, y = at.origin
-    expected = picture(both.agreement.pair[1])[top - y : bottom - y, left - x : right - x]
-    difference = np.abs(without_overlays(raster) - without_overlays(expected.astype(np.int16)))
-    assert difference.max() <= 1
-    window.undo()
-    assert window.state.images.resolution is None
-    d.settle()
 
 
 def drive_single_channels_and_linear_light(d):

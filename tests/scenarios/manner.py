@@ -203,16 +203,6 @@ def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None
     into(d, SIDE)
 
 
-def drive_nothing_is_cut_off_by_the_menu_bar(d: Driver) -> None:
-    """The layout's name stands at the right end, inside the window, at every size of type."""
-    for scale in (0.75, 1.0, 2.0, 3.0):
-        d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-        d.ctx.yield_(4)
-        info = d.ctx.item_info("//##MainMenuBar/###layouts", NO_ERROR)
-        if info.id_:
-            assert info.rect_full.max.x <= SIZE[0]
-
-
 def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
     stage = d.window.shell.stage
     d.settle()

@@ -54,28 +54,6 @@ def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:
     assert window.state.camera != d.start.camera
 
 
-def drive_the_mark_keeps_its_ray_when_the_size_changes(d: Driver) -> None:
-    window, both = d.window, d.window.renderers
-    size = both.size
-    pixel = (size[1] // 3, size[0] // 4)
-    window.change(window.state.with_options(marked=pixel))
-    d.settle()
-    ray = both.camera(window.state).ray(*pixel, both.size).direction
-    steps = len(window.history.past)
-    choose(d, "Resolution/64 x 36")
-    row, column = window.state.marked
-    there = both.camera(window.state).ray(row, column, both.size).direction
-    nearby = both.camera(window.state).ray(row + 1, column + 1, both.size).direction
-    assert (np.abs(there - ray) <= np.abs(nearby - there).max()).all()
-    assert len(window.history.past) == steps + 1, "the resolution is the only step"
-    window.undo()
-    d.settle()
-    assert window.state.marked == pixel
-    window.redo()
-    d.settle()
-    assert window.state.marked == (row, column)
-
-
 def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d: Driver) -> None:
     window = d.window
     choose(d, "Resolution/640 x 360")

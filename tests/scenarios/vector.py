@@ -8,12 +8,9 @@ from pathlib import Path
 from maximised import Maximised
 from window_driver import Driver, Key
 
-from app.laboratory.options import LaboratoryOptions
 from app.laboratory.vector_view import Both
 from app.laboratory.view import LaboratoryView
-from app.state.bounds import range_of
 
-LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
 ALONE = Maximised(LaboratoryView, "laboratory")
 SPACE = "{http://www.w3.org/2000/svg}"
 
@@ -109,13 +106,6 @@ def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
     assert (image.get("width"), image.get("height")) == (root.get("width"), root.get("height"))
     names = {part.get("data-name") for part in root.iter()}
     assert {"edges", "image plane", "ray", "u", "eye"} <= names, names
-    # From the laboratory's button: what is drawn there, which has no pixels.
-    _page(d)
-    d.ctx.item_click(ALONE.item("Export as SVG..."))
-    again = _store(d, d.folder / "second")
-    assert again.get("viewBox")
-    assert not list(again.iter(f"{SPACE}image"))
-    ALONE.close(d)
     d.ctx.menu_click("//##MainMenuBar/File/Picture/Export figure as SVG without a ground...")
     third = _store(d, d.folder / "third")
     assert list(third.iter(f"{SPACE}image")) and not list(third.iter(f"{SPACE}rect"))

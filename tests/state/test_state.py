@@ -16,7 +16,6 @@ from app.state.all_options import KINDS
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from app.state.changes import change
 from renderer.camera import Camera
-from renderer.focus import scene_focus
 from renderer.scene import View, load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
 
@@ -179,13 +178,6 @@ def test_a_step_of_undo_is_named_by_what_it_changes(before, after, words) -> Non
     assert change(before, after) == words
 
 
-def test_each_part_of_the_options_is_changed_by_its_name() -> None:
-    state = STATE.with_options(outside={"bundle": (3, 4)}, preferences={"theme": "light"})
-    assert state.options.outside.bundle == (3, 4)
-    assert state.preferences.theme == "light"
-    assert (state.images, state.options.compare) == (STATE.images, STATE.options.compare)
-
-
 @given(
     name=st.sampled_from("uvw"),
     axis=st.integers(0, 2),
@@ -285,13 +277,6 @@ def test_a_draft_is_dropped_when_the_camera_changes_elsewhere() -> None:
     _, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
     assert draft.following(STATE.camera) is draft
     assert draft.following(moved(1.0).camera).error is None
-
-
-def test_the_focus_is_not_misled_by_a_large_floor() -> None:
-    focus = scene_focus(load_scene("spheres"))
-    assert np.linalg.norm(focus.center) < 3
-    assert focus.reach < 40
-    assert scene_focus(Scene(())).reach > 0
 
 
 def test_a_state_with_another_part_has_the_rest_as_it_was() -> None:

@@ -17,9 +17,9 @@ from trace_reference import ball
 
 from renderer.camera import Camera
 from renderer.compare import CHANNELS
-from renderer.explained import TOLERANCE_PX, Surfaces, View, slope_of
 from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from renderer.seen_surfaces import TOLERANCE_PX, Surfaces, View, slope_of
 from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.packets.cells import cells_of

@@ -17,7 +17,7 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import VERDICTS, Reported, of_points, reported, told
+from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.errors import visible
@@ -89,26 +89,14 @@ def page(
     found = reported(tried, tasks, problem)
     sections = [_section(one, pictures.get(one.task.name)) for one in found]
     title = f"Lucida check: {_text(name)}"
-    summary = _summary(tried, tasks) if not problem else _text(problem)
+    told = _text(problem) or summary(tried, tasks)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
-        f'<h1>{title}</h1>\n<p class="dim">{summary}</p>\n'
+        f'<h1>{title}</h1>\n<p class="dim">{told}</p>\n'
         f"{''.join(sections)}</body>\n</html>\n"
     )
-
-
-def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
-    """Return the numbers of correct tasks and points; only the number of tasks if a verdict is
-    withheld.
-    """
-    if any(told(result).verdict is None for result in tried):
-        return f"{len(tried)} tasks were tried."
-    right = sum(result.status == "right" for result in tried)
-    points = sum(result.points for result in tried)
-    most = sum(task.points for task in tasks)
-    return f"{right} of {len(tasks)} tasks are correct: {of_points(points, most)}."
 
 
 def _section(one: Reported, pictures: Pictured | None) -> str:

@@ -129,6 +129,15 @@ def reported(
     ]
 
 
+def summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
+    """Return one line on all results; only their number if a verdict is withheld."""
+    if any(told(result).verdict is None for result in tried):
+        return f"{len(tried)} tasks were tried."
+    right = sum(result.status == "right" for result in tried)
+    points = sum(result.points for result in tried), sum(task.points for task in tasks)
+    return f"{right} of {len(tasks)} tasks correct, {of_points(*points)}"
+
+
 def of_points(points: float, most: float) -> str:
     return f"{points:g} of {most:g} {'point' if most == 1 else 'points'}"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import queue
 import signal
@@ -17,6 +18,7 @@ from typing import Literal
 
 from app.checking.calls import Limits
 from app.checking.running.account import Account
+from renderer.errors import LucidaError
 
 _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too
@@ -35,7 +37,7 @@ DISHONEST = (
     "Run strangers' programs in a container, or as root with --as USER."
 )
 
-_Why = Literal["time", "ended", "stopped", "length"]
+_Why = Literal["time", "ended", "stopped", "length", "garbled"]
 
 
 class ProgramOverError(Exception):
@@ -177,6 +179,58 @@ class StudentProgram:
                 pipe.flush()
 
 
+def _cpu_seconds(seconds: float) -> int:
+    """Return a limit of CPU time that no run reaches before its time limit, with all processors.
+
+    FileStudent replaces a process whose runs took one time limit, so a process lasts at most two.
+    """
+    return math.ceil(min(seconds, 1e6) * max(2, os.cpu_count() or 1)) + 10
+
+
+class ProgramStudent:
+    """Base class of students whose answers come from a program, one at a time.
+
+    limits: of each run.
+    account: the user that the program runs as; None for this process's own.
+    survived: True if something that it started may still be running.
+    """
+
+    def __init__(self, name: str, limits: Limits | None, account: Account | None) -> None:
+        self._name, self.limits, self._account = name, limits or Limits(), account
+        self.survived = self._closed = False
+        self._turn = threading.Lock()  # allows one run at a time
+        self._change = threading.Lock()
+        self._program: StudentProgram | None = None
+
+    def stop(self) -> None:
+        with self._change:
+            program = self._program
+        if program:
+            program.stop()
+
+    def close(self) -> None:
+        self._closed = True
+        self.stop()
+        with self._turn:
+            self._end()
+
+    def _begin(self, command: Sequence[str], folder: str, limits: Limits) -> StudentProgram:
+        """Start the program. Raises LucidaError."""
+        with self._change:
+            try:
+                self._program = StudentProgram(command, folder, limits, self._account)
+            except OSError as error:
+                problem = f"cannot be started: {error.strerror}"
+                raise LucidaError("", problem, "", command[0]) from None
+            return self._program
+
+    def _end(self) -> None:
+        with self._change:
+            program, self._program = self._program, None
+        if program:
+            self.survived |= not program.close()
+
+
 def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Sequence[str]:
     """Return the command, run by a shell that limits it and what it starts."""
     if sys.platform == "win32":
@@ -185,6 +239,7 @@ def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Seque
         "ulimit -c 0",
         f"ulimit -f {_LARGEST_FILE >> 9}",  # blocks of 512 bytes
         f"ulimit -d {limits.memory_mb << 10}",  # KiB; not what is only reserved, as by Node.js
+        f"ulimit -t {_cpu_seconds(limits.seconds)}",  # ends it even if this process was killed
     ]
     if has_account:  # otherwise, all processes of this process's user would count
         orders.append(f"ulimit -u {_MOST_PROCESSES} || ulimit -p {_MOST_PROCESSES}")  # bash, dash

@@ -1,29 +1,16 @@
-"""The tables: a module for each, with a function measure(run) -> list of Table.
-
-They are imported when they are used: some are also processes of their own.
-"""
+"""The tables: a module for each, with a function measure(run) -> list of Table."""
 
 from __future__ import annotations
 
-from importlib import import_module
+from collections.abc import Callable
 
 from tests.benchmarks.report import Table
 from tests.benchmarks.run import Run
+from tests.benchmarks.tables import build, lenses, processor, visibility
 
-TABLES = (
-    "visibility",
-    "processor",
-    "lenses",
-    "shading",
-    "build",
-    "scaling",
-    "compilation",
-    "cancel",
-    "window",
-)
-
-
-def measure(name: str, run: Run) -> list[Table]:
-    """The tables of one of TABLES."""
-    made: list[Table] = import_module(f"{__name__}.{name}").measure(run)
-    return made
+TABLES: dict[str, Callable[[Run], list[Table]]] = {
+    "visibility": visibility.measure,
+    "processor": processor.measure,
+    "lenses": lenses.measure,
+    "build": build.measure,
+}
