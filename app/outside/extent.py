@@ -7,14 +7,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.outside.frustum import border, has_plane, image_point, plane_corners
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Floats, Vector
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
-
-Floats = NDArray[np.float64]
 
 FOV_Y_DEG = 50.0
 MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold

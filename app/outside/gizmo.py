@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from app.host.view import Host
 from app.outside.frustum import plane_corners
@@ -18,12 +18,11 @@ from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.tint import handle_colors, hide_text, recolor
 from app.widgets import theme
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Floats, Vector
 from renderer.camera_checks import volume
 from renderer.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo
-Floats = NDArray[np.float64]
 Kind = Literal["none", "move", "turn", "distance", "up"]
 
 LENGTH = 0.2  # of the view: the handles' length in clip space
