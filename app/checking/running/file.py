@@ -159,7 +159,7 @@ class FileStudent(ProgramStudent):
             over = ProgramOverError("garbled")
         number = len(values)
         place = f"in call {number + 1} of {len(calls)}: {told_call(calls[number])}"
-        failure = self._over(over, place, "is there a loop that does not end?", number)
+        failure = self._over(over, place, "is each call slow, or a loop endless?", number)
         self._printed += program.output()
         self._end()
         return failure

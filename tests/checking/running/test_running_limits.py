@@ -50,7 +50,7 @@ def test_a_call_that_never_ends(hasty, body):
     assert run.failure == Failure(
         "time",
         "rays.py: the time limit of 0.5 s is over in call 2 of 2: f(i=2); "
-        "is there a loop that does not end?",
+        "is each call slow, or a loop endless?",
         call=1,
     )
     assert len(run.output) < 700
