@@ -17,7 +17,7 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
+from app.checking.reports.told import VERDICTS, Reported, Told, of_points, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.errors import visible
@@ -117,7 +117,7 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
         items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in say.diagnosis)
         parts.append(f'<ul class="told">{items}</ul>\n')
     if say.first is not None:
-        parts.append(_first(task, say.wrong, say.first))
+        parts.append(_first(task, say, say.first))
         if pictures is not None:
             parts.append(_pictures(pictures))
     if say.output:
@@ -125,11 +125,8 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
     return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
 
 
-def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
+def _first(task: CheckTask, say: Told, first: WrongCase) -> str:
     """Return the first wrong case in numbers, and as a drawing."""
-    lines = [first.where] if first.where else []
-    lines += [f"{task.function}({first.arguments})"]
-    lines += ["", f"correct: {first.right}", f"given: {first.given}"]
     drawn = ""
     case = first.case
     if task.kind == "viewing-ray" and case.camera and case.size:
@@ -139,7 +136,7 @@ def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
             'the correct ray, <span class="key given"></span> the given one; from the eye through '
             "the viewport</p>\n"
         )
-    return f"<h3>{_text(wrong)}; the first one:</h3>\n{_pre('', lines)}{drawn}"
+    return f"<h3>{_text(say.wrong)}; the first one:</h3>\n{_pre('', say.first_lines)}{drawn}"
 
 
 def _pictures(pictures: Pictured) -> str:

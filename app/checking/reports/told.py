@@ -46,10 +46,16 @@ class Told:
         """All helpful lines, without the printed output."""
         found = [*self.failure, *self.diagnosis]
         if self.first is not None:
-            found += [f"{self.wrong}; the first one:"] + [self.first.where] * bool(self.first.where)
-            found += [f"{self.function}({self.first.arguments})"]
-            found += [f"correct: {self.first.right}", f"given: {self.first.given}"]
+            found += [f"{self.wrong}; the first one:", *self.first_lines]
         return tuple(found)
+
+    @property
+    def first_lines(self) -> tuple[str, ...]:
+        """The first wrong case."""
+        assert self.first is not None
+        called = f"{self.function}({self.first.arguments})"
+        answers = f"correct: {self.first.right}", f"given: {self.first.given}"
+        return (*[self.first.where] * bool(self.first.where), called, *answers)
 
 
 def told(result: TaskResult) -> Told:

@@ -9,7 +9,6 @@ import shutil
 import sys
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import Any
 
 from app.checking.calls import Call, Failure, Limits, Run
@@ -17,8 +16,6 @@ from app.checking.running.account import Account
 from app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
 from app.checking.running.told import told_call, told_over, whole_number
 from renderer.errors import LucidaError, one_line, shortened
-
-_FAREWELL_S = 1.0  # for a program to end after its last answer
 
 
 class CommandStudent(ProgramStudent):
@@ -84,10 +81,6 @@ class CommandStudent(ProgramStudent):
                 f"answer to {told_call(calls[len(values)])}; print other things to standard error"
             )
             return Failure("answer", f"{told}; {remedy}", call=len(values))
-        with suppress(ProgramOverError):
-            _next_line(program, time.monotonic() + _FAREWELL_S)
-            told = f"it answers more than the {len(calls)} calls; one line for each call"
-            return Failure("answer", f"{self._name}: {told}")
         return None
 
 
