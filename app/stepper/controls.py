@@ -12,7 +12,7 @@ from app.state.bounds import range_of
 from app.state.options import Language
 from app.stepper.options import StepperOptions
 from app.widgets.checks import checkbox
-from app.widgets.rows import follow, tip
+from app.widgets.rows import button_width, follow, tip
 from app.widgets.sliders import slider_float
 
 T = TypeVar("T")
@@ -68,8 +68,7 @@ def controls(now: Asked, playing: bool, is_low: bool) -> Asked:
     wish: Wish = ""
     for number, (name, label, told, keys, *_) in enumerate(STEPS[1:-1] if is_low else STEPS):
         # Play and Pause have the same width.
-        width = imgui.calc_text_size("Pause" if name == "play" else label).x
-        width += 2 * imgui.get_style().frame_padding.x
+        width = button_width("Pause" if name == "play" else label)
         if number:
             follow(width)
         shown = "Pause" if name == "play" and playing else label
