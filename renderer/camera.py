@@ -32,6 +32,7 @@ from renderer.camera_checks import (
     number,
     numbers,
     positive,
+    three,
     volume,
 )
 from renderer.errors import LucidaError
@@ -164,10 +165,10 @@ class Camera:
         if not number("aspect", aspect) > 0:
             raise LucidaError("aspect", f"{aspect:g} is not above 0", "give width / height")
         return cls(
-            _vector(position),
-            _vector(u),
-            _vector(np.cross(w, u)),
-            _vector(w),
+            three(position),
+            three(u),
+            three(np.cross(w, u)),
+            three(w),
             1.0 if distance is None else distance,
             (-aspect / 2, aspect / 2, -0.5, 0.5),
             projection,
@@ -404,7 +405,7 @@ class Camera:
         u = np.asarray(self.u) - (w @ self.u) * w
         u -= (v @ u) * v
         u /= np.linalg.norm(u)
-        return replace(self, u=_vector(u), v=_vector(v), w=_vector(w))
+        return replace(self, u=three(u), v=three(v), w=three(w))
 
     def fitted(self, size: Size) -> Camera:
         """Return this camera with its viewport enlarged about its centre, in one direction, to the
@@ -479,8 +480,3 @@ def check_camera(camera: object) -> Camera:
     kind = type(camera).__name__
     remedy = "give .for_size(size) of it" if hasattr(camera, "for_size") else "give a Camera"
     raise LucidaError("camera", f"is of type {kind}, not a Camera", remedy)
-
-
-def _vector(array: Floats) -> Vector:
-    x, y, z = array.tolist()
-    return x, y, z

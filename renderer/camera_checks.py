@@ -32,6 +32,12 @@ def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
 # Plain Python is faster than NumPy for 3-vectors; each new camera is checked.
 
 
+def three(values: ArrayLike) -> Vector:
+    """Return the first three of some numbers as floats."""
+    x, y, z = np.asarray(values, float)[:3].tolist()
+    return x, y, z
+
+
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 

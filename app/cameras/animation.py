@@ -22,16 +22,15 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Floats, Vector
 from renderer.camera_checks import SMALLEST
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
 from renderer.navigation import depth_of
 from renderer.scene.model import View
 
-Floats = NDArray[np.float64]
 Number = TypeVar("Number", float, Floats)
 
 INVISIBLE_PX = 0.2  # what parallel rays may move in the picture when they take over

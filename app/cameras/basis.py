@@ -9,12 +9,9 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from renderer.camera import Camera, Vector
+from renderer.camera import Camera, Floats, Vector
 from renderer.camera_checks import cross, dot, volume
-
-Floats = NDArray[np.float64]
 
 # For each edited vector: the one that is adjusted first, and its replacement.
 _NEXT = {"u": ("v", "w"), "v": ("w", "u"), "w": ("v", "u")}

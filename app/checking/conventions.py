@@ -309,17 +309,3 @@ def argument_lists(
         word: pixels[word].tolist() if word in pixels else [values[word]] * len(i)
         for _, word in conventions.arguments
     }
-
-
-def vectorised_arguments(
-    shot: Shot, conventions: Conventions, i: Whole, j: Whole
-) -> tuple[tuple[str, Any], ...]:
-    """Return the arguments of a single call for all pixels. Arguments that depend on the pixel are
-    lists.
-    """
-    of_pixels = {*PIXEL_WORDS, *PAIRS}
-    lists = argument_lists(shot, conventions, i, j)
-    return tuple(
-        (name, lists[word] if word in of_pixels else lists[word][0])
-        for name, word in conventions.arguments
-    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -27,7 +26,6 @@ from app.checking.kinds.kind import CheckKind
 from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
 from app.state.options import Notation
-from renderer.camera import Vector
 from renderer.errors import LucidaError, under
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
@@ -35,11 +33,8 @@ from renderer.scene.noting import noting
 from renderer.scene.places import Places, located
 from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
-from renderer.shared_numbers import LUMINANCE
 
 TASKS = 100
-CASES = 1000
-SIDE = 512  # of a task's images
 WITH_CAMERAS = ("viewing-ray", "render")
 VISION = "K, R and t: x right, y down, z forward"
 NAME = re.compile(r"[^\W\d]\w*")
@@ -82,14 +77,7 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     if not 1 <= len(file.tasks) <= TASKS:
         raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
     limits = Limits()
-    if file.seconds is not None:
-        if not 0 < file.seconds <= 3600:
-            raise LucidaError("seconds", f"{file.seconds:g} is out of range", "give up to 3600")
-        limits = replace(limits, seconds=file.seconds)
-    if file.memory_mb is not None:
-        if not 64 <= file.memory_mb <= 1 << 20:
-            raise LucidaError("memory_mb", f"{file.memory_mb} is out of range", "give e.g. 1024")
-        limits = replace(limits, memory_mb=file.memory_mb)
+    limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
     shared = Conventions()
     if file.conventions.camera is not None:
         camera = tuple(_camera("conventions.camera", file.conventions.camera))
@@ -120,25 +108,25 @@ def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -
         )
     _check_rigid_parallel(conventions, projections)
     seed = next(s for s in (entry.seed, file.seed, SEED) if s is not None)
-    if seed < 0:
-        raise LucidaError("seed", f"{seed} is negative", "give e.g. 7")
+    function = entry.function or kind.function
+    _check_name("function", function)
     task = replace(
         base,
         name=entry.name or entry.kind,
-        function=_function(entry.function or kind.function),
+        function=function,
         part=entry.part or base.part,
         text=entry.text or _text(entry, kind, base),
-        points=_points(entry.points),
+        points=entry.points,
         conventions=conventions,
         cameras=_cameras(entry, conventions, base),
         projections=projections,
-        count=_count(entry, base),
+        count=base.count if entry.cases is None else entry.cases,
         views=tuple(_views(entry.views, folder)),
-        size=entry.size if entry.size is None else _size(entry.size),
+        size=entry.size,
         seed=seed,
         feedback=entry.feedback or file.feedback,
         vectorised=_vectorised(entry, kind),
-        weights=_weights(entry, base),
+        weights=base.weights if entry.weights is None else entry.weights,
         inclusive=entry.at_threshold != 0,
         column_major=entry.order == "column-major",
         stride=base.stride if entry.stride is None else entry.stride,
@@ -278,34 +266,9 @@ def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) 
         )
 
 
-def _count(entry: TaskTable, base: CheckTask) -> int:
-    if entry.cases is None:
-        return base.count
-    if not 0 <= entry.cases <= CASES:
-        raise LucidaError("cases", f"{entry.cases} is out of range", f"give 0 to {CASES}")
-    return entry.cases
-
-
-def _points(points: float) -> float:
-    if not (math.isfinite(points) and points >= 0):
-        raise LucidaError("points", f"{points:g} is no number of points", "give 0 or more")
-    return points
-
-
-def _function(name: str) -> str:
-    _check_name("function", name)
-    return name
-
-
 def _check_name(field: str, name: str) -> None:
     if not NAME.fullmatch(name):
         raise LucidaError(field, f"{name[:40]!r} is no name", "give letters, digits and _")
-
-
-def _size(size: tuple[int, int]) -> tuple[int, int]:
-    if not 1 <= min(size) <= max(size) <= SIDE:
-        raise LucidaError("size", f"{list(size)} is out of range", f"give sides of 1 to {SIDE}")
-    return size
 
 
 def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
@@ -342,12 +305,6 @@ def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
             "vectorised", f"{kind.name} has no pixels to be called for", "leave it out"
         )
     return entry.vectorised
-
-
-def _weights(entry: TaskTable, base: CheckTask) -> Vector:
-    if entry.weights is not None and not all(map(math.isfinite, entry.weights)):
-        raise LucidaError("weights", "are no finite numbers", f"give e.g. {list(LUMINANCE)}")
-    return base.weights if entry.weights is None else entry.weights
 
 
 def _check(task: CheckTask) -> None:

@@ -1,17 +1,19 @@
 """The tables of a task file as msgspec structures, with names, types and defaults.
 
-docs/checking.md explains them. task_file.py checks all further conditions on the values.
+docs/checking.md explains them. task_file.py checks the conditions that involve several fields.
 """
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from msgspec import field
+from msgspec import Meta, field
 
 from app.state.options import Notation
 from renderer.scene.schema import Numbers3, StrictTable
 
+Seed = Annotated[int, Meta(ge=0)]
+Side = Annotated[int, Meta(ge=1, le=512)]  # of a task's images
 FeedbackName = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 
 
@@ -58,16 +60,16 @@ class TaskTable(ConventionsTable, kw_only=True):
     function: str = ""
     text: str = ""
     part: str = ""
-    points: float = 1.0
+    points: Annotated[float, Meta(ge=0, le=1e6)] = 1.0
     arguments: list[str] | dict[str, str] | None = None
     returns: list[str] | None = None
     vectorised: bool = False
     projection: Literal["perspective", "parallel", "both"] | None = None
     cameras: list[str] | None = None
     views: list[dict[str, Any] | str] = field(default_factory=list)
-    size: tuple[int, int] | None = None
-    cases: int | None = None
-    seed: int | None = None
+    size: tuple[Side, Side] | None = None
+    cases: Annotated[int, Meta(ge=0, le=1000)] | None = None
+    seed: Seed | None = None
     feedback: FeedbackName | None = None
     weights: Numbers3 | None = None
     at_threshold: Literal[0, 1] | None = None
@@ -84,10 +86,10 @@ class TaskFile(StrictTable, kw_only=True):
     """
 
     title: str = ""
-    seed: int | None = None
+    seed: Seed | None = None
     feedback: FeedbackName = "diagnosis"
-    seconds: float | None = None
-    memory_mb: int | None = None
+    seconds: Annotated[float, Meta(gt=0, le=3600)] | None = None
+    memory_mb: Annotated[int, Meta(ge=64, le=1 << 20)] | None = None
     network: bool = False
     notation: Notation = "book"
     conventions: ConventionsTable = field(default_factory=ConventionsTable)

@@ -160,7 +160,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise
     write_json(arguments, results, tasks, time.perf_counter() - begin)
     write_page(arguments, results, tasks, pictures)
-    return _end(arguments, results)
+    return _end(arguments, results, tasks)
 
 
 def _why(error: LucidaError) -> list[str]:
@@ -176,12 +176,12 @@ def _why(error: LucidaError) -> list[str]:
     return [*printed, *failure_lines(error.failure)]
 
 
-def _end(arguments: argparse.Namespace, results: list[TaskResult]) -> int:
+def _end(arguments: argparse.Namespace, results: list[TaskResult], tasks: list[CheckTask]) -> int:
     from app.checking.checked import status_of
-    from app.checking.reports.terminal import summary
+    from app.checking.reports.told import summary
 
-    if arguments.json != "-" and (line := summary(results)):
-        print(line)
+    if arguments.json != "-" and len(results) > 1:
+        print(summary(results, tasks))
     return status_of(results)
 
 

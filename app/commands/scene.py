@@ -20,8 +20,9 @@ NAME = "scene"
 
 DESCRIPTION = """\
 Say what is in a scene: its objects with their types, triangles, bounds and materials, its lights
-and its camera; what of its materials is not shown; and what is odd about it: meshes that are open
-or turned inside out, faces without an area or there twice, what was mended in a model."""
+and its camera; what of its materials is not shown; what is odd about it: meshes that are open or
+turned inside out, faces without an area or there twice, what was mended in a model; which model
+files it reads (one outside of its folder is told as such), and which cameras its models have."""
 
 EPILOG = """\
 exit status: 0 told (also where something is odd: all of it can be drawn), 2 a mistake or a failure
@@ -48,8 +49,28 @@ def run(arguments: argparse.Namespace) -> int:
     with repairs() as mended:
         scene = load_scene(arguments.scene)
     told = contents(scene, mended)
-    say(json.dumps(told, indent=2, allow_nan=False) if arguments.json else as_text(told))
+    if arguments.json:
+        say(json.dumps(told, indent=2, allow_nan=False))
+    else:
+        say(as_text(told), *_named(scene))
     return 0
+
+
+def _named(scene: Scene) -> list[str]:
+    """Return a line for each model file that a scene reads, and each camera of its models."""
+    from renderer.errors import one_line
+    from renderer.scene.outside import model_files, outside
+
+    lines = []
+    for file in model_files(scene):
+        assert scene.origin is not None
+        where = ", outside of its folder" if outside([file], scene.origin.folder) else ""
+        lines.append(f"  reads {one_line(str(file))}{where}")
+    for named in scene.views:
+        camera = named.view.camera
+        seen = f"{camera.projection} from {_vector(list(camera.eye))}"
+        lines.append(f"  camera {one_line(named.name)!r}: {seen}")
+    return lines
 
 
 def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:

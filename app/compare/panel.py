@@ -20,7 +20,7 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.lettering import fitting_words
-from app.widgets.rows import follow, tip
+from app.widgets.rows import button_width, follow, tip
 from app.widgets.sliders import slider_float
 from renderer.compare import LABEL_COLORS, Comparison
 
@@ -66,7 +66,7 @@ def toolbar(state: AppState) -> AppState:
     options = state.of(CompareOptions)
     for mode, name, _ in MODES:
         if mode != MODES[0][0]:
-            follow(_button_width(name))
+            follow(button_width(name))
         if _choice(name, options.mode == mode):
             state = comparing.with_mode(state, mode)
         tip(comparing.mode_told(mode, state))
@@ -102,7 +102,7 @@ def toolbar(state: AppState) -> AppState:
 def _pairs(state: AppState) -> AppState:
     """Draw the choice of what is compared, if a photograph is open."""
     now = dict(PAIRS)[state.of(CompareOptions).pair]
-    width = max(map(_button_width, dict(PAIRS).values())) + imgui.get_frame_height()
+    width = max(map(button_width, dict(PAIRS).values())) + imgui.get_frame_height()
     follow(width)
     imgui.set_next_item_width(width)
     if imgui.begin_combo("##pair", now):
@@ -324,7 +324,7 @@ def _error_widths(fonts: theme.Fonts) -> list[float]:
     """Return the widths of the two buttons and of the errors' usual text."""
     pad = 2 * imgui.get_style().frame_padding.x
     return [
-        _button_width(NEXT),
+        button_width(NEXT),
         _mono_width(fonts, len("worst (1000, 1000)")) + pad,
         _mono_width(fonts, len("max 100.0/255  RMS  10.000/255  at 0 EV")),
     ]
@@ -372,10 +372,6 @@ def _choice(name: str, on: bool) -> bool:
     if on:
         imgui.pop_style_color(3)
     return pressed
-
-
-def _button_width(name: str) -> float:
-    return _wide(name) + 2 * imgui.get_style().frame_padding.x
 
 
 def _check_width(name: str) -> float:

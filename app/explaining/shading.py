@@ -13,6 +13,7 @@ from typing import Any
 
 from renderer import pure_python as scalar
 from renderer.camera import Vector
+from renderer.camera_checks import three
 from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from renderer.scene.model import Color
 from renderer.shared_numbers import NEAREST_LIGHT
@@ -95,8 +96,8 @@ class Shading:
 def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> SurfaceHit:
     """Return the hit at a crossing (t, primitive, b1, b2) of a ray with the scene."""
     t, primitive, b1, b2 = crossing
-    way = _three(direction)
-    point = scalar.point_on(_three(origin), way, t)
+    way = three(direction)
+    point = scalar.point_on(three(origin), way, t)
     geometric, normal = scalar.normals_at(flat, way, point, primitive, b1, b2)
     number = int(scalar.object_of(flat.face_object, flat.sphere_object, primitive))
     return SurfaceHit(
@@ -106,9 +107,9 @@ def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> Surfa
         float(b1),
         float(b2),
         way,
-        _three(point),
-        _three(geometric),
-        _three(normal),
+        three(point),
+        three(geometric),
+        three(normal),
         _corner_normals(flat, primitive),
     )
 
@@ -116,17 +117,17 @@ def hit_at(flat: FlatScene, origin: Any, direction: Any, crossing: Any) -> Surfa
 def _corner_normals(flat: FlatScene, primitive: int) -> tuple[Vector, ...]:
     """Return the normals of a smooth triangle's corners; otherwise ()."""
     corners = flat.faces[primitive] if primitive < len(flat.faces) else ()
-    normals = tuple(_three(flat.normals[k]) for k in corners)
+    normals = tuple(three(flat.normals[k]) for k in corners)
     return normals if all(map(any, normals)) else ()
 
 
 def shade(flat: FlatScene, hit: SurfaceHit, is_lit: LitTest | None = None) -> Shading:
     """Return the colour at a hit, term by term. is_lit: reports shadows; None if there are none."""
     where = hit.primitive, hit.b1, hit.b2
-    albedo = _three(scalar.albedo_at(flat, hit.object, hit.point, hit.geometric, *where))
-    specular = _three(scalar.specular_at(flat, hit.object, hit.point, *where))
+    albedo = three(scalar.albedo_at(flat, hit.object, hit.point, hit.geometric, *where))
+    specular = three(scalar.specular_at(flat, hit.object, hit.point, *where))
     shininess = float(flat.materials[hit.object, DIFFUSE_SHININESS, 3])
-    ambient_light = _three(flat.ambient)
+    ambient_light = three(flat.ambient)
     ambient = scalar.each_times(ambient_light, albedo)
     lamps = []
     color = ambient
@@ -135,7 +136,7 @@ def shade(flat: FlatScene, hit: SurfaceHit, is_lit: LitTest | None = None) -> Sh
         if lamp is not None:
             lamps.append(lamp)
             color = scalar.plus(color, scalar.plus(lamp.diffuse, lamp.specular))
-    return Shading(albedo, specular, shininess, ambient_light, ambient, tuple(lamps), _three(color))
+    return Shading(albedo, specular, shininess, ambient_light, ambient, tuple(lamps), three(color))
 
 
 def _lamp(
@@ -152,7 +153,7 @@ def _lamp(
     at = scalar.light_at(light, hit.point, scalar.normalized(hit.direction), hit.normal)
     if at.distance < NEAREST_LIGHT:
         return None
-    to_light, lit = _three(at.to_light), True
+    to_light, lit = three(at.to_light), True
     if is_lit is not None:
         lit = is_lit(hit, to_light, float(at.distance))
     terms = scalar.reflected_at(light, at, albedo, specular, shininess)
@@ -160,18 +161,13 @@ def _lamp(
     return Lamp(
         number,
         bool(light[0, 3]),
-        _three(light[0]),
-        _three(light[1]),
+        three(light[0]),
+        three(light[1]),
         to_light,
-        _three(at.half),
+        three(at.half),
         float(at.n_dot_l),
         float(at.n_dot_h),
-        _three(diffuse),
-        _three(highlight),
+        three(diffuse),
+        three(highlight),
         lit,
     )
-
-
-def _three(value: Any) -> Vector:
-    x, y, z = float(value[0]), float(value[1]), float(value[2])
-    return x, y, z

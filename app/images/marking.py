@@ -11,9 +11,8 @@ import math
 from dataclasses import dataclass
 
 from app.state.options import Pixel
+from renderer.camera import Size
 from renderer.scene.model import View
-
-Size = tuple[int, int]  # (width, height)
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera import Floats
 from renderer.scene.model import Mesh, Scene, Sphere
-
-Floats = NDArray[np.float64]
 
 MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds
 

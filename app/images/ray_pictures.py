@@ -54,17 +54,17 @@ class RayPainter:
         of_scene(self.tracer, self._scene, traced)
         return light.reshape(np.broadcast_shapes(np.shape(origins), np.shape(directions)))
 
-    def hit(self, origin: ArrayLike, direction: ArrayLike, t_range: Range = EVERYWHERE) -> float:
-        """Return where a ray (3,), (3,) ends, in units of its direction; inf if it hits nothing.
+    def hits(
+        self, origins: ArrayLike, directions: ArrayLike, t_range: Range = EVERYWHERE
+    ) -> NDArray[np.float32]:
+        """Return where rays (n, 3) end, (n,), in units of their directions; inf for no hit.
 
         Raises UnwantedError.
         """
-
-        def traced() -> float:
-            t = self.tracer.closest_hits([origin], [direction], *t_range)[0]
-            return float(t[0])
-
-        return of_scene(self.tracer, self._scene, traced)
+        tracer = self.tracer
+        return of_scene(
+            tracer, self._scene, lambda: tracer.closest_hits(origins, directions, *t_range)[0]
+        )
 
 
 class RayPictures(Generic[T]):

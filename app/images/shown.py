@@ -72,10 +72,6 @@ class ShownImage:
         self._channels = dict(channels)
         self._version += 1
 
-    @property
-    def is_empty(self) -> bool:
-        return not self._channels
-
     def picture(
         self,
         name: str,

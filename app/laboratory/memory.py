@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.laboratory.light import window
+from renderer.camera import Size
 from renderer.pixels import Indexing
 
 Order = Literal["row", "column"]
@@ -21,7 +22,6 @@ ORDERS: dict[Order, str] = {
     "column": "column-major (Julia, Fortran, MATLAB)",
 }
 PIXEL_BYTES = 12
-Size = tuple[int, int]
 Canvas = NDArray[np.float32]
 
 

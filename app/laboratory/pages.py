@@ -19,10 +19,10 @@ from app.laboratory.kinds import BITMAP, COLOR, FLOAT, GRAY, KINDS
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.stored import clipped, levels, shown, store
 from app.state.options import Pixel
+from renderer.camera import Size
 from renderer.images.display import Bytes, to_srgb8
 from renderer.scene.reading import size_text
 
-Size = tuple[int, int]
 Image = NDArray[np.float32]
 
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it

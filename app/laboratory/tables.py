@@ -8,7 +8,7 @@ from app.laboratory import disk
 from app.laboratory.kinds import KINDS, LECTURE_SIZE
 from app.widgets import theme
 from app.widgets.lettering import fitting_words, lettering
-from app.widgets.rows import follow
+from app.widgets.rows import button_width, follow
 from app.widgets.theme import Fonts
 from renderer.images.display import LUMINANCE
 from renderer.scene.reading import size_text
@@ -57,7 +57,7 @@ def sizes_table(
         for number, entry in enumerate(one for one in entries if one.format.kind is kind):
             name = f"{entry.format.name} {size_text(entry.file_bytes)}"
             if number:
-                follow(imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x)
+                follow(button_width(name))
             if imgui.small_button(f"{name}##{kind.name}{entry.format.ending}"):
                 chosen = entry.format
             imgui.set_item_tooltip(f"{entry.format.note}; click to save")

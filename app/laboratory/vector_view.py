@@ -28,6 +28,7 @@ from app.widgets.background import Background
 from app.widgets.lettering import fitting_words, lettering
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
+from renderer.camera import Size
 from renderer.errors import describe
 from renderer.memo import Memo
 from renderer.scene.model import Scene
@@ -42,8 +43,6 @@ UNITS = (1.6, 1.5)  # of lines and of symbols, in the drawing's pixels
 WHEEL_STEP = 1.25
 STEP = 0.02  # of an arrow key, in parts of what is seen
 NAME = "vector"  # of the raster image's texture
-
-Size = tuple[int, int]
 
 
 @dataclass(frozen=True, eq=False)

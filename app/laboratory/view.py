@@ -33,6 +33,7 @@ from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.background import Background
+from app.widgets.messages import wrapped
 from app.widgets.theme import framebuffer_scale
 from app.widgets.uploads import Uploads
 from renderer.errors import LucidaError, describe
@@ -137,9 +138,7 @@ class LaboratoryView(DockedView):
             self._error = ""
         except (LucidaError, moderngl.Error) as error:
             self._error = describe(error)
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text_colored(theme.ERROR, self._error)
-            imgui.pop_text_wrap_pos()
+            wrapped(self._error, theme.ERROR)
 
     def _page(self, host: Host, options: LaboratoryOptions) -> None:
         """Scrolled where the window is too low for it."""
@@ -200,9 +199,7 @@ class LaboratoryView(DockedView):
         divided = plan(options.page, room, heading, gap, resolution, options.apart, is_short)
         self._follow(host, divided, options)
         if self._error:
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text_colored(theme.ERROR, self._error)
-            imgui.pop_text_wrap_pos()
+            wrapped(self._error, theme.ERROR)
             return
         if self._made is None or self.source is None:
             return

@@ -6,6 +6,8 @@ from imgui_bundle import imgui
 
 from app.lecture.answer_log import LONGEST_NAME, AnswerLog
 from app.widgets import theme
+from app.widgets.messages import wrapped
+from app.widgets.rows import button_width
 
 
 def note_height(log: AnswerLog, is_asked: bool, width: float) -> float:
@@ -16,13 +18,11 @@ def note_height(log: AnswerLog, is_asked: bool, width: float) -> float:
 
 def note(log: AnswerLog, is_asked: bool) -> bool:
     """Draw the note; in a step with an exercise, with the name. Return True to keep no more."""
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.legible(theme.ERROR if log.problem else theme.MARK), _text(log))
-    imgui.pop_text_wrap_pos()
+    wrapped(_text(log), theme.legible(theme.ERROR if log.problem else theme.MARK))
     imgui.set_item_tooltip(str(log.path.absolute()))
     if not is_asked:
         return False
-    button = imgui.calc_text_size("Stop").x + 2 * imgui.get_style().frame_padding.x
+    button = button_width("Stop")
     imgui.set_next_item_width(-button - imgui.get_style().item_spacing.x)
     _, name = imgui.input_text_with_hint("##name", "name (may stay empty)", log.name)
     log.name = name[:LONGEST_NAME]

@@ -17,7 +17,7 @@ from app.widgets.areas import press_area
 from app.widgets.checks import verdict_sign
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering, underline
-from app.widgets.rows import follow
+from app.widgets.rows import button_width, follow
 from app.widgets.theme import Fonts
 
 LETTERS = "ABCDEFGH"
@@ -50,7 +50,7 @@ def exercise(
     if isinstance(task, HideExercise):
         _solution(answers)
         if answers.solved:
-            follow(_button_px("Put it there"))
+            follow(button_width("Put it there"))
             asked = imgui.button("Put it there")
     elif isinstance(task, ChoiceExercise):
         _choice(task, answers, slides, size)
@@ -98,7 +98,7 @@ def _vectors(
     imgui.dummy(ImVec2(0, 0.2 * size))
     if imgui.button("Check") or entered:
         answers.verdict = task.check(answers.texts)
-    follow(_button_px(_solution_label(answers)))
+    follow(button_width(_solution_label(answers)))
     _solution(answers)
 
 
@@ -135,7 +135,7 @@ def _choice(task: ChoiceExercise, answers: Answers, slides: Slides, size: float)
 
 def _solution(answers: Answers) -> None:
     label = _solution_label(answers)
-    if _button_px(label) > imgui.get_content_region_avail().x:
+    if button_width(label) > imgui.get_content_region_avail().x:
         label = label.partition(" ")[0]
     if imgui.button(f"{label}###solution"):
         answers.solved = not answers.solved
@@ -143,8 +143,3 @@ def _solution(answers: Answers) -> None:
 
 def _solution_label(answers: Answers) -> str:
     return "Hide the solution" if answers.solved else "Show the solution"
-
-
-def _button_px(label: str) -> float:
-    """Return the width of a button."""
-    return imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x

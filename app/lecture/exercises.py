@@ -12,7 +12,6 @@ from typing import Any, Literal
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
@@ -20,12 +19,10 @@ from app.explaining import symbols
 from app.explaining.arithmetic import text_of, vector, vector_text
 from app.lecture.text import escaped
 from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera, Ray
+from renderer.camera import Camera, Floats, Ray
 from renderer.errors import LucidaError
 from renderer.pixels import Indexing
 from renderer.scene.schema import Numbers3, StrictTable
-
-Floats = NDArray[np.float64]
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
 CORRECT = "Correct."

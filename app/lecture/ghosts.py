@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.lecture.exercises import (
     ChoiceExercise,
@@ -23,10 +22,9 @@ from app.outside.diagram import Item, Role, in_notation
 from app.outside.second_camera import GivenRay, SecondCamera, second_camera
 from app.state.options import Notation
 from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats
 from renderer.scene.views import view_from_table
 
-Floats = NDArray[np.float64]
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 
 

@@ -42,6 +42,7 @@ from app.widgets import theme
 from app.widgets.background import Background
 from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
+from app.widgets.messages import wrapped
 from renderer.errors import LucidaError
 from renderer.memo import Memo
 
@@ -317,9 +318,7 @@ class LectureView(DockedView):
         if grows and "probe" not in session.step.views:  # which has its own
             view_of(self._views, OutsideView).scrubber.draw(host)
         if session.error:
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text_colored(theme.ERROR, session.error)
-            imgui.pop_text_wrap_pos()
+            wrapped(session.error, theme.ERROR)
         if log is not None and note(log, is_asked):
             self.log = None
         if session.left is not None and continuation(session.left_at(session.left)):
@@ -341,9 +340,7 @@ class LectureView(DockedView):
         step = session.step
         imgui.text_colored(theme.DIM, step.part or session.lecture.title)
         with lettering(host.fonts.bold, TITLE):
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text(step.title)
-            imgui.pop_text_wrap_pos()
+            wrapped(step.title)
         imgui.dummy(ImVec2(0, 0.25 * imgui.get_font_size()))
 
     def _body(self, host: Host, session: LectureSession, slides: Slides) -> None:

@@ -19,13 +19,12 @@ from app.mistakes.options import MistakesOptions
 from app.outside.second_camera import GivenRay, corner_rays
 from app.state.app_state import AppState
 from app.state.options import Pixel
-from renderer.camera import Camera, Size
+from renderer.camera import Camera, Floats, Size
 from renderer.images import to_srgb8
 from renderer.pixels import Indexing
 
 Light = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 
 SEEN = 2  # of 255: what differs by more is marked
 GRAY = 0.4  # of its light: what does not differ
@@ -101,7 +100,8 @@ def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compare
     ray = None
     if now.pixel is not None:
         origin, direction = origins[now.pixel], directions[now.pixel]
-        ray = GivenRay(origin, direction, painter.hit(origin, direction, now.camera.t_range))
+        t = painter.hits([origin], [direction], now.camera.t_range)
+        ray = GivenRay(origin, direction, float(t[0]))
     return Compared(right, wrong, corner_rays(origins, directions), ray)
 
 

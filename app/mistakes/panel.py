@@ -24,7 +24,7 @@ from app.widgets.areas import press_area
 from app.widgets.checks import checkbox, radio_button, verdict_sign
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
-from app.widgets.rows import follow, tip
+from app.widgets.rows import button_width, follow, tip
 from app.widgets.theme import Fonts
 
 Wish = Literal["", "reveal", "next", "right"]
@@ -111,8 +111,7 @@ def _mode_list(now: Mode) -> Mode:
 
 
 def _button(label: str, said: str) -> bool:
-    shown = label.partition("##")[0]
-    follow(imgui.calc_text_size(shown).x + 2 * imgui.get_style().frame_padding.x)
+    follow(button_width(label))
     clicked = bool(imgui.button(label))
     imgui.set_item_tooltip(said)
     return clicked

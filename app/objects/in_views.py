@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
-from numpy.typing import NDArray
 
 from app.host.guest import Click, ShownIn
 from app.host.view import Host
@@ -29,7 +28,6 @@ from app.outside.screen import OutsideScreen
 from app.outside.view import OUTSIDE
 from app.state.app_state import AppState
 from app.widgets import theme
-from app.widgets.segments import add_ribbons, ribbons
 from renderer.camera import Camera
 from renderer.memo import Memo
 from renderer.scene.model import Scene
@@ -49,7 +47,7 @@ class InViews:
     def __init__(self) -> None:
         self.handles = Handles()
         self._outlines = Memo(_outlines, MOST_VIEWS)
-        self._ribbons = Memo(_ribbons, MOST_VIEWS)
+        self._segments = Memo(_segments, MOST_VIEWS)
 
     # The guest's interface, see app/host/guest.py.
 
@@ -80,7 +78,7 @@ class InViews:
         if not items and not state.of(ObjectsOptions).selects:
             self.handles.forget(shown.name)
             self._outlines.forget()
-            self._ribbons.forget()
+            self._segments.forget()
             return
         draw = imgui.get_window_draw_list()
         low, extent = shown.origin, shown.extent
@@ -104,11 +102,13 @@ class InViews:
 
     def _draw_outlines(self, host: Host, shown: ShownIn) -> None:
         scene, items = host.state.scene, chosen(host.state)
-        outline, width = self._outlines(scene, items, shown.camera), theme.line_px(WIDTH)
-        rims = (theme.u32(CASING), width + 2 * theme.px(RIM)), (theme.u32(CHOSEN), width)
-        origin, extent = tuple(shown.origin), tuple(shown.extent)
-        for part in self._ribbons(outline, shown.camera, origin, extent, rims):
-            add_ribbons(imgui.get_window_draw_list(), part)
+        outline = self._outlines(scene, items, shown.camera)
+        segments = self._segments(outline, shown.camera, tuple(shown.origin), tuple(shown.extent))
+        draw, width = imgui.get_window_draw_list(), theme.line_px(WIDTH)
+        for color, wide in ((CASING, width + 2 * theme.px(RIM)), (CHOSEN, width)):
+            ink = theme.u32(color)
+            for start, end in segments:
+                draw.add_line(start, end, ink, wide)
 
     def _draw_lights(self, host: Host, shown: ShownIn) -> None:
         draw, items = imgui.get_window_draw_list(), chosen(host.state)
@@ -153,18 +153,14 @@ def _outlines(scene: Scene, items: tuple[Item, ...], camera: Camera) -> Floats:
     return outlines_of([entry for entry in entries if not entry.hidden], camera)
 
 
-def _ribbons(
-    lines: Floats,
-    camera: Camera,
-    origin: tuple[float, ...],
-    extent: tuple[float, ...],
-    rims: tuple[tuple[int, float], ...],
-) -> list[NDArray[np.void]]:
-    """Return the visible part of segments (n, 2, 3) of the world as ribbons on the screen.
+def _segments(
+    lines: Floats, camera: Camera, origin: tuple[float, ...], extent: tuple[float, ...]
+) -> list[tuple[ImVec2, ImVec2]]:
+    """Return the visible part of segments (n, 2, 3) of the world on the screen.
 
-    origin, extent: of the image, in ImGui's units. rims: colour and width of each ribbon.
+    origin, extent: of the image, in ImGui's units.
     """
     size = max(round(extent[0]), 1), max(round(extent[1]), 1)
     points, _, _ = OutsideScreen(camera, size).segments(lines)
     there = points * (np.array(extent) / size) + origin
-    return [ribbons(there, color, width) for color, width in rims]
+    return [(ImVec2(*start), ImVec2(*end)) for start, end in there.tolist()]

@@ -9,13 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from app.outside.diagram import Arrow, Dot, Item, Label, Role, Segments
 from app.outside.second_camera import ROLE, GivenRay, second_ray
+from renderer.camera import Floats
 from renderer.camera_checks import LARGEST
-
-Floats = NDArray[np.float64]
 
 
 def vector(name: str, role: Role, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from app.explaining.symbols import plain, vector
 from app.outside.diagram import (
@@ -36,9 +36,7 @@ from app.outside.frustum import (
 from app.outside.lens_diagram import ideal_border, image_sphere, lens_pixel, lens_volume
 from app.outside.options import OutsideOptions
 from app.state.options import Notation, Pixel
-from renderer.camera import Camera
-
-Floats = NDArray[np.float64]
+from renderer.camera import Camera, Floats
 
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.diagram import Segments
-
-Floats = NDArray[np.float64]
+from renderer.camera import Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,12 +15,11 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.explaining.symbols import plain
 from app.state.options import Notation, Pixel
+from renderer.camera import Floats
 
-Floats = NDArray[np.float64]
 Role = Literal[
     "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other",
     "pose",

@@ -6,16 +6,13 @@ from collections.abc import Callable, Hashable
 from typing import NamedTuple
 
 import moderngl
-import numpy as np
-from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.outside.cloud import Cloud
 from app.outside.diagram import Item
 from app.outside.looking import NOTHING
 from app.outside.mouse import Scope
-
-Floats = NDArray[np.float64]
+from renderer.camera import Floats
 
 
 class Extension(NamedTuple):

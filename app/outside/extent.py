@@ -7,14 +7,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.outside.frustum import border, has_plane, image_point, plane_corners
-from renderer.camera import Camera, Vector
-from renderer.camera_checks import LARGEST
+from renderer.camera import Camera, Floats
+from renderer.camera_checks import LARGEST, three
 from renderer.errors import LucidaError
-
-Floats = NDArray[np.float64]
 
 FOV_Y_DEG = 50.0
 MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold
@@ -127,14 +124,14 @@ def framed(
     right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     try:
         eye = center + offsets[0] * right + offsets[1] * top + depth * back
-        found = replace(camera, eye=_vector(eye))
+        found = replace(camera, eye=three(eye))
         if projection != "parallel":
             return found
         half = max(np.ptp(y) / 2 * margin[1], np.ptp(x) / 2 / aspect * margin[0], 1e-9)
         eye = center + (x.max() + x.min()) / 2 * right + (y.max() + y.min()) / 2 * top
         eye = eye + (float(z.max()) + radius) * back
         return Camera(
-            _vector(eye), found.u, found.v, found.w, 1.0,
+            three(eye), found.u, found.v, found.w, 1.0,
             (-half * aspect, half * aspect, -half, half), "parallel",
         )  # fmt: skip
     except LucidaError:  # a scene at the very ends of the numbers
@@ -151,8 +148,3 @@ def _centered(across: Floats, depths: Floats, at: float) -> float:
         high, low = int(slopes.argmax()), int(slopes.argmin())
         at += float((slopes[high] + slopes[low]) / (1 / depths[high] + 1 / depths[low]))
     return at
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z

@@ -16,12 +16,11 @@ from app.outside.diagram import Role, runs
 from app.outside.placing import Box, LabelPlacer
 from app.outside.projected import Primitive, Shape, Strokes, Text
 from app.outside.screen import OutsideScreen
+from renderer.camera import Floats, Size
 from renderer.raster.overlay import BACK_LIGHT, Plane
 
-Floats = NDArray[np.float64]
 Depths = NDArray[np.float32]
 Bools = NDArray[np.bool_]
-Size = tuple[int, int]
 Color = tuple[float, float, float]  # red, green, blue as displayed, 0 to 1
 
 LETTER_PX, STRONG_PX = 16.0, 24.0  # the sizes of labels and of vectors' names, in symbols

@@ -17,11 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.state.options import Pixel
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats, Size
 from renderer.lenses import Lens
-
-Floats = NDArray[np.float64]
-Size = tuple[int, int]
 
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from app.host.view import Host
 from app.outside.frustum import plane_corners
@@ -18,12 +18,11 @@ from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.tint import handle_colors, hide_text, recolor
 from app.widgets import theme
-from renderer.camera import Camera, Vector
-from renderer.camera_checks import volume
+from renderer.camera import Camera, Floats, Vector
+from renderer.camera_checks import three, volume
 from renderer.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo
-Floats = NDArray[np.float64]
 Kind = Literal["none", "move", "turn", "distance", "up"]
 
 LENGTH = 0.2  # of the view: the handles' length in clip space
@@ -155,14 +154,14 @@ class Gizmo:
         (camera, up), begun = now, self._drag
         try:
             if kind == "move":
-                return replace(camera, eye=_vector(result[:3, 3])), up
+                return replace(camera, eye=three(result[:3, 3])), up
             if kind == "distance":
                 return replace(camera, distance=distance_of(begun.camera, result[:3, 3])), up
             turned = nearest_rotation(result[:3, :3] @ begun.frame.T)
             self._drag = replace(begun, turned=turned)
             if kind == "up":
                 return with_up(camera, begun.camera, turned @ begun.up)
-            basis = {name: _vector(turned @ getattr(begun.camera, name)) for name in "uvw"}
+            basis = {name: three(turned @ getattr(begun.camera, name)) for name in "uvw"}
             other = replace(camera, **basis)  # type: ignore[arg-type]
             return other.orthonormalized() if orthonormal else other, up
         except LucidaError:  # beyond the numbers: the camera stays
@@ -184,11 +183,11 @@ def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]
     w = np.asarray(before.w) / np.linalg.norm(before.w)
     across = np.cross(up, w)
     if np.linalg.norm(across) < PARALLEL * np.linalg.norm(up):
-        return camera, _vector(np.copysign(np.linalg.norm(up), up @ w) * w)
+        return camera, three(np.copysign(np.linalg.norm(up), up @ w) * w)
     u = across / np.linalg.norm(across)
     lengths = (float(np.linalg.norm(v)) for v in (before.u, before.v))
     u, v = (length * axis for length, axis in zip(lengths, (u, np.cross(w, u)), strict=True))
-    return replace(camera, u=_vector(u), v=_vector(v)), _vector(up)
+    return replace(camera, u=three(u), v=three(v)), three(up)
 
 
 def motion(before: Camera, after: Camera) -> str:
@@ -326,8 +325,3 @@ def widen(most_px: float = math.inf) -> None:
 def matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:
     """Return a matrix in OpenGL's order, column by column."""
     return gizmo.Matrix16(matrix.T.ravel().tolist())
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z

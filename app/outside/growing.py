@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.explaining.symbols import latex
 from app.outside.camera_diagram import Content, diagram
@@ -40,9 +39,7 @@ from app.outside.frustum import (
 )
 from app.outside.options import LENS_STAGES, STAGES
 from app.state.options import Notation, Pixel
-from renderer.camera import Camera
-
-Floats = NDArray[np.float64]
+from renderer.camera import Camera, Floats
 
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it

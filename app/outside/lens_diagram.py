@@ -5,7 +5,6 @@ pixel. Pure.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.outside.diagram import Dot, Face, Item, Label, Segments, polyline
 from app.outside.frustum import (
@@ -19,9 +18,7 @@ from app.outside.frustum import (
     point_at,
 )
 from app.state.options import Pixel
-from renderer.camera import Camera
-
-Floats = NDArray[np.float64]
+from renderer.camera import Camera, Floats
 
 EDGES = 8  # rays along the border that stand for the edges of a pyramid
 SIDE_PARTS = 6  # faces for a side of the view volume

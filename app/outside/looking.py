@@ -11,13 +11,12 @@ from functools import lru_cache
 
 import numpy as np
 from imgui_bundle import ImVec2
-from numpy.typing import NDArray
 
 from app.host.view import Host
+from app.images.ray_pictures import RayPainter, RayPictures
 from app.outside.diagram import RayEnd
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
-from app.outside.hits import RayHits, RayQuery
 from app.outside.mouse import Scope
 from app.outside.naming import named
 from app.outside.options import OutsideOptions
@@ -31,13 +30,10 @@ from app.outside.teaching import (
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats, Size
 from renderer.memo import Memo, same
 from renderer.navigation import depth_of
 from renderer.raster.overlay import screen_from_world
-
-Floats = NDArray[np.float64]
-Size = tuple[int, int]
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
@@ -221,7 +217,11 @@ def margin_for(side: float, room: float) -> float:
 
 
 def ray_ends(
-    hits: RayHits, host: Host, camera: Camera, size: Size, others: Container[str]
+    hits: RayPictures[dict[Pixel, float]],
+    host: Host,
+    camera: Camera,
+    size: Size,
+    others: Container[str],
 ) -> tuple[RayEnd | None, list[RayEnd]]:
     """Return the marked pixel's ray and the bundle's, with their ends as far as they are known.
 
@@ -235,13 +235,31 @@ def ray_ends(
         counts = LENS_RAYS
     pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, counts)]
     asked = (*pixels, marked) if marked is not None else tuple(pixels)
-    tracer = both.live.tracer_of(state.scene) if asked else None
-    known = hits.ask(RayQuery(state.scene, camera, size, asked), tracer)
-    bundle = [RayEnd(pixel, known[pixel]) for pixel in pixels]
+    known: dict[Pixel, float] = {}
+    if asked:
+
+        def depths(painter: RayPainter) -> dict[Pixel, float]:
+            return ray_depths(painter, camera, size, asked)
+
+        known = hits.follow((camera, size, asked), state.scene, both.live, depths) or {}
+    bundle = [RayEnd(pixel, known.get(pixel)) for pixel in pixels]
     if marked is None:
         return None, bundle
     t = both.depth_at(state, marked)
-    return RayEnd(marked, known[marked] if t is None else t), bundle
+    return RayEnd(marked, known.get(marked) if t is None else t), bundle
+
+
+def ray_depths(
+    painter: RayPainter, camera: Camera, size: Size, pixels: tuple[Pixel, ...]
+) -> dict[Pixel, float]:
+    """Return where the rays of pixels end; inf if they hit nothing, or are outside of the lens."""
+    i, j = np.array(pixels).T
+    ray = camera.ray(i, j, size)
+    t = np.full(len(pixels), np.inf)
+    seen = np.isfinite(ray.direction[:, 0])
+    if seen.any():
+        t[seen] = painter.hits(ray.origin[seen], ray.direction[seen], camera.t_range)
+    return dict(zip(pixels, t.tolist(), strict=True))
 
 
 def _ray_pixel(host: Host, others: Container[str]) -> Pixel | None:

@@ -90,7 +90,7 @@ def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
 
 
 def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
-    """Return the layers for Overlay.steps(), the lowest first, without texts."""
+    """Return the layers for Overlay.draw(), the lowest first, without texts."""
     parts = sorted((one for one in primitives if not isinstance(one, Text)), key=_layer)
     color = cache(partial(_color, ground=ground))
     strokes = [part for part in parts if isinstance(part, Strokes)]

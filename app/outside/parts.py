@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 
 import moderngl
 
+from app.images.ray_pictures import RayPictures
 from app.outside.cloud_layer import CloudLayer
 from app.outside.ground import Ground
-from app.outside.hits import RayHits
 from app.outside.projected import Primitive
 from app.outside.tools import Written
+from app.state.options import Pixel
 from renderer.raster.overlay import Overlay
 
 
@@ -32,12 +33,13 @@ class Tools(NamedTuple):
     overlay: Overlay
     ground: Ground
     layer: CloudLayer
-    hits: RayHits
+    hits: RayPictures[dict[Pixel, float]]
 
     @classmethod
     def of(cls, context: moderngl.Context, animate: Callable[[], None]) -> Tools:
         """Return new ones. animate: called when rays were traced."""
-        return cls(Overlay(context), Ground(context), CloudLayer(context), RayHits(animate))
+        hits: RayPictures[dict[Pixel, float]] = RayPictures("lucida-outside-rays", animate)
+        return cls(Overlay(context), Ground(), CloudLayer(context), hits)
 
     def release(self) -> None:
         """Release all of them, while the context is current."""

@@ -13,7 +13,6 @@ from typing import Literal
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
-from numpy.typing import NDArray
 
 from app.host.view import Host
 from app.outside.diagram import Arrow, Dot, Item, Label, Segments
@@ -24,12 +23,11 @@ from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen
 from app.outside.tools import PAD, chip
 from app.widgets import theme
-from renderer.camera import Camera, Size
+from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin
 from renderer.memo import Memo
 
-Floats = NDArray[np.float64]
 Part = Literal["grid", "corner", "point"]
 
 MOST_TICKS = 32  # of a side

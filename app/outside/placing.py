@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.projected import Primitive, Shape, Strokes, Text
+from renderer.camera import Floats
 
-Floats = NDArray[np.float64]
 Spot = tuple[float, float]
 Label = tuple[str, str, int]  # name, role, how many before it have both
 Edges = tuple[float, float, float, float]  # left, top, right, bottom

@@ -12,13 +12,11 @@ from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments, polyline
 from app.outside.screen import OutsideScreen, Seen
+from renderer.camera import Floats
 from renderer.camera_checks import cross
-
-Floats = NDArray[np.float64]
 
 CIRCLE = 28  # corners of what is round
 _ANGLES = np.arange(CIRCLE)[:, None] * (2 * math.pi / CIRCLE)

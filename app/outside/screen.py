@@ -13,11 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.outside.frustum import has_plane, plane_corners
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats, Size
 from renderer.raster.overlay import Plane, plane_on_screen, screen_from_world
-
-Floats = NDArray[np.float64]
-Size = tuple[int, int]
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
 NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene

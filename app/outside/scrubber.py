@@ -15,6 +15,7 @@ from app.outside.options import OutsideOptions
 from app.widgets import theme
 from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.inline_math import inline_math
+from app.widgets.rows import button_width
 
 STAGE_S = 1.5
 LABEL = 0.86  # of a stage's symbol, in parts of its room
@@ -73,9 +74,9 @@ class Scrubber:
 
     def draw(self, host: Host) -> None:
         """Draw the button and the stages in a row."""
-        style, em = imgui.get_style(), imgui.get_font_size()
+        em = imgui.get_font_size()
         name = "Pause" if self.playing else "Play"
-        wide = imgui.calc_text_size("Pause").x + 2 * style.frame_padding.x
+        wide = button_width("Pause")
         if imgui.button(f"{name}###formula", ImVec2(wide, 0)):
             self.toggle(host)
         imgui.set_item_tooltip(PLAY_TIPS[self.playing])

@@ -9,11 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.outside.diagram import Dot, Face, Item, Label, RayEnd, Role, Segments, polyline
-
-Floats = NDArray[np.float64]
+from renderer.camera import Floats
 
 SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
 ROLE: Role = "other"

@@ -12,18 +12,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.images.picking import is_quick, nearest_hits
 from app.outside.diagram import Arrow, Dot, Eye, Item, Label, Segments
 from app.outside.extent import framed, level_frame
 from app.outside.options import Sight
 from app.outside.screen import OutsideScreen
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats, Size
 from renderer.scene.model import Scene
-
-Floats = NDArray[np.float64]
-Size = tuple[int, int]
 
 # Names of other items that belong to a part.
 ALSO = {

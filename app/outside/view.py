@@ -54,13 +54,11 @@ from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.theme import framebuffer_scale
-from renderer.camera import Camera
+from renderer.camera import Camera, Size
 from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.memo import same
 from renderer.navigation import orbited
-
-Size = tuple[int, int]
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
@@ -319,7 +317,7 @@ class OutsideView(DockedView):
             state.options.notation,
         )  # fmt: skip
         key = (
-            content, ground.number, ground.smooth, screen.near, units_px(scope.extent),
+            content, ground, screen.near, units_px(scope.extent),
             live and live.number, state.images, theme.used(), extensions.items,
             extensions.cloud, extensions.picture,
         )  # fmt: skip
@@ -335,8 +333,7 @@ class OutsideView(DockedView):
             picture = both.textures.whole_raster(request, look_of(state.images))
         texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
-            exposure_ev, OPACITY, screen.unit_px, ground.mean if ground.smooth else None, CASING,
-            (ground.number, ground.parts),
+            exposure_ev, OPACITY, screen.unit_px, ground.mean, CASING, ground,
             self.tools.layer.picture(extensions.cloud, screen, _ground(state)),
         )  # fmt: skip
         return MadePicture(key, texture, primitives, labels)

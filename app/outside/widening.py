@@ -10,19 +10,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.outside.answers import points_of
 from app.outside.diagram import Item
 from app.outside.options import OutsideOptions
-from renderer.camera import Camera
+from renderer.camera import Camera, Floats
 from renderer.errors import LucidaError
 
 if TYPE_CHECKING:
     from app.host.view import Host
     from app.outside.mouse import Scope
 
-Floats = NDArray[np.float64]
 
 LABEL_PX = (75.0, 35.0)  # at both ends of a side, for what is written there
 MOST_ROOM = 1.6  # a picture's side, in those of what it must hold

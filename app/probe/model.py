@@ -25,6 +25,7 @@ from app.probe.reading import (
 )
 from renderer import pure_python as scalar
 from renderer.camera import Camera, Size, Vector
+from renderer.camera_checks import three
 from renderer.errors import LucidaError
 from renderer.frame import check_size
 from renderer.images.display import encode_srgb
@@ -73,7 +74,7 @@ class Probe:
         t_range = camera.t_range
         winner = winner_of(found, t_range)
         meetings = self._meetings(found, t_range, winner)
-        background = _three(self.flat.background)
+        background = three(self.flat.background)
         hit = shading = None
         bounces: tuple[Bounce, ...] = ()
         color = background
@@ -85,17 +86,17 @@ class Probe:
             total = np.array(shading.color)
             for bounce in bounces:
                 total += np.array(bounce.weight) * bounce.color
-            color = _three(total)
+            color = three(total)
         exposed = np.array(color) * 2.0**exposure_ev
-        display = _three(np.clip(exposed, 0, 1) if transfer == "linear" else encode_srgb(exposed))
+        display = three(np.clip(exposed, 0, 1) if transfer == "linear" else encode_srgb(exposed))
         return Reading(
             pixel=pixel,
             size=size,
             camera=camera,
             x=float(x),
             y=float(y),
-            origin=_three(ray.origin),
-            direction=_three(ray.direction),
+            origin=three(ray.origin),
+            direction=three(ray.direction),
             t_range=t_range,
             meetings=meetings,
             hit=hit,
@@ -104,7 +105,7 @@ class Probe:
             background=background,
             color=color,
             exposure_ev=exposure_ev,
-            exposed=_three(exposed),
+            exposed=three(exposed),
             transfer=transfer,
             display=display,
             bytes=_bytes(display),
@@ -135,13 +136,13 @@ class Probe:
     def _corners(self, hit: SurfaceHit | None) -> tuple[Vector, ...]:
         if hit is None or hit.primitive >= len(self.flat.faces):
             return ()
-        return tuple(_three(self.index.vertices[k]) for k in self.flat.faces[hit.primitive])
+        return tuple(three(self.index.vertices[k]) for k in self.flat.faces[hit.primitive])
 
     def _sphere(self, hit: SurfaceHit | None) -> tuple[Vector, float] | None:
         if hit is None or hit.primitive < len(self.flat.faces):
             return None
         row = self.flat.spheres[hit.primitive - len(self.flat.faces)]
-        return _three(row), float(row[3])
+        return three(row), float(row[3])
 
     # Shadows and mirrors, as renderer/trace/packets/effects.py has them.
 
@@ -182,9 +183,9 @@ class Probe:
             origin = hit.point + away * geometric
             found = self.index.crossings(origin, way)
             first = winner_of(found, (0.0, math.inf))
-            start = _three(weight), _three(origin), _three(way)
+            start = three(weight), three(origin), three(way)
             if first < 0:
-                bounces.append(Bounce(*start, None, None, _three(self.flat.background)))
+                bounces.append(Bounce(*start, None, None, three(self.flat.background)))
                 break
             hit = hit_at(self.flat, origin, way, _at(found, first))
             shading = shade(self.flat, hit, is_lit)
@@ -236,8 +237,3 @@ def _bytes(display: Color) -> tuple[int, int, int]:
     """Round in float32, as the display transform does."""
     r, g, b = (int(np.float32(255) * np.float32(part) + np.float32(0.5)) for part in display)
     return r, g, b
-
-
-def _three(value: object) -> Vector:
-    x, y, z = (float(part) for part in np.asarray(value, float)[:3])
-    return x, y, z

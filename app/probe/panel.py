@@ -22,7 +22,8 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
-from app.widgets.rows import follow, tip
+from app.widgets.messages import wrapped
+from app.widgets.rows import button_width, follow, tip
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
@@ -75,13 +76,13 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
         state = state.with_options(one_based=one_based)
     state = _section_field(_rays_field(state))
     pins = state.of(ProbeOptions).pins
-    follow(_button_width("Pin"))
+    follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
     if imgui.button("Pin") and pixel is not None:
         state = state.with_options(probe={"pins": (*pins, pixel)})
     imgui.end_disabled()
     imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
-    follow(_button_width("Copy ..."))
+    follow(button_width("Copy ..."))
     imgui.begin_disabled(reading is None)
     if imgui.button("Copy ..."):
         imgui.open_popup("copy")
@@ -101,7 +102,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
         name = f"{count + 1}: {indexing.text(pin.pixel)}"
         side = imgui.get_frame_height()
         if count:
-            follow(_button_width(name) + side)
+            follow(button_width(name) + side)
         if pin.color is not None:
             _swatch(tuple(part / 255 for part in pin.color), side)
             imgui.same_line(0, 0)
@@ -151,7 +152,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
 
 def _rays_field(state: AppState) -> AppState:
     name = f"Rays: {RAYS[state.of(ProbeOptions).rays]}"
-    widest = max(_button_width(f"Rays: {text}") for text in RAYS.values())
+    widest = max(button_width(f"Rays: {text}") for text in RAYS.values())
     follow(widest)
     if widest > imgui.get_content_region_avail().x:
         name, widest = "Rays", 0.0
@@ -169,11 +170,9 @@ def _rays_field(state: AppState) -> AppState:
 def _section_field(state: AppState) -> AppState:
     names = {"all": "all", **SECTIONS}
     now = state.of(ProbeOptions).section
-    widest = _button_width(f"Show: {names['all']}")
+    widest = button_width(f"Show: {names['all']}")
     follow(widest)
-    if imgui.button(
-        f"Show: {now}###section", ImVec2(max(widest, _button_width(f"Show: {now}")), 0)
-    ):
+    if imgui.button(f"Show: {now}###section", ImVec2(max(widest, button_width(f"Show: {now}")), 0)):
         imgui.open_popup("section")
     imgui.set_item_tooltip("which part of the reading is shown")
     if imgui.begin_popup("section"):
@@ -217,9 +216,7 @@ def reading_panel(
         )
         _lines(lines, named=not alone)
     if reading.is_outside:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.legible(theme.MARK), OUTSIDE)
-        imgui.pop_text_wrap_pos()
+        wrapped(OUTSIDE, theme.legible(theme.MARK))
         return
     if shown("objects"):
         _table(reading, fonts)
@@ -267,9 +264,7 @@ def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool =
 
 def _name(line: Line, swatches: Reading | None) -> None:
     """Draw the line's name and, if it results in one, its colour."""
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.DIM, line.name)
-    imgui.pop_text_wrap_pos()
+    wrapped(line.name, theme.DIM)
     if swatches is not None and line.key.split(" ")[0] in _SWATCHED and len(line.value) == 3:
         light = np.array(line.value) * 2.0**swatches.exposure_ev
         side = 0.85 * imgui.get_text_line_height()
@@ -365,8 +360,3 @@ def _swatch(color: Iterable[float], side: float) -> None:
     draw.add_rect_filled(at, far, theme.u32(ImVec4(red, green, blue, 1.0)))
     draw.add_rect(at, far, theme.u32(theme.PLAIN))
     imgui.dummy(ImVec2(side, side))
-
-
-def _button_width(text: str) -> float:
-    shown = text.partition("##")[0]
-    return imgui.calc_text_size(shown).x + 2 * imgui.get_style().frame_padding.x

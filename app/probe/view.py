@@ -35,6 +35,7 @@ from app.state.app_state import AppState
 from app.state.options import ImageOptions, Pixel
 from app.widgets import formula, theme
 from app.widgets.background import Background
+from app.widgets.messages import wrapped
 from renderer.camera import Camera, Size
 from renderer.errors import describe
 from renderer.memo import Memo
@@ -119,11 +120,11 @@ class ProbeView(DockedView):
         imgui.set_next_window_content_size((max(1.0, wide), 0.0))
         imgui.begin_child("reading", (0, 0), imgui.ChildFlags_.nav_flattened)
         if self._error:
-            _wrapped(self._error, theme.ERROR)
+            wrapped(self._error, theme.ERROR)
         elif pixel is None:
-            _wrapped(HINT, theme.DIM)
+            wrapped(HINT, theme.DIM)
         elif reading is None:
-            _wrapped("preparing the scene for the probe ...", theme.DIM)
+            wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
             options, position = host.state.options, host.state.of(OutsideOptions).formula
             stages = stages_of(host.renderers.camera(host.state))
@@ -297,9 +298,3 @@ def _normal(reading: Reading, length: float) -> Sequence[Item]:
     point = np.array(reading.hit.point)
     tip = point + length * np.array(reading.hit.normal)
     return [Arrow("normal", "extra", point, tip, width=2.2, head=10.0)]
-
-
-def _wrapped(text: str, color: Any) -> None:
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(color, text)
-    imgui.pop_text_wrap_pos()

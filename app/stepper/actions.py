@@ -7,29 +7,19 @@ display, and so that no key has two meanings.
 from __future__ import annotations
 
 from app.host.action import Action
-from app.stepper.controls import Wish
+from app.stepper.controls import STEPS, Step
 from app.stepper.view import STEPPER, StepperView
 
-KEYS: tuple[tuple[Wish, str, str], ...] = (
-    ("play", "play and pause", "Space"),
-    ("step", "one line on", "Right"),
-    ("back", "one line back", "Left"),
-    ("pixel", "to the next pixel's turn", "Down"),
-    ("object", "to the next object's turn", "Shift+Down"),
-    ("first", "to the beginning", "Home"),
-    ("last", "to the end", "End"),
-)
 
-
-def _stepping(wish: Wish, name: str, keys: str) -> Action:
+def _stepping(step: Step) -> Action:
     return Action(
         "Lecture/Loop stepper",
-        f"Stepper: {name}",
-        lambda window: window.view(StepperView).ask(wish),
-        keys,
+        f"Stepper: {step.told}",
+        lambda window: window.view(StepperView).ask(step.wish),
+        step.shown,
         can=lambda window: STEPPER in window.shell.stage.rects,
-        separated=wish == "play",
+        separated=step is STEPS[0],
     )
 
 
-STEPPING = tuple(_stepping(wish, name, keys) for wish, name, keys in KEYS)
+STEPPING = tuple(map(_stepping, STEPS))

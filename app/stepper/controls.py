@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal, TypeVar
+from typing import Literal, NamedTuple, TypeVar
 
 from imgui_bundle import ImVec2, imgui
 
@@ -12,7 +12,7 @@ from app.state.bounds import range_of
 from app.state.options import Language
 from app.stepper.options import StepperOptions
 from app.widgets.checks import checkbox
-from app.widgets.rows import follow, tip
+from app.widgets.rows import button_width, follow, tip
 from app.widgets.sliders import slider_float
 
 T = TypeVar("T")
@@ -25,15 +25,32 @@ ORDERS: dict[Literal["both", "object", "image"], str] = {
     "image": "image order",
 }
 Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
-_BUTTONS: tuple[tuple[Wish, str, str], ...] = (
-    ("first", "First", "to the beginning (Home)"),
-    ("back", "Back", "one step back (Left)"),
-    ("play", "Play", "play and pause (Space)"),
-    ("step", "Step", "one step: one line (Right)"),
-    ("pixel", "Next pixel", "to where the next pixel's turn begins (Down)"),
-    ("object", "Next object", "to where the next object's or triangle's turn begins (Shift+Down)"),
-    ("last", "Last", "to the end (End)"),
-)
+
+
+class Step(NamedTuple):
+    """A wish, its button, what it does, and its keys: shown, and as ImGui counts them."""
+
+    wish: Wish
+    button: str
+    told: str
+    shown: str
+    chord: int
+    repeats: bool = False
+
+
+_KEY = imgui.Key
+STEPS = (
+    Step("first", "First", "to the beginning", "Home", int(_KEY.home)),
+    Step("back", "Back", "one line back", "Left", int(_KEY.left_arrow), True),
+    Step("play", "Play", "play and pause", "Space", int(_KEY.space)),
+    Step("step", "Step", "one line on", "Right", int(_KEY.right_arrow), True),
+    Step("pixel", "Next pixel", "to the next pixel's turn", "Down", int(_KEY.down_arrow), True),
+    Step(
+        "object", "Next object", "to the next object's turn", "Shift+Down",
+        int(_KEY.mod_shift) | int(_KEY.down_arrow), True,
+    ),
+    Step("last", "Last", "to the end", "End", int(_KEY.end)),
+)  # fmt: skip
 SPEED_EM = 6.5
 
 
@@ -49,16 +66,15 @@ class Asked:
 def controls(now: Asked, playing: bool, is_low: bool) -> Asked:
     """Draw the controls; in a low view only the buttons that have no better key."""
     wish: Wish = ""
-    for number, (name, label, said) in enumerate(_BUTTONS[1:-1] if is_low else _BUTTONS):
+    for number, (name, label, told, keys, *_) in enumerate(STEPS[1:-1] if is_low else STEPS):
         # Play and Pause have the same width.
-        width = imgui.calc_text_size("Pause" if name == "play" else label).x
-        width += 2 * imgui.get_style().frame_padding.x
+        width = button_width("Pause" if name == "play" else label)
         if number:
             follow(width)
         shown = "Pause" if name == "play" and playing else label
         if imgui.button(f"{shown}###{name}", ImVec2(width, 0)):
             wish = name
-        imgui.set_item_tooltip(said)
+        imgui.set_item_tooltip(f"{told} ({keys})")
     if is_low:
         return replace(now, wish=wish)
     options, canvas = _speed(now.options), now.options.canvas
@@ -80,19 +96,12 @@ def keys() -> Wish:
 
     They are taken from ImGui's navigation, which keeps Tab and Enter.
     """
-    key, shift = imgui.Key, int(imgui.Key.mod_shift)
-    focused = int(imgui.InputFlags_.route_focused)
-    repeated = focused | int(imgui.InputFlags_.repeat)
-    table: tuple[tuple[Wish, int, int], ...] = (
-        ("play", int(key.space), focused),
-        ("step", int(key.right_arrow), repeated),
-        ("back", int(key.left_arrow), repeated),
-        ("pixel", int(key.down_arrow), repeated),
-        ("object", shift | int(key.down_arrow), repeated),
-        ("first", int(key.home), focused),
-        ("last", int(key.end), focused),
-    )
-    pressed = [wish for wish, chord, flags in table if imgui.shortcut(chord, flags)]
+    focused, repeat = imgui.InputFlags_.route_focused, imgui.InputFlags_.repeat
+    pressed = [
+        step.wish
+        for step in STEPS
+        if imgui.shortcut(step.chord, int(focused) | int(repeat) * step.repeats)
+    ]
     return pressed[0] if pressed and not imgui.is_any_item_active() else ""
 
 

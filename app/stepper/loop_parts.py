@@ -15,6 +15,7 @@ import numpy as np
 from app.probe.crossings import Index
 from renderer import pure_python as scalar
 from renderer.camera import Camera, Floats, Size, Vector
+from renderer.camera_checks import three
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Color, Scene
 
@@ -63,7 +64,7 @@ class Model:
         self.scene = scene
         self.index = Index(flatten(scene)) if index is None else index
         self.flat: FlatScene = self.index.flat
-        self.background: Color = _three(self.flat.background)
+        self.background: Color = three(self.flat.background)
         self.objects = tuple(self._object(number) for number, _ in scene.visible)
 
     def _object(self, number: int) -> Object:
@@ -77,7 +78,7 @@ class Model:
         else:
             low, high = vertices.min(axis=0), vertices.max(axis=0)
         name = self.scene.objects[number].name or f"object {number}"
-        return Object(number, name, sphere, vertices, faces, _three(low), _three(high), self.index)
+        return Object(number, name, sphere, vertices, faces, three(low), three(high), self.index)
 
 
 class Canvas:
@@ -153,7 +154,7 @@ def light_at(
     sphere, and its barycentrics b1, b2 there."""
     flat = scene.flat
     geometric, normal = scalar.normals_at(flat, direction, point, *where)
-    return _three(scalar.color_at(flat, direction, point, geometric, normal, *where))
+    return three(scalar.color_at(flat, direction, point, geometric, normal, *where))
 
 
 def meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> bool:
@@ -171,8 +172,3 @@ def meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> b
         first, second = to_low / direction[k], to_high / direction[k]
         enter, leave = max(enter, min(first, second)), min(leave, max(first, second))
     return enter <= leave
-
-
-def _three(values: object) -> Vector:
-    x, y, z = (float(value) for value in np.asarray(values, float))
-    return x, y, z

@@ -73,7 +73,6 @@ class Moment:
     and corners (its own, in the image): None outside the loop that sets them.
     canvas: linear light (height, width, 3), NaN where unset.
     depth: (height, width), None in image order.
-    written: the pixel that the last line set.
     tests: of the current inner loop: in object order those of the object or the triangle, in image
     order those of the pixel.
     """
@@ -89,7 +88,6 @@ class Moment:
     corners: tuple[Corner, ...] | None
     canvas: Floats
     depth: Floats | None
-    written: tuple[int, int] | None
     tests: tuple[Test, ...]
     counters: Counters
     finished: bool
@@ -133,7 +131,6 @@ def moment_at(recording: Recording, step: int) -> Moment:
         ),
         canvas=_canvas(recording, writes, now),
         depth=_depth(recording, step, now),
-        written=_written(recording, writes, step),
         tests=_tests(recording, step, in_pixel, in_object),
         counters=Counters(
             recording.test_steps.count_upto(step),
@@ -283,13 +280,6 @@ def _depth(recording: Recording, step: int, now: dict[str, Any]) -> Floats | Non
     pixels = recording.depth_pixels.upto(count)
     array[pixels[:, 0], pixels[:, 1]] = recording.depth_t.upto(count)
     return array
-
-
-def _written(recording: Recording, writes: int, step: int) -> tuple[int, int] | None:
-    if not writes or recording.write_steps[writes - 1] != step:
-        return None
-    i, j = recording.write_pixels[writes - 1]
-    return int(i), int(j)
 
 
 def _tests(recording: Recording, step: int, in_pixel: bool, in_object: bool) -> tuple[Test, ...]:

@@ -16,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.explaining.projected import pixels_of, sphere_extent, whole_within
 from app.stepper.loop_parts import (
     Canvas,
     DepthBuffer,
@@ -35,6 +34,9 @@ from renderer.scene.sampling import on_triangles, opacity
 
 WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
+
+
+ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
 
 
 class Corner(NamedTuple):
@@ -64,22 +66,17 @@ class Triangle:
 
 def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuffer]:
     """The canvas in the colour of the background, and infinite depths; then what has no triangles:
-    spheres, each pixel of their boxes by its ray."""
+    spheres, each pixel by its ray."""
     canvas, depth = Canvas(size, scene.background), DepthBuffer(size)
-    for object in scene.objects:
-        if object.sphere < 0:
-            continue
-        x, y, z, radius = scene.flat.spheres[object.sphere].tolist()
-        extent = sphere_extent(np.array([x, y, z]), radius, camera)
-        rows, columns = pixels_of(extent, camera, size)
-        for i in rows:
-            for j in columns:
-                x, y = (float(place) for place in camera.image_point(i, j, size))
-                ray = viewing_ray(camera, x, y)
-                hit = intersect(object, ray)
-                if hit.t < depth[i, j]:
-                    depth[i, j] = hit.t
-                    canvas[i, j] = color_at(scene, ray, hit)
+    spheres = [object for object in scene.objects if object.sphere >= 0]
+    for i, j in np.ndindex(size[1], size[0] if spheres else 0):
+        x, y = (float(place) for place in camera.image_point(i, j, size))
+        ray = viewing_ray(camera, x, y)
+        for object in spheres:
+            hit = intersect(object, ray)
+            if hit.t < depth[i, j]:
+                depth[i, j] = hit.t
+                canvas[i, j] = color_at(scene, ray, hit)
     return canvas, depth
 
 
@@ -138,6 +135,13 @@ def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, rang
     if not (rows and columns and abs(edge(a, b, c)) > FLAT * extent * extent):
         return range(0), range(0)
     return rows, columns
+
+
+def whole_within(low: float, high: float, count: int) -> range:
+    """Return the whole numbers from low to high that are within 0 to count - 1."""
+    first = math.ceil(min(max(low - ROUNDING_PX, 0.0), count))
+    last = math.floor(max(min(high + ROUNDING_PX, count - 1.0), -1.0))
+    return range(first, max(first, last + 1))
 
 
 def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:

@@ -84,10 +84,9 @@ def picture_grid(
     size: tuple[int, int],
     room: ImVec2,
     fonts: Fonts,
-    scroll_to: int | None = None,
 ) -> GridAnswer | None:
-    """Draw the pictures from the cursor on, in the room. size: (width, height) of the whole grid.
-    scroll_to: the number of the picture to bring into sight.
+    """Draw the pictures from the cursor on, in the room. size: (width, height) of the whole
+    grid.
     """
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
     widest = _widest_title(pictures, fonts)
@@ -107,8 +106,6 @@ def picture_grid(
         else:
             _title_and_caption(picture, at, width, heading, fonts)
         pixel = _picture(picture, size, at, extent, heading)
-        if number == scroll_to:
-            imgui.set_scroll_here_y()
         answer = answer if pixel is None else GridAnswer(number, pixel)
     imgui.set_cursor_screen_pos(corner)
     imgui.dummy((room.x, -(-len(pictures) // columns) * pitch.y - gap))

@@ -142,6 +142,11 @@ def line() -> None:
     imgui.dummy((0, 0))
 
 
+def button_width(label: str) -> float:
+    """Return the width of a button in pixels; of a label, what is before "##"."""
+    return imgui.calc_text_size(label, True).x + 2 * imgui.get_style().frame_padding.x
+
+
 def follow(width: float) -> None:
     """Put the next item, of this width, in the same row if it fits; otherwise in the next one."""
     spacing = imgui.get_style().item_spacing.x

@@ -23,9 +23,9 @@ def of(state: AppState, number: int) -> Bookmark | None:
     return next((mark for mark in state.options.bookmarks if mark.number == number), None)
 
 
-def with_bookmark(state: AppState, number: int, name: str = "") -> AppState:
+def with_bookmark(state: AppState, number: int) -> AppState:
     """The state in which the present view is kept under a number, 1 to 9."""
-    mark = Bookmark(number, name or describe(state.view), state.view)
+    mark = Bookmark(number, describe(state.view), state.view)
     others = [other for other in state.options.bookmarks if other.number != number]
     return state.with_options(
         bookmarks=tuple(sorted([*others, mark], key=lambda entry: entry.number))

@@ -38,29 +38,24 @@ QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 def run_lecture(
     path: Path,
     lecture: Lecture,
-    size: tuple[int, int] | None = None,
-    number: int = 0,
-    screenshot: Path | None = None,
-    log: AnswerLog | None = None,
+    size: tuple[int, int] | None,
+    log: AnswerLog | None,
 ) -> int:
     """Open the window with a lecture. Return the exit status when it is closed.
 
-    path: the lecture's file, read again when it is saved. number: the first step, from 0.
-    log: keeps what is answered.
-    screenshot: draw the step once, save it there, and quit. Without a display that happens in any
-    case, into lucida.png, or lucida-2.png if that exists, and one line says so. Raises LucidaError.
+    path: the lecture's file, read again when it is saved. log: keeps what is answered. Without a
+    display, draw the first step once, into lucida.png, or lucida-2.png if that exists, and say so
+    in one line. Raises LucidaError.
     """
-    if screenshot is not None:
-        check_writable(screenshot)
-    platform, picture = start_drawing(screenshot, "the step")
+    platform, picture = start_drawing(None, "the step")
     pictured = picture is not None
-    start = Start(first_state(lecture, number)) if pictured else begin_lecture(lecture, number)
+    start = Start(first_state(lecture)) if pictured else begin_lecture(lecture)
     run = WindowRun(platform, start.state, size, pictured, start=start)
-    run.window.lecture.give(lecture, path, number, start.left)
+    run.window.lecture.give(lecture, path, 0, start.left)
     run.window.lecture.log = log
     if not pictured:
         print("The lecture starts in presentation mode: F9 turns that off and on.")
-    return run.to_the_end(picture, tell=screenshot is None)
+    return run.to_the_end(picture, tell=True)
 
 
 def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:

@@ -73,13 +73,14 @@ def _word_points(query: str, entry: Entry) -> int:
     wanted = [_singular(word) for word in query.lower().split()]
     name = [_singular(word) for word in re.findall(r"\w+", entry.name.lower())]
     also = [_singular(word) for word in entry.also.lower().split()]
-    if not wanted:
-        return 0
-    for points, words in ((EXACT, name), (SYNONYM, name + also)):
-        if all(word in words for word in wanted):
-            return points
-    for points, words in ((BEGINNING, name), (SYNONYM_BEGINNING, name + also)):
-        if all(any(other.startswith(word) for other in words) for word in wanted):
+    ways = (
+        (EXACT, name, str.__eq__),
+        (SYNONYM, name + also, str.__eq__),
+        (BEGINNING, name, str.startswith),
+        (SYNONYM_BEGINNING, name + also, str.startswith),
+    )
+    for points, words, is_meant in ways if wanted else ():
+        if all(any(is_meant(other, word) for other in words) for word in wanted):
             return points
     return 0
 
@@ -93,23 +94,17 @@ def score(query: str, text: str) -> tuple[int, tuple[int, ...]] | None:
     do not.
     """
     wanted = [letter for letter in query.lower() if not letter.isspace()]
+    if not wanted:
+        return 0, ()
     lower = text.lower()
     if len(lower) != len(text):  # a letter that has no lower case of one letter
         lower = text
-    best: tuple[int, tuple[int, ...]] | None = None
     # Each occurrence of the first letter is a beginning; after it, the nearest letters are taken,
     # those that begin a word before others.
-    for start, letter in enumerate(lower):
-        if wanted and letter != wanted[0]:
-            continue
-        places = _places(wanted, lower, start)
-        if places is not None:
-            points = _points(places, lower)
-            if best is None or points > best[0]:
-                best = points, places
-        if not wanted:
-            return 0, ()
-    return best if lower or wanted else (0, ())
+    starts = (start for start, letter in enumerate(lower) if letter == wanted[0])
+    found = [places for start in starts if (places := _places(wanted, lower, start))]
+    scored = ((_points(places, lower), places) for places in found)
+    return max(scored, key=lambda row: row[0], default=None)
 
 
 def _places(wanted: list[str], text: str, start: int) -> tuple[int, ...] | None:

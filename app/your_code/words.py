@@ -11,11 +11,10 @@ import numpy as np
 
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
-from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.reports.told import diagnosis_told, told
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
-from app.your_code.model import BASIS, CodeRays, is_of_camera
+from app.your_code.model import BASIS, CodeRays
 from app.your_code.report import CodeReport
 from renderer.errors import visible
 from renderer.pixels import Indexing
@@ -95,63 +94,45 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
             return
     result = report.results.get(chosen.name)
     if result is None:
-        yield ToldLine(
-            "dim",
-            f"{chosen.name} is being tried with other cameras ..."
-            if is_of_camera(chosen)
-            else f"{chosen.name} is being tried ...",
-        )
-    elif rays is None or (rays.result.status == "right" and result.status != "right"):
-        if rays is not None:
+        yield ToldLine("dim", f"{chosen.name} is being tried with other cases ...")
+    elif rays is None or rays.result.status == "right":
+        if rays is not None and result.status != "right":
             yield ToldLine("bad", "But not for every camera:")
         yield from _of_result(result)
-    elif told(result).verdict == "right":
-        yield ToldLine(
-            "good", f"{chosen.name}: correct with {result.cases} cases of other cameras."
-        )
 
 
 def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     """Yield what the pictures show, and why."""
-    result, count = rays.result, int(rays.wrong.sum())
-    if _is_empty(result):
-        yield ToldLine("text", f"{rays.task.function} returns nothing yet. {rays.task.text}")
-    elif result.failure is not None:
-        yield from (
-            ToldLine("code" if k else "bad", line) for k, line in enumerate(told(result).lines)
-        )
+    result, is_basis = rays.result, rays.task.kind == BASIS
+    if result.failure is not None:
+        yield from _of_failure(result)
         if report.halted:
             yield ToldLine("dim", f"{HALTED}: choose fewer pixels, save the file, or press Run.")
     elif result.status == "right":
-        what = "basis" if rays.task.kind == BASIS else "ray"
-        yield ToldLine(
-            "good", f"Every {what} is correct." if what == "ray" else "The basis is correct."
-        )
+        yield ToldLine("good", "The basis is correct." if is_basis else "Every ray is correct.")
     else:
-        if rays.task.kind == BASIS:
-            yield ToldLine("bad", "The basis is wrong.")
-        else:
-            yield ToldLine("bad", f"{count} of {rays.wrong.size} rays are wrong.")
-        found = _diagnosis(report)
-        if found is None and report.chosen is not None and report.chosen.name not in report.results:
+        count = f"{int(rays.wrong.sum())} of {rays.wrong.size} rays are wrong."
+        yield ToldLine("bad", "The basis is wrong." if is_basis else count)
+        assert report.chosen is not None
+        tried = report.results.get(report.chosen.name)
+        found, others = report.diagnosis, tried.diagnosis if tried else None
+        if found is None or (others is not None and not found.candidates):
+            found = others  # of the task's many cameras
+        if found is None and tried is None:
             yield ToldLine("dim", "looking for the reason ...")
-        if found is not None:
-            sentences = diagnosis_told(rays.task, found)
-            yield from (ToldLine("text", sentence) for sentence in sentences)
-        if rays.task.kind == BASIS and result.first is not None:
+        for sentence in diagnosis_told(rays.task, found):
+            yield ToldLine("text", sentence)
+        if is_basis and result.first is not None:
             yield ToldLine("code", f"yours    {result.first.given}")
             yield ToldLine("code", f"correct  {result.first.right}")
 
 
-def _diagnosis(report: CodeReport) -> Diagnosis | None:
-    """Return the diagnosis for the window's camera; if it names no mistake, that of the task's many
-    cameras.
-    """
-    assert report.chosen is not None
-    tried = report.results.get(report.chosen.name)
-    others = tried.diagnosis if tried is not None else None
-    own = report.diagnosis
-    return others if own is None or (not own.candidates and others is not None) else own
+def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
+    if _is_empty(result):
+        yield ToldLine("text", f"{result.task.function} returns nothing yet. {result.task.text}")
+        return
+    for number, line in enumerate(told(result).lines):
+        yield ToldLine("code" if number else "bad", line)
 
 
 def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[ToldLine]:
@@ -167,19 +148,16 @@ def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[Told
 
 
 def _of_result(result: TaskResult) -> Iterator[ToldLine]:
-    say = told(result)
+    say, name = told(result), result.task.name
     if say.verdict is None:
-        yield ToldLine("text", f"{result.task.name} was tried. The course tells no more of it.")
-        return
-    if result.status == "right":
-        yield ToldLine("good", f"{result.task.name}: correct in all of {result.cases} cases.")
-        return
-    head = result.task.function
-    if _is_empty(result):
-        yield ToldLine("text", f"{head} returns nothing yet. {result.task.text}")
-        return
-    yield ToldLine("bad", f"{head} is wrong." if result.status == "wrong" else f"{head} failed.")
-    yield from (ToldLine("text", line) for line in say.lines)
+        yield ToldLine("text", f"{name} was tried. The course tells no more of it.")
+    elif result.failure is not None:
+        yield from _of_failure(result)
+    elif result.status == "right":
+        yield ToldLine("good", f"{name}: correct in all of {result.cases} cases.")
+    else:
+        yield ToldLine("bad", f"{result.task.function} is wrong.")
+        yield from (ToldLine("text", line) for line in say.lines)
 
 
 def _of_output(report: CodeReport) -> Iterator[ToldLine]:
@@ -189,13 +167,7 @@ def _of_output(report: CodeReport) -> Iterator[ToldLine]:
         output = result.output if result is not None else ""
     printed = output.rstrip().splitlines()
     if printed:
-        more = len(printed) - OUTPUT_LINES
-        yield ToldLine(
-            "dim",
-            f"printed, the last {OUTPUT_LINES} of {len(printed)} lines:"
-            if more > 0
-            else "printed:",
-        )
-        yield from (
-            ToldLine("code", visible(line).expandtabs(4)) for line in printed[-OUTPUT_LINES:]
-        )
+        cut = f", the last {OUTPUT_LINES} of {len(printed)} lines"
+        yield ToldLine("dim", f"printed{cut if len(printed) > OUTPUT_LINES else ''}:")
+        for line in printed[-OUTPUT_LINES:]:
+            yield ToldLine("code", visible(line).expandtabs(4))

@@ -13,7 +13,6 @@ Each raises LucidaError; a camera that the format cannot hold is never written.
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -94,9 +93,6 @@ def read_cameras(
     """
     found = source if isinstance(source, Given) else given(source)
     options = options or Options()
-    # Reading makes millions of small objects, none of them garbage; collecting would cost time.
-    collects = gc.isenabled()
-    gc.disable()
     try:
         entry = format_named(format) if format else recognised(found)
         cameras: CameraSet = entry.module.read(found, options)
@@ -105,9 +101,6 @@ def read_cameras(
         return cameras
     except LucidaError as error:
         raise error if error.source else error.in_file(found.name) from None
-    finally:
-        if collects:
-            gc.enable()
 
 
 def recognised(found: Given) -> Format:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import LARGEST, listed
+from renderer.camera_checks import listed
 from renderer.camera_formats import nerf_lens
 from renderer.camera_formats.distortion import FileLens
 from renderer.camera_formats.entries import (
@@ -56,7 +56,6 @@ _OPTICAL = {
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
-_DISAGREES = 0.01  # relative, of the focal length: files have few digits
 
 
 def recognises(given: Given) -> bool:
@@ -77,20 +76,18 @@ def read(given: Given, options: Options) -> CameraSet:
     origin = options.pixel_origin or "corner"
     shared = {name: value for name, value in table.items() if _is_optical(name)}
     optics: dict[str, _Optics] = {}  # by all the values that determine them
-    places: dict[str, str] = {}
-    poses = _poses_of(table, frames)
     cameras = []
     for i, frame in enumerate(frames):
         if not isinstance(frame, dict):
             raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
         try:
-            pose = poses[i] if poses is not None else _pose({**table, **frame})
+            pose = _pose({**table, **frame})
             own = {name: value for name, value in frame.items() if _is_optical(name)}
             key = repr(own) if own else ""
             if key not in optics:
                 optics[key] = _optics({**shared, **own}, size, origin, options)
             name = frame.get("file_path", table.get("file_path", ""))
-            cameras.append(_camera(pose, optics[key], name, folder, places))
+            cameras.append(_camera(pose, optics[key], name, folder))
         except LucidaError as error:
             inside = error.field in ("transform_matrix", *frame)
             raise error.within(f"frames[{i}]") if inside else error from None
@@ -98,8 +95,6 @@ def read(given: Given, options: Options) -> CameraSet:
     told += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         told.append("transform_matrix is no rotation, and held as it is")
-    if any(one.disagree for one in optics.values()):
-        told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     if "applied_transform" in table:
         told.append("applied_transform is not undone: the poses stand as they are in the file")
     told += [sizing] if sizing else []
@@ -133,7 +128,7 @@ def _size_for_all(
     ]
     if not lacking or options.size is not None:
         return options.size, ""
-    image = _image(lacking[0].get("file_path", ""), folder, {})
+    image = _image(lacking[0].get("file_path", ""), folder)
     if found := _size_of_image(image):
         return found, f"no w and h: the size of {image}, {found[0]} x {found[1]}"
     return None, "no w and h, nor an image: a square one is taken"
@@ -154,43 +149,18 @@ def _size_of_image(path: str) -> Size | None:
     return None
 
 
-def _image(name: object, folder: Path | None, places: dict[str, str]) -> str:
-    """Return the photograph's path; the synthetic scenes omit its ending.
-
-    places: a cache of folders, by the part of earlier names before the last slash. Raises
-    LucidaError.
-    """
+def _image(name: object, folder: Path | None) -> str:
+    """Return the photograph's path; the synthetic scenes omit its ending. Raises LucidaError."""
     if not isinstance(name, str):
         raise LucidaError("file_path", f"{name!r} is no text", "give the image's path")
     if not name:
         return ""
-    plain = name.replace("\\", "/").rstrip("/")
-    cut = plain.rfind("/") + 1
-    above, last = plain[:cut], plain[cut:]
-    if above not in places:
-        place = str(PurePosixPath(above) if folder is None else folder / PurePosixPath(above))
-        places[above] = "" if place == "." else place if place.endswith("/") else f"{place}/"
-    return places[above] + (last if _ENDING.search(last) else f"{last}.png")
+    path = (folder or Path()) / PurePosixPath(name.replace("\\", "/"))
+    return str(path if _ENDING.search(path.name) else path.with_name(f"{path.name}.png"))
 
 
 def _is_optical(name: str) -> bool:
     return name in _OPTICAL or name.startswith("ftheta_p")
-
-
-def _poses_of(table: Table, frames: Sequence[Any]) -> list[Any] | None:
-    """Return (u, v, w, eye) of each frame, all computed at once; None if any needs a closer
-    look.
-    """
-    try:
-        if "transform_matrix" in table:
-            return None
-        poses = np.array([frame["transform_matrix"] for frame in frames])
-    except (TypeError, ValueError, KeyError, OverflowError):
-        return None
-    if poses.dtype.kind not in "if" or poses.shape != (len(frames), 4, 4):
-        return None
-    good = (np.abs(poses) <= LARGEST).all() and (poses[:, 3] == (0, 0, 0, 1)).all()
-    return poses[:, :3].transpose(0, 2, 1).astype(float).tolist() if good else None
 
 
 def _pose(table: Table) -> list[Any]:
@@ -204,21 +174,17 @@ def _pose(table: Table) -> list[Any]:
 class _Optics(NamedTuple):
     """Everything about a frame but its pose.
 
-    viewport: at distance 1. signs: factors of u and v, -1 for a mirrored image. disagree: the file
-    has two different focal lengths.
+    viewport: at distance 1. signs: factors of u and v, -1 for a mirrored image.
     """
 
     size: Size | None
     viewport: tuple[float, float, float, float]
     signs: tuple[int, int] = (1, 1)
     lens: FileLens = FileLens(None, None)
-    disagree: bool = False
 
 
-def _camera(
-    pose: list[Any], optics: _Optics, name: object, folder: Path | None, places: dict[str, str]
-) -> PosedCamera:
-    image = _image(name, folder, places)
+def _camera(pose: list[Any], optics: _Optics, name: object, folder: Path | None) -> PosedCamera:
+    image = _image(name, folder)
     u, v, w, eye = map(tuple, pose)
     if optics.signs != (1, 1):
         u, v = (
@@ -265,18 +231,7 @@ def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _
     if lens.used is not None:
         with errors_as("fl_x"):
             check_for_lens(np.diag([fx, fy, 1.0]))
-    return _Optics(size, viewport, signs, lens, _disagree(table))
-
-
-def _disagree(table: Table) -> bool:
-    """Return True if the focal length is given in both ways, and they differ by more than a
-    percent.
-    """
-    angle = table.get("camera_angle_x")
-    if not isinstance(angle, float) or not 0 < angle < math.pi or not {"fl_x", "w"} <= table.keys():
-        return False
-    fx = table["w"] / 2 / math.tan(angle / 2)
-    return not math.isclose(fx, table["fl_x"], rel_tol=_DISAGREES)
+    return _Optics(size, viewport, signs, lens)
 
 
 def _half_of_square(table: Table) -> float:

@@ -21,7 +21,6 @@ from renderer.raster.lines import BLENDING, Layer, LineRenderer
 from renderer.raster.resources import Owner
 from renderer.raster.screen_pass import (
     SizedTarget,
-    Target,
     cover,
     new_array,
     plain_state,
@@ -123,7 +122,6 @@ class Overlay:
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._owner = own = Owner()
-        self._enlarge = new_array(own, context, "picture.vert", "picture.frag")
         self._place = new_array(own, context, "plane.vert", "plane.frag")
         self._lay_cloud = new_array(own, context, "screen.vert", "cloud.frag")
         self._show = new_array(own, context, "screen.vert", "scene.frag")
@@ -189,18 +187,17 @@ class Overlay:
     ) -> moderngl.Texture:
         """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
-        scene: drawn by `camera`, at `size` or coarser. mean: the scene's colour with smooth edges,
+        scene: drawn by `camera`, at `size`. mean: the scene's colour with smooth edges,
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
         if unknown. cloud: of this size, by the same camera; below the layers.
         """
-        gl, coarse = self._gl, scene.surface.size
+        gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)
         has_plane = plane is not None and picture is not None
         shared: dict[str, Any] = {
             "surface": 1,
-            "texels": (coarse[0] / size[0], coarse[1] / size[1]),
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
             "has_plane": has_plane,
@@ -212,7 +209,7 @@ class Overlay:
             shared["plane_depth"] = tuple(plane.depth.tolist())
         with plain_state(gl, 5):
             shown = self._scene_shown(mean or scene.color, exposure_ev, number)
-            self._cover(shown, framebuffer)
+            gl.copy_framebuffer(framebuffer, shown)
             try:
                 framebuffer.color_mask = True, True, True, False  # the target stays opaque
                 framebuffer.use()  # applies the mask
@@ -237,30 +234,15 @@ class Overlay:
                 framebuffer.color_mask = True, True, True, True
         return drawn
 
-    def _cover(self, shown: Target, target: moderngl.Framebuffer) -> None:
-        """Fill the target with a picture, and bind it. If the sizes match, copy: on a CPU, a copy
-        is many times cheaper than a shader.
-        """
-        target.use()
-        picture, source = shown
-        if picture.size == target.size:
-            self._gl.copy_framebuffer(target, source)
-            target.use()
-            return
-        picture.use(0)
-        picture.filter = moderngl.LINEAR, moderngl.LINEAR
-        set_uniforms(self._enlarge.program, picture=0)
-        self._enlarge.render(moderngl.TRIANGLES, vertices=6)
-
     def _scene_shown(
         self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
-    ) -> Target:
+    ) -> moderngl.Framebuffer:
         """Return the scene after the display transform, recomputed only if necessary."""
-        texture, framebuffer = self._targets["scene"].of_size(linear.size)
+        _, framebuffer = self._targets["scene"].of_size(linear.size)
         if number is None:
             self._shown.forget()
         self._shown(self._show, framebuffer, linear, number, exposure_ev)
-        return texture, framebuffer
+        return framebuffer
 
     def release(self) -> None:
         self._owner.release()

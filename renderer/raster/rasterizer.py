@@ -21,7 +21,7 @@ from renderer.errors import LucidaError
 from renderer.frame import Frame, check_channels, check_size
 from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
 from renderer.raster.contexts import check_process, is_inherited, open_platform
-from renderer.raster.lens_passes import way_of
+from renderer.raster.lens_passes import draw_passes
 from renderer.raster.prepared import Prepared, prepare
 from renderer.raster.programs import Programs
 from renderer.raster.resources import Owner, check
@@ -200,12 +200,7 @@ class Rasterizer:
         assert data is not None  # current() has checked that
         targets = self._targets_of(gl, size, place)
         data.bind()
-        number, count = 0, 1
-        while number < count:
-            way = way_of(camera, enlargement, number, data, targets)
-            way.see()
-            way.shade()
-            number, count = number + 1, way.count
+        draw_passes(camera, enlargement, data, targets)
         return targets
 
     def _targets_of(self, gl: moderngl.Context, size: tuple[int, int], place: str) -> Targets:

@@ -114,12 +114,11 @@ class FlatScene(NamedTuple):
 def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatScene:
     """Return the scene's arrays. Raises LucidaError if a transformed mesh leaves float32's range.
 
-    known: a scene that was flattened before, and its arrays. What the two have in common (the same
-    arrays of Python's meshes, at any place) is taken from them.
+    known: a scene that was flattened before, and its arrays. If the two differ only in places and
+    materials, what they have in common is taken from them.
     """
-    old = _Known(*known) if known else None
-    is_same = old is not None and old.arrays == _layout_of(scene)
-    layout = _same_layout(old.flat) if old is not None and is_same else _new_layout(scene)
+    old = known[1] if known and _layout_of(known[0]) == _layout_of(scene) else None
+    layout = _same_layout(old) if old is not None else _new_layout(scene)
     world_from_object = _world_from_object(scene)
     object_bounds = _object_bounds(scene, old)
     low, high = _checked_boxes(scene, world_from_object, object_bounds)
@@ -129,7 +128,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     textured = texture_arrays(scene, layout.object_vertices, known and _known_textures(*known))
     flat = FlatScene(
         **layout._asdict(),
-        normals=_normals(scene, old, is_same, world_from_object),
+        normals=_normals(scene, old, world_from_object),
         spheres=np.array(spheres, np.float64).reshape(-1, 4),
         object_bounds=object_bounds,
         world_from_object=world_from_object,
@@ -216,25 +215,6 @@ def _shapes(scene: Scene) -> list[Shape]:
     return [entry.shape for entry in scene.objects]
 
 
-class _Known:
-    """A scene that was flattened before. arrays: see _layout_of. of_arrays: an object of each mesh
-    that is seen there; turned: of each mesh in each turn."""
-
-    def __init__(self, scene: Scene, flat: FlatScene) -> None:
-        self.flat, self.arrays = flat, _layout_of(scene)
-        meshes = [(arrays, k) for k, arrays in enumerate(self.arrays) if len(arrays) > 1]
-        self.of_arrays = dict(meshes)
-        self.turned = {(a, flat.world_from_object[k, :3, :3].tobytes()): k for a, k in meshes}
-
-    def normals(self, mesh: Mesh) -> F32 | None:
-        """Return a mesh's normals in its rotation, world space; None if there were none."""
-        number = self.turned.get((_arrays(mesh), mesh.transform[:3, :3].tobytes()))
-        if number is None:
-            return None
-        first, count = self.flat.object_vertices[number]
-        return self.flat.normals[first : first + count]
-
-
 def _layout_of(scene: Scene) -> list[tuple[int, ...]]:
     """Return for each object a key of its arrays: one number for a sphere, none if it is hidden."""
     return [() if entry.hidden else _arrays(entry.shape) for entry in scene.objects]
@@ -276,14 +256,13 @@ def _world_from_object(scene: Scene) -> F64:
     return matrices
 
 
-def _object_bounds(scene: Scene, old: _Known | None) -> F64:
+def _object_bounds(scene: Scene, old: FlatScene | None) -> F64:
     bounds = np.empty((len(scene.objects), 2, 3))
     for number, shape in enumerate(_shapes(scene)):
-        known = old.of_arrays.get(_arrays(shape)) if old is not None else None
         if isinstance(shape, Sphere):
             bounds[number, 0], bounds[number, 1] = -shape.radius, shape.radius
-        elif old is not None and known is not None:
-            bounds[number] = old.flat.object_bounds[known]
+        elif old is not None and not scene.objects[number].hidden:
+            bounds[number] = old.object_bounds[number]
         else:
             bounds[number] = extent(shape.vertices)
     return bounds
@@ -302,19 +281,20 @@ def _checked_boxes(scene: Scene, world_from_object: F64, object_bounds: F64) -> 
     return low, high
 
 
-def _normals(scene: Scene, old: _Known | None, is_same: bool, world_from_object: F64) -> F32:
-    """Return the world normals; those of meshes in a known turn are taken from what is known."""
-    if old is not None and is_same:
-        # Each object in its own turn: two may share a mesh, and one now be turned as the other was.
-        turns, known_turns = world_from_object[:, :3, :3], old.flat.world_from_object[:, :3, :3]
-        if np.array_equal(turns, known_turns):
-            return old.flat.normals
-    meshes = [entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh)]
-    known = [old.normals(mesh) if old is not None else None for mesh in meshes]
-    parts = [
-        _world_normals(mesh) if part is None else part
-        for mesh, part in zip(meshes, known, strict=True)
-    ]
+def _normals(scene: Scene, old: FlatScene | None, world_from_object: F64) -> F32:
+    """Return the world normals. Objects that are not turned keep those that are known."""
+    turns = world_from_object[:, :3, :3]
+    if old is not None and np.array_equal(turns, old.world_from_object[:, :3, :3]):
+        return old.normals
+    parts = []
+    for number, entry in scene.visible:
+        if not isinstance(mesh := entry.shape, Mesh):
+            continue
+        if old is not None and (turns[number] == old.world_from_object[number, :3, :3]).all():
+            first, count = old.object_vertices[number]
+            parts.append(old.normals[first : first + count])
+        else:
+            parts.append(_world_normals(mesh))
     return _stack(parts, np.float32)
 
 

@@ -88,7 +88,7 @@ def _smooth_corners(
     """
     begin, end = faces, np.roll(faces, -1, axis=1)
     key = (np.minimum(begin, end) * vertex_count + np.maximum(begin, end)).reshape(-1)
-    order = _stable_order(key)
+    order = np.argsort(key, kind="stable")
     same = key[order[1:]] == key[order[:-1]]
     first, second = order[:-1][same], order[1:][same]
     # Two faces of one winding run along their common edge in opposite directions.
@@ -98,18 +98,6 @@ def _smooth_corners(
     first, second = first[smooth], second[smooth]
     after_first, after_second = (edge - edge % 3 + (edge + 1) % 3 for edge in (first, second))
     return np.concatenate([first, after_first]), np.concatenate([after_second, second])
-
-
-def _stable_order(key: Ints) -> Ints:
-    """Return np.argsort(key, kind="stable") of numbers >= 0, in two thirds of its time: the index
-    is packed below the number if both fit into 63 bits.
-    """
-    bits = len(key).bit_length()
-    if not len(key) or int(key.max()).bit_length() + bits > 63:
-        return np.argsort(key, kind="stable")
-    placed = key << bits | np.arange(len(key))
-    placed.sort()
-    return placed & ((1 << bits) - 1)
 
 
 def _components(count: int, a: Ints, b: Ints) -> Ints:

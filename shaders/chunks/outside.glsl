@@ -1,8 +1,7 @@
 // What hides what in the outside view: the scene by its t, the image plane by its formula.
 // Positions are in pixels of the target, y down; t counts along the outside camera's rays.
 
-uniform sampler2D surface;      // the scene's: t in w; coarser than the target while things move
-uniform vec2 texels;            // of the surface in a pixel of the target
+uniform sampler2D surface;      // the scene's: t in w
 uniform float perspective;      // 1: depth s is 1 / t, 0: it is t; both are affine on the screen
 uniform vec2 half_size;         // of the target, in pixels
 uniform bool has_plane;
@@ -12,7 +11,7 @@ uniform vec3 plane_depth;       // s of (x, y, 1)
 
 float scene_t(vec2 position) {
     ivec2 last = textureSize(surface, 0) - 1;
-    return texelFetch(surface, clamp(ivec2(floor(position * texels)), ivec2(0), last), 0).w;
+    return texelFetch(surface, clamp(ivec2(floor(position)), ivec2(0), last), 0).w;
 }
 
 // (X q, Y q, q, s) of the image plane at a position: affine on the screen.

@@ -56,7 +56,7 @@ def test_answers_are_judged_as_they_are(task):
             else:
                 assert result.first is None
             count[kind] += 1
-    assert count["right"] >= 5 and count["wrong"] >= 2 and count["unusable"] >= 1, count
+    assert count["right"] >= 3 and count["wrong"] >= 1 and count["unusable"] >= 1, count
 
 
 @pytest.mark.parametrize("task", VALUES, ids=lambda task: task.name)

@@ -71,15 +71,6 @@ def test_what_is_asked_is_clear(name):
             assert solve(*values)[1] > MARGIN
 
 
-def test_an_image_from_the_bottom():
-    task = TASKS["render"]
-    upside_down = replace(task, conventions=replace(task.conventions, rows="bottom"))
-    for one, other in zip(
-        KINDS["render"].cases(task), KINDS["render"].cases(upside_down), strict=True
-    ):
-        assert (one.right == other.right[::-1]).all()
-
-
 def test_a_threshold_that_is_met():
     for inclusive in (True, False):
         task = replace(TASKS["to-bitmap"], inclusive=inclusive)

@@ -11,10 +11,7 @@ from app.checking.calls import Run
 from app.checking.checked import judged
 from app.checking.diagnosed import MOST
 from app.checking.kinds import KINDS
-from app.checking.mistakes.rays import WORDS
-from app.checking.ray_words import ray_task
 from renderer.camera import Camera
-from renderer.pixels import Indexing
 from renderer.scene.model import View
 
 TASKS = {task.name: task for task in BUILTIN}
@@ -52,18 +49,3 @@ def test_of_a_large_image_some_rays_are_looked_at():
     assert MOST < 64 * 48
     found = diagnosis_of(task, flipped).candidates  # of one symmetric camera, others look the same
     assert "rows count upwards" in [mistake.name for one in found for mistake in one]
-
-
-def test_words_of_a_course_are_those_of_the_table_where_it_has_them():
-    conventions = TASKS["viewing-ray"].conventions
-    own = ray_task(replace(conventions, base=1, rows="bottom"))
-    assert (own.indexing, own.from_top, own.words) == (Indexing.LECTURE, False, WORDS)
-    camera = (("pos", "eye"), ("look", "target"), ("up", "up"), ("fov", "fov_y"), ("a", "aspect"))
-    arguments = (("xy", "xy01"), ("camera", "camera"))
-    course = ray_task(replace(conventions, arguments=arguments, camera=camera))
-    assert {"x01", "y01", "eye", "target", "up", "fov_y", "aspect"} <= course.words
-    assert "i" not in course.words and "u" not in course.words
-    deltas = (("p", "pixel00"), ("du", "delta_u"), ("dv", "delta_v"))
-    arguments = (("column", "column"), ("row", "row"), ("camera", "camera"))
-    other = ray_task(replace(conventions, arguments=arguments, camera=deltas))
-    assert other.words == WORDS

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from asked_rays import made_camera
 
-from app.checking.kinds.shapes import hits
-from app.checking.mistakes.hits import SHAPES, crossings
+from app.checking.mistakes.hits import SHAPES
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.mistakes.render import render_program, render_values
 from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_values
@@ -93,11 +92,7 @@ PROGRAMS = {  # with the number of cases
     "closest": (value_program("closest-hit"), closest_case, 30),
     "gray": (value_program("to-gray"), gray_case, 6),
     "bitmap": (value_program("to-bitmap"), bitmap_case, 12),
-    "bitmap, more than": (value_program("to-bitmap", inclusive=False), bitmap_case, 12),
     "offset": (value_program("memory-offset", stride=12), offset_case, 20),
-    "offset, from 1, by columns": (
-        value_program("memory-offset", base=1, column_major=True), offset_case, 20
-    ),
     "project": (value_program("project"), lens_case, 10),
     "fisheye": (value_program("project-fisheye"), lens_case, 10),
     "undistort": (value_program("undistort"), lens_case, 10),
@@ -182,25 +177,6 @@ def test_two_at_once(name):
         assert said.candidates
 
 
-@pytest.mark.parametrize("kind", ["sphere", "triangle"])
-def test_the_right_lines_are_the_checker_s(kind):
-    program, cases = program_and_cases(kind, 2)
-    for known in cases:
-        t = hits(known["origin"], known["direction"], {"type": kind} | known)[0]
-        assert float(np.squeeze(program.run(known)[0])) == pytest.approx(float(t))
-
-
-def test_all_crossings():
-    ball = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
-    assert crossings([0, 0, 5], [0, 0, -2], ball) == pytest.approx([2, 3])
-    flat = {"type": "triangle", "a": [-1, -1, 0], "b": [2, -1, 0], "c": [-1, 2, 0]}
-    assert crossings([0, 0, -5], [0, 0, -2], flat) == pytest.approx([-2.5])
-    assert np.isnan(crossings([9, 9, 5], [0, 0, -2], flat)).all()
-    assert SHAPES["hit"]([0, 0, 5], [0, 0, 2], ball) == math.inf
-    assert SHAPES["first_crossing"]([0, 0, 5], [0, 0, 2], ball) == -3
-    assert SHAPES["last_crossing"]([0, 0, 5], [0, 0, -2], ball) == 3
-
-
 class TestRender:
     def cases(self, projection, from_top=True):
         random = np.random.default_rng(6)
@@ -215,21 +191,6 @@ class TestRender:
         return task, made, [
             render_values(camera, size, task, *scene) for camera, size, *scene in made
         ]  # fmt: skip
-
-    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-    def test_nearest_objects_are_seen(self, projection):
-        """Pixel by pixel, by each object's own hit."""
-        task, made, known = self.cases(projection)
-        for (camera, size, objects, background), values in zip(made, known, strict=True):
-            (image,) = render_program(task).run(values)
-            assert image.shape == (size[1], size[0], 3)
-            for i in range(size[1]):
-                for j in range(size[0]):
-                    ray = camera.ray(i, j, size)
-                    hits = [float(SHAPES["hit"](*ray, shape)) for shape in objects]
-                    nearest = int(np.argmin(hits))
-                    seen = objects[nearest]["color"] if hits[nearest] < np.inf else background
-                    assert image[i, j].tolist() == seen
 
     @pytest.mark.parametrize("projection", ["perspective", "parallel"])
     def test_each_mistake_is_named(self, projection):
@@ -261,11 +222,5 @@ def test_facts():
         return diagnose_values(program, asked, np.array(right) != np.array(given)).sentences
 
     inf = math.inf
-    assert said([1.0, inf, 2.0], [inf, 1.0, 2.0]) == (
-        "Hits that you do not find: 1.",
-        "Hits that you find where there is none: 1.",
-    )
-    told = ("Your numbers are 3 times the correct ones.",)
-    assert said([1.0, inf, 2.0, 4.0], [3.0, inf, 6.0, 12.0]) == told
     assert said([1.0, inf, 2.0], [inf] * 3) == ("You never find a hit.",)
     assert said([1.0, inf, 2.0], [2.5] * 3) == ("All your answers are 2.5, whatever is asked.",)

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from app.checking.kinds import values
 from app.checking.kinds.hits import parameter
-from app.checking.kinds.images import array
 
 numbers = st.floats(allow_nan=False) | st.integers(-(10**6), 10**6)
 triples = st.tuples(numbers, numbers, numbers).map(list)
@@ -53,7 +52,7 @@ def test_nothing_that_json_has_is_too_strange(value):
     assert read is None or np.shape(read) == (2, 3)
     t = parameter(value)
     assert t is None or isinstance(t, float)
-    image = array(value)
+    image = values.array(value)
     assert image is None or image.dtype == np.float64
     assert len(values.shown(value)) <= values.SHOWN
 

@@ -148,7 +148,9 @@ def test_no_more_is_told_than_the_feedback_says(check, tmp_path, feedback):
     shown = ["visible" if feedback != "nothing" else "hidden"] * 2
     assert [test["visibility"] for test in values["tests"]] == shown
     if feedback == "nothing":
-        assert told == (False, False) and out == "tried   memory-offset\ntried   hit-sphere\n"
+        assert told == (False, False) and out.startswith(
+            "tried   memory-offset\ntried   hit-sphere\n2 tasks were"
+        )
         assert "given" not in text and "right" not in text
     elif feedback == "verdict":
         assert told == (True, False) and "given" not in text and "center=" not in text

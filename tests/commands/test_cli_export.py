@@ -51,9 +51,9 @@ def test_a_mistake_is_one_line_and_nothing_is_written(arguments, told, capsys):
     assert not os.listdir()
 
 
-def test_scenes_lists_a_model_s_cameras(capsys):
+def test_scene_lists_a_model_s_cameras(capsys):
     assert main(["export", "spheres", "-o", "a.glb", "--eye", "0,2,9"]) == 0
     capsys.readouterr()
-    assert main(["scenes", "a.glb"]) == 0
-    (line,) = (line for line in capsys.readouterr().out.splitlines() if "camera" in line)
+    assert main(["scene", "a.glb"]) == 0
+    (line,) = (line for line in capsys.readouterr().out.splitlines() if "camera '" in line)
     assert line == "  camera 'camera': perspective from (0, 2, 9)"

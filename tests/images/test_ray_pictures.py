@@ -170,7 +170,7 @@ def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures,
     def make(painter):
         calls.append(painter)
         if asks == "hit":
-            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0])
+            return float(painter.hits([ORIGINS[0, 0]], [DIRECTIONS[0, 0]])[0])
         return along(painter)
 
     def again() -> bool:
@@ -201,7 +201,7 @@ def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures,
     def make(painter):
         calls.append(painter)
         if asks == "hit":
-            return painter.hit(ORIGINS[0, 0], DIRECTIONS[0, 0])
+            return float(painter.hits([ORIGINS[0, 0]], [DIRECTIONS[0, 0]])[0])
         return along(painter)
 
     wait_for(lambda: pictures.follow("key", OTHER, asked, make) is not None)

@@ -4,7 +4,6 @@ told. Against the camera's own arithmetic."""
 from __future__ import annotations
 
 import math
-import threading
 from dataclasses import replace
 from typing import Any
 
@@ -12,8 +11,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from looked_at import LOOKING, SIZE, cameras, looking_cameras, vectors
+from looked_at import SIZE, cameras, looking_cameras, vectors
 
+from app.images.ray_pictures import RayPainter
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import RayEnd, Segments
 from app.outside.gizmo import (
@@ -23,13 +23,14 @@ from app.outside.gizmo import (
     rotation_between,
     rotation_of,
 )
-from app.outside.hits import RayHits, RayQuery
+from app.outside.looking import ray_depths
 from app.outside.options import OutsideOptions
 from app.outside.projected import Text, project
 from app.outside.screen import OutsideScreen
 from renderer.camera import Camera
 from renderer.errors import LucidaError
-from renderer.scene.model import Scene
+from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.trace import Tracer
 
 
 class TestDiagram:
@@ -133,66 +134,14 @@ class TestHandles:
             assert gl_matrices(camera, eye + 5 * np.asarray(camera.w), 3.0) is None
 
 
-class FakeTracer:
-    """Answers when it is let to."""
-
-    def __init__(self, scene: Scene) -> None:
-        self.go = threading.Event()
-        self.asked: list[int] = []
-        self.scene, self.scenes = scene, 1
-
-    def closest_hits(
-        self, origins: np.ndarray, directions: np.ndarray, t_min: float, t_max: float
-    ) -> tuple[np.ndarray, np.ndarray]:
-        assert self.go.wait(30)
-        self.asked.append(len(origins))
-        return np.full(len(origins), 7.0, np.float32), np.zeros(len(origins), np.int32)
-
-
-def test_rays_are_asked_for_without_waiting() -> None:
-    came, tracer = threading.Event(), FakeTracer(Scene(()))
-    hits = RayHits(came.set)
-    question = RayQuery(tracer.scene, Camera.canonical(), SIZE, ((1, 2), (3, 4)))
-    assert hits.ask(question, tracer) == {(1, 2): None, (3, 4): None}
-    assert hits.busy
-    tracer.go.set()
-    assert came.wait(30)
-    assert hits.ask(question, tracer) == {(1, 2): 7.0, (3, 4): 7.0}
-    assert not hits.busy
-    assert tracer.asked == [2]  # once
-    came.clear()
-    moved = replace(question, camera=LOOKING, pixels=((3, 4), (5, 6)))
-    assert hits.ask(moved, tracer) == {(3, 4): 7.0, (5, 6): None}  # the last known, until it comes
-    assert came.wait(30)
-    assert hits.ask(moved, tracer) == {(3, 4): 7.0, (5, 6): 7.0}
-    other = replace(question, scene=Scene(()))
-    assert hits.ask(other, tracer) == {(1, 2): None, (3, 4): None}
-    hits.close()
-
-
-@pytest.mark.parametrize("comes_back", [False, True])
-def test_rays_that_another_scene_may_have_stopped_are_asked_for_again(comes_back: bool) -> None:
-    """The window's tracer goes on to another scene while it is asked."""
-
-    class GoesOn(FakeTracer):
-        def closest_hits(self, *given: Any) -> tuple[np.ndarray, np.ndarray]:
-            self.scenes += 1 + comes_back
-            self.scene = self.scene if comes_back else Scene(())
-            return super().closest_hits(*given)
-
-    came, scene = threading.Event(), Scene(())
-    gone, good = GoesOn(scene), FakeTracer(scene)
-    gone.go.set()
-    good.go.set()
-    hits = RayHits(came.set)
-    question = RayQuery(scene, Camera.canonical(), SIZE, ((1, 2),))
-    assert hits.ask(question, gone) == {(1, 2): None}
-    assert came.wait(30)
-    came.clear()
-    assert hits.ask(question, good) == {(1, 2): None}
-    assert came.wait(30)
-    assert hits.ask(question, good) == {(1, 2): 7.0}
-    hits.close()
+def test_rays_end_where_the_image_sees_something() -> None:
+    scene = Scene((SceneObject(Sphere((0.0, 0.0, -3.0), 1.0)),))
+    camera, pixels = Camera.canonical(), ((0, 0), (SIZE[1] // 2, SIZE[0] // 2))
+    with Tracer(scene, threads=1) as tracer:
+        found = ray_depths(RayPainter(scene, tracer, lambda: True), camera, SIZE, pixels)
+        depth = tracer.render(camera, SIZE, ("depth",)).channel("depth")
+    assert found == pytest.approx({pixel: float(depth[pixel]) for pixel in pixels})
+    assert math.isinf(found[pixels[0]]) and math.isfinite(found[pixels[1]])
 
 
 def test_a_motion_is_told_in_the_letters_of_the_basis() -> None:

@@ -57,9 +57,8 @@ def drawn(
     items: list[Item],
     plane: Plane | None = None,
     unit_px: float = 1.0,
-    coarse: int = 1,
 ) -> NDArray[np.uint8]:
-    """The view's pixels, (height, width, 3). coarse: how many are one of the scene's, a side."""
+    """The view's pixels, (height, width, 3)."""
     rasterizer.set_scene(scene)
     with rasterizer.current() as gl:
         overlay = Overlay(gl)
@@ -69,7 +68,7 @@ def drawn(
         try:
             primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
             texture = overlay.draw(
-                rasterizer.draw(camera, (SIZE[0] // coarse, SIZE[1] // coarse), "outside"),
+                rasterizer.draw(camera, SIZE, "outside"),
                 camera,
                 SIZE,
                 layers(primitives, DARK_GROUND),
@@ -255,26 +254,6 @@ def test_no_camera_breaks_the_drawing(rasterizer: Rasterizer) -> None:
         except LucidaError:
             plane = None
         assert drawn(rasterizer, BALL, camera, items, plane).shape == (SIZE[1], SIZE[0], 3)
-
-
-def test_over_a_coarse_scene_lines_and_the_picture_stay_sharp(rasterizer: Rasterizer) -> None:
-    """Upside down too, as a picture is that is copied under a window."""
-    camera = outsides()[0]
-    plane = picture_plane(camera)
-    corners = np.array([[-0.5, -0.5, 1.1], [0.5, -0.5, 1.1], [0.5, 0.5, 1.1]])
-    items: list[Item] = [
-        line((-2.5, -1.4, 1.0), (2.0, 1.2, 1.0), width=3.0),
-        Face("f", "grid", corners, 0.5),
-    ]
-    empty, full = (drawn(rasterizer, scene, camera, items, plane) for scene in (EMPTY, BALL))
-    for factor in (2, 4):
-        nothing = drawn(rasterizer, EMPTY, camera, items, plane, coarse=factor).astype(int)
-        assert np.abs(nothing - empty).max() <= 1
-        coarse = drawn(rasterizer, BALL, camera, items, plane, coarse=factor)
-        different = np.abs(coarse.astype(int) - full).max(axis=2) > 8
-        # Along the ball's edge, and where that hides the line or the picture.
-        assert 0 < different.mean() < 0.01 * factor
-    assert np.abs(at(coarse, camera, (1.9, 1.147, 1.0)) - solid_color("extra")).max() < 4
 
 
 def test_the_scenes_parameter_is_read_at_a_place(rasterizer: Rasterizer) -> None:

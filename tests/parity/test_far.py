@@ -172,11 +172,9 @@ def test_single_rays_start_anywhere():
     with Tracer(scene) as tracer:
         t, primitive = tracer.closest_hits(origins, directions)
         frame = tracer.render(camera, SIZE, channels=CHANNELS)
-        hit = tracer.any_hits(origins, directions)
     same = primitive == frame.primitive.ravel()
     assert same.mean() > 0.99
-    np.testing.assert_array_equal(hit, primitive >= 0)
-    seen = same & hit
+    seen = same & (primitive >= 0)
     np.testing.assert_allclose(t[seen], frame.depth.ravel()[seen], rtol=1e-4)
 
 
@@ -205,9 +203,6 @@ def test_probe_loops_and_picking_see_what_the_images_show(view):
             continue
         np.testing.assert_allclose(loop_parts.color_at(model, ray, nearest), reading.color)
         off += bool(np.abs(np.array(reading.color) - frame.color[i, j]).max() > 2e-3)
-        for entry, hit in zip(model.objects, hits, strict=True):
-            rows, columns = loop_parts.bounding_box(entry, camera, SIZE)
-            assert hit is loop_parts.MISS or (i in rows and j in columns)
     assert off <= 2
 
 

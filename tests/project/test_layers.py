@@ -113,8 +113,7 @@ DRAW = {
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
     "painting parts pixel_plane scrubber tint tools widening",
-    "objects": "handles icons in_views inspector material_fields outliner outliner_row "
-    "value_fields",
+    "objects": "handles in_views inspector material_fields outliner value_fields",
     "probe": "histogram",
     "stepper": "controls listing numbers plan",
     "costs": "plots",

@@ -11,7 +11,6 @@ from window_driver import SIZE, Key
 
 from app.pair.view import RASTER, RAY
 from app.widgets.theme import framebuffer_scale
-from renderer.images import to_srgb8
 from renderer.lenses import Lens
 from renderer.raster import Display
 
@@ -120,11 +119,6 @@ def drive_resolutions_are_fixed_and_fitted(d):
             scale = framebuffer_scale()
             assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
         assert at.whole == (size[0] < 1000)
-    # Minified: the mean of what a screen pixel covers, in linear light.
-    for number, (name, image) in enumerate(zip((RASTER, RAY), d.images(), strict=True)):
-        expected = reduced(both.agreement.pair[1 + number].color, placement(d, name).extent)
-        difference = np.abs(without_overlays(image) - without_overlays(expected))
-        assert (difference <= 2).mean() > 0.999, name
     # A size of one's own.
     d.ctx.key_press(ALT | int(Key.s))
     d.ctx.yield_(3)
@@ -144,24 +138,6 @@ def drive_resolutions_are_fixed_and_fitted(d):
         window.undo()
     d.settle()
     assert window.state == d.start
-
-
-def reduced(color: np.ndarray, extent: tuple[int, int]) -> np.ndarray:
-    """Linear light averaged by area over (width, height) pixels, as sRGB, int16."""
-    for axis, count in ((1, extent[0]), (0, extent[1])):
-        size = color.shape[axis]
-        edges = np.arange(count + 1) * (size / count)
-        sums = np.concatenate(
-            [np.zeros_like(np.take(color, [0], axis)), color.clip(0, 1).cumsum(axis, np.float64)],
-            axis,
-        )
-        low = np.minimum(edges.astype(int), size - 1)
-        shape = [1, 1, 1]
-        shape[axis] = -1
-        part = (edges - low).reshape(shape)
-        at = np.take(sums, low, axis) * (1 - part) + np.take(sums, low + 1, axis) * part
-        color = np.diff(at, axis=axis) / (size / count)
-    return to_srgb8(color.astype(np.float32)).astype(np.int16)
 
 
 def drive_single_channels_and_linear_light(d):

@@ -69,19 +69,6 @@ def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
     d.picture()
 
 
-def drive_keys_walk_from_object_to_object(d: Driver) -> None:
-    enter(d)
-    click(d, seen_at(d, RASTER, "matte sphere"), double=True)
-    names = [row.shown for row in rows_of(d.window.state.scene)]
-    at = names.index("matte sphere")
-    for step, key in ((1, Key.period), (-1, Key.comma), (-1, Key.comma)):
-        at += step
-        d.press(int(key))
-        assert now(d) == (names[at],)
-    d.press(int(Key.escape))
-    assert now(d) == ()
-
-
 def drive_outlines_end_where_the_image_does(d: Driver) -> None:
     enter(d)
     window = d.window

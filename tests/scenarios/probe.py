@@ -47,21 +47,7 @@ def reading(d: Driver) -> Reading:
 
 
 def check(d: Driver, found: Reading) -> None:
-    """Against the formulas written out, and against the traced image."""
-    camera, (width, height) = d.window.renderers.camera(d.window.state), d.window.renderers.size
-    left, right, bottom, top = camera.viewport
-    i, j = found.pixel[0] + 1, found.pixel[1] + 1
-    u = left + (right - left) * (j - 0.5) / width
-    v = top - (top - bottom) * (i - 0.5) / height
-    vectors = (np.array(vector) for vector in (camera.eye, camera.u, camera.v, camera.w))
-    eye, bu, bv, bw = vectors
-    assert np.allclose((found.x, found.y), (u, v))
-    if camera.is_parallel:
-        assert np.allclose(found.origin, eye + u * bu + v * bv)
-        assert np.allclose(found.direction, -bw)
-    else:
-        assert np.allclose(found.origin, eye)
-        assert np.allclose(found.direction, u * bu + v * bv - camera.distance * bw)
+    """Compare with the traced image; test_probe_agrees.py has all numbers."""
     image = d.window.renderers.ray_image
     assert image is not None and image.factor == 1
     frame, pixel = image.frame, found.pixel
@@ -69,9 +55,6 @@ def check(d: Driver, found: Reading) -> None:
     if frame.id[pixel] != number:  # within rounding of an outline
         assert (frame.id[pixel[0] - 1 : pixel[0] + 2, pixel[1] - 1 : pixel[1] + 2] == number).any()
         return
-    if found.hit is not None:
-        assert np.isclose(found.hit.t, frame.depth[pixel], rtol=1e-4)
-        assert np.allclose(found.hit.normal, frame.normal[pixel], atol=1e-3)
     shown = to_srgb8(frame.color[pixel]).astype(int)
     assert np.abs(shown - found.bytes).max() <= 2
 

@@ -8,12 +8,9 @@ from pathlib import Path
 from maximised import Maximised
 from window_driver import Driver, Key
 
-from app.laboratory.options import LaboratoryOptions
 from app.laboratory.vector_view import Both
 from app.laboratory.view import LaboratoryView
-from app.state.bounds import range_of
 
-LARGEST_ZOOM = range_of(LaboratoryOptions, "zoom")[1]
 ALONE = Maximised(LaboratoryView, "laboratory")
 SPACE = "{http://www.w3.org/2000/svg}"
 

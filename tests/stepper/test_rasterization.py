@@ -15,7 +15,16 @@ from app.stepper import model as stepper
 from app.stepper.loop_parts import Model
 from app.stepper.loops import image_order, rasterization
 from app.stepper.model import moment_at
-from app.stepper.raster_parts import WHOLE, Corner, box_around, edge, project, t_of, triangles
+from app.stepper.raster_parts import (
+    WHOLE,
+    Corner,
+    box_around,
+    edge,
+    project,
+    t_of,
+    triangles,
+    whole_within,
+)
 from app.stepper.recording import Order
 from renderer.camera import NEAREST, Camera, Size
 from renderer.scene import shapes
@@ -251,3 +260,13 @@ def test_the_tests_are_those_of_the_boxes() -> None:
     turns = [moment_at(run, int(step)).triangle.primitive for step in begun]
     assert turns == list(range(24))
     assert stepper.next_object(run, int(begun[3])) == int(begun[4])
+
+
+def test_whole_numbers_within():
+    assert whole_within(1.0, 3.0, 9) == range(1, 4)
+    assert whole_within(1 + 9e-7, 3 - 9e-7, 9) == range(1, 4), "but for rounding"
+    assert whole_within(1 + 1.1e-6, 3 - 1.1e-6, 9) == range(2, 3)
+    assert whole_within(-math.inf, math.inf, 5) == whole_within(-0.1, 4.1, 5) == range(5)
+    assert whole_within(0.5, 3.5, 5) == range(1, 4)
+    for low, high in ((3.2, 3.8), (-9.0, -0.5), (4.5, 9.0), (math.inf, -math.inf)):
+        assert len(whole_within(low, high, 5)) == 0

@@ -180,7 +180,7 @@ def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> N
 
 def test_commands_name_it_on_any_terminal(model: str) -> None:
     environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    command = [sys.executable, "-m", "app", "scenes", model]
+    command = [sys.executable, "-m", "app", "scene", model]
     out = subprocess.run(command, env=environment, capture_output=True)
     assert out.returncode == 0, out.stderr
     assert b"1 object" in out.stdout

@@ -53,7 +53,7 @@ def test_nothing_is_compiled_beyond_the_parts_of_a_task(options, scene, camera) 
             start, way = np.zeros((40, 3), dtype), np.ones((40, 3), dtype)
             tracer.closest_hits(start, way)
             start.setflags(write=False)  # as a Camera's are
-            tracer.any_hits(start, way, 0.5, 2.0)
+            tracer.closest_hits(start, way, 0.5, 2.0)
 
     with Tracer(Scene(()), **options) as tracer:  # has the parts, or compiles them
         tracer.set_scene(dataclasses.replace(scene, objects=scene.objects[:1]))

@@ -12,7 +12,7 @@ from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 from renderer.trace import Tracer
 from renderer.trace.bvh.instances import Instances
-from renderer.trace.rays.query import any_hits, closest_hits
+from renderer.trace.rays.query import closest_hits
 from renderer.trace.threads.thread_pool import Team
 
 # float32, relative to the origin: corners, shear and t are each rounded a few times. For a ray that
@@ -72,8 +72,6 @@ def test_the_closest_hit_is_the_references(make, team) -> None:
         assert np.quantile(error, 0.98) < T_RELATIVE
         assert np.quantile(error, 0.999) < T_GRAZING
         assert np.isposinf(t[primitive < 0]).all()
-        any_of_them = any_hits(instances, team, origins, directions, t_min, t_max)
-        assert np.array_equal(any_of_them, primitive >= 0)
 
 
 def test_no_leak_in_a_closed_mesh(team) -> None:
@@ -88,10 +86,10 @@ def test_no_leak_in_a_closed_mesh(team) -> None:
         targets = targets.reshape(-1, 3)
         origins = random.uniform(-0.4, 0.4, (len(targets), 3)).astype(np.float32)
         ways = (targets - origins).astype(np.float32)
-        assert any_hits(instances, team, origins, ways).all()
+        assert (closest_hits(instances, team, origins, ways)[1] >= 0).all()
     origins = random.uniform(-0.4, 0.4, (500_000, 3)).astype(np.float32)
     ways = random.normal(size=origins.shape).astype(np.float32)
-    assert any_hits(instances, team, origins, ways).all()
+    assert (closest_hits(instances, team, origins, ways)[1] >= 0).all()
 
 
 def test_rays_that_are_none_hit_nothing(team) -> None:
@@ -102,7 +100,6 @@ def test_rays_that_are_none_hit_nothing(team) -> None:
     t, primitive = closest_hits(instances, team, origins, directions)
     assert (primitive == -1).all()
     assert np.isposinf(t).all()
-    assert not any_hits(instances, team, origins, directions).any()
     none = np.zeros((0, 3), np.float32)
     t, primitive = closest_hits(instances, team, none, none)
     assert len(t) == len(primitive) == 0
@@ -112,7 +109,6 @@ def test_an_empty_scene(team) -> None:
     scene = Scene(())
     instances = Instances(scene, flatten(scene), team)
     rays = np.zeros((5, 3), np.float32), np.ones((5, 3), np.float32)
-    assert not any_hits(instances, team, *rays).any()
     assert (closest_hits(instances, team, *rays)[1] == -1).all()
 
 
@@ -123,19 +119,18 @@ def test_a_tracer_takes_batches() -> None:
         t, primitive = tracer.closest_hits(origins, directions)
         assert t[0] == pytest.approx(2.25)
         assert primitive.tolist() == [len(flatten(scene).faces), -1]
-        assert tracer.any_hits(origins, directions).tolist() == [True, False]
-        assert not tracer.any_hits(origins, directions, 0, 2.2).any()
+        assert (tracer.closest_hits(origins, directions, 0, 2.2)[1] == -1).all()
         with pytest.raises(LucidaError, match="n x 3"):
             tracer.closest_hits([0, 1, 2], [[0, 0, 1]])
         with pytest.raises(LucidaError, match="one a ray"):
-            tracer.any_hits(np.zeros((2, 3)), np.ones((1, 3)))
+            tracer.closest_hits(np.zeros((2, 3)), np.ones((1, 3)))
     with pytest.raises(LucidaError, match="closed"):
-        tracer.any_hits(origins, directions)
+        tracer.closest_hits(origins, directions)
     with (
         Tracer(scene, method="reference") as tracer,
         pytest.raises(LucidaError, match="takes no batches"),
     ):
-        tracer.any_hits(origins, directions)
+        tracer.closest_hits(origins, directions)
 
 
 def test_batches_of_any_length_and_rays_along_an_axis(team) -> None:
@@ -151,6 +146,5 @@ def test_batches_of_any_length_and_rays_along_an_axis(team) -> None:
                 t, primitive = closest_hits(instances, team, origins[:count], directions[:count])
                 assert (primitive >= 0).all(), (axis, count)
                 assert ((t > 3) & (t < 5)).all()
-                assert any_hits(instances, team, origins[:count], directions[:count]).all()
-                back = any_hits(instances, team, origins[:count], -directions[:count])
-                assert not back.any()
+                back = closest_hits(instances, team, origins[:count], -directions[:count])
+                assert (back[1] == -1).all()

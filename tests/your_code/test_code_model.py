@@ -17,11 +17,9 @@ from app.your_code.model import (
     CodeRays,
     canvas_pixel,
     cases_for,
-    chosen_of,
     for_camera,
     is_of_camera,
     rays_of,
-    tasks_of,
 )
 from renderer.camera import Camera
 
@@ -74,12 +72,6 @@ def test_wrong_rays_are_marked_where_they_are():
     assert rays.wrong.tolist() == [[True] * 6] * 2 + [[False] * 6] * 2
 
 
-def test_a_run_that_ended_early_has_the_rays_that_came():
-    rays = answered(CAMERA, right_ray, last=8)
-    assert rays.came.tolist() == [[True] * 6, [True] * 2 + [False] * 4, [False] * 6, [False] * 6]
-    assert not rays.wrong.any()
-
-
 def right_basis(known):
     w = np.subtract(known["eye"], known["target"])
     w = w / np.linalg.norm(w)
@@ -106,18 +98,6 @@ def test_a_basis_makes_the_rays_of_the_camera(camera):
     other = camera.ray(1, SIZE[0] - 1 - 4, SIZE)  # the viewport is symmetric
     assert np.allclose(wrong.origins[1, 4], other.origin)
     assert np.allclose(wrong.directions[1, 4], other.direction)
-
-
-def test_which_tasks_a_file_has_and_which_comes_first():
-    found = tasks_of(frozenset(("viewing_ray", "to_gray", "helper")))
-    assert {one.function for one in found} == {"viewing_ray", "to_gray"}
-    assert chosen_of(found, "").kind == RAY  # though to_gray comes before it in the lecture
-    assert chosen_of(found, "to-gray").function == "to_gray"
-    assert chosen_of(found, "basis").kind == RAY
-    assert chosen_of([], "basis") is None
-    only = tasks_of(frozenset(("to_gray",)))
-    assert chosen_of(only, "") == only[0]
-    assert tasks_of(None) == list(BUILTIN)
 
 
 def test_the_task_follows_the_projection():

@@ -239,20 +239,6 @@ def test_a_failure_of_our_own_is_told(desk):
     assert "ZeroDivisionError" in report.failure.text
 
 
-def test_a_function_that_is_not_of_the_camera_has_no_rays(desk):
-    def answer(student, call):
-        known = dict(call.arguments)
-        return known["i"] * known["width"] + known["j"]
-
-    desk.prepare = lambda student: (
-        setattr(student, "names", frozenset(("memory_offset",))),
-        setattr(student, "answer", lambda call: answer(student, call)),
-    )
-    report = desk.told(QUESTION)
-    assert report.rays is None
-    assert report.results["memory-offset"].status == "right"
-
-
 def test_forgetting_ends_the_process(desk):
     desk.told(QUESTION)
     desk.runs.forget()
@@ -261,17 +247,6 @@ def test_forgetting_ends_the_process(desk):
     assert desk.told(QUESTION).rays.result.status == "right"
     assert len(desk.made) == 2
     assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
-
-
-def test_closing_while_it_runs_ends_the_process(desk):
-    desk.hangs()
-    desk.runs.follow(QUESTION)
-    wait_for(lambda: desk.made and desk.made[0].answered == 6)
-    desk.runs.close()
-    wait_for(lambda: desk.made[0].closed)
-    assert desk.runs.report is None
-    desk.runs.follow(QUESTION)
-    assert len(desk.made) == 1
 
 
 def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):

@@ -141,13 +141,3 @@ def test_what_the_course_keeps_back_is_not_shown(
     assert verdict_of(report, task) == verdict
     lines = told_of(report, None, Indexing.LECTURE)
     assert said in lines[0].text and len(lines) == 1
-
-
-def test_a_camera_that_a_task_is_not_for_is_told_with_what_is_known(tmp_path: Path) -> None:
-    (task,) = asked_of(file_of(tmp_path)).tasks
-    question = CodeQuestion("rays.py", 1, "", PARALLEL, SIZE)
-    why = why_not_asked(task, PARALLEL, SIZE)
-    report = CodeReport(question, (task,), task, asked=(task,), not_asked=why)
-    first, second = told_of(report, None, Indexing.LECTURE)
-    assert first.text == "my-ray is for perspective projection: P switches to it."
-    assert "being tried" in second.text

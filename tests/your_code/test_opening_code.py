@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from app import cli
 from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
 from app.storage.paths import restored, stored
@@ -64,14 +63,6 @@ def test_a_lecture_s_mistakes_name_line_and_field(tmp_path: Path, line: str, pro
     assert f"lecture.toml:6: steps[0].options.{problem}" in str(caught.value)
 
 
-def test_check_says_that_the_file_is_missing(tmp_path: Path, capsys):
-    (tmp_path / "lecture.toml").write_text(STEP + 'options.your_code.file = "away.py"')
-    assert cli.main(["lecture", str(tmp_path / "lecture.toml"), "--check"]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
-    assert "'away.py' does not exist" in error
-
-
 def test_a_file_outside_of_the_lecture_s_folder_is_asked_about(tmp_path: Path):
     inside = tmp_path / "inside"
     inside.mkdir()
@@ -94,13 +85,6 @@ def test_a_python_file_is_never_read_as_a_scene(tmp_path: Path):
         (tmp_path / "folder.py").mkdir(exist_ok=True)
         with pytest.raises(LucidaError, match=problem):
             open_sources([str(tmp_path / name)])
-
-
-def test_a_missing_file_on_the_command_line_is_one_line(tmp_path: Path, capsys):
-    assert cli.main([str(tmp_path / "away.py")]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
-    assert "away.py: does not exist" in error
 
 
 def test_a_session_keeps_the_file_whatever_its_name(tmp_path: Path):

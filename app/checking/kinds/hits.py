@@ -220,7 +220,7 @@ class ClosestHitKind(HitKind):
         if not isinstance(value, list) or len(value) != 2:
             return None
         object_number, t = (value[order.index(name)] for name in ("object", "t"))
-        if is_miss(t) and not (isinstance(t, float) and np.isnan(t)):
+        if is_miss(t):
             return [-1.0, np.inf]
         which, parameter = number(object_number), number(t)
         if which is None or parameter is None:

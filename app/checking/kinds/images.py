@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from app.checking.calls import Call
 from app.checking.cases import generator
 from app.checking.kinds.kind import Cases, CheckKind, Flags, Read, named
-from app.checking.kinds.values import number, text_of
+from app.checking.kinds.values import array, number, shown, text_of
 from app.checking.tasks import CheckCase, CheckTask
 
 if TYPE_CHECKING:
@@ -42,10 +42,10 @@ class ImageKind(CheckKind):
             image = array(value)
             shape = np.shape(case.right)
             if image is None:
-                problems[len(found)] = f"returned {described(value)}, not an image of numbers"
+                problems[len(found)] = f"returned {shown(value)}, not an image of numbers"
             elif image.shape != shape:
                 sides = " x ".join(map(str, shape))
-                problems[len(found)] = f"returned {described(value)}, not numbers {sides}"
+                problems[len(found)] = f"returned {shown(value)}, not numbers {sides}"
                 image = None
             found.append(image)
         return found + [None] * (len(cases) - len(found)), problems
@@ -196,26 +196,6 @@ class OffsetKind(CheckKind):
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
         return f"{float(answer):.15g}"
-
-
-def array(value: Any) -> Floats | None:
-    """Return an array of numbers; None for anything else."""
-    if not isinstance(value, list):
-        return None
-    try:
-        made = np.array(value)
-    except (ValueError, OverflowError):
-        return None
-    return made.astype(float) if made.dtype.kind in "biuf" else None
-
-
-def described(value: Any) -> str:
-    """Describe in a few words what was returned in place of an image."""
-    made = array(value)
-    if made is not None:
-        return f"an array of shape {made.shape}"
-    text = text_of(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _image(random: Random, more: tuple[int, ...] = ()) -> Floats:

@@ -99,8 +99,6 @@ class LensKind(CheckKind):
         value = in_order(value, order)
         while isinstance(value, list) and len(value) == 1:
             value = value[0]
-        if isinstance(value, list) and len(value) == 3 and value[2] == 1:  # homogeneous
-            value = value[:2]
         if not isinstance(value, list) or len(value) != 2:
             return None
         parts = [number(value[order.index(name)]) for name in self.returns]

@@ -10,6 +10,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 SHOWN = 80  # characters of a value in a message
 DEPTH = 8  # of nested lists that are written out
 
@@ -81,10 +84,24 @@ def is_miss(value: Any) -> bool:
     return found is not None and not math.isfinite(found) and found != -math.inf
 
 
+def array(value: Any) -> NDArray[np.float64] | None:
+    """Return a list of numbers as an array; None for anything else."""
+    if not isinstance(value, list):
+        return None
+    try:
+        made = np.array(value)
+    except (ValueError, OverflowError):
+        return None
+    return made.astype(float) if made.dtype.kind in "biuf" else None
+
+
 def shown(value: Any) -> str:
-    """Return a returned value for a message, shortened."""
+    """Return a returned value for a message: shortened, or only an array's shape."""
     text = text_of(value)
-    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
+    if len(text) <= SHOWN:
+        return text
+    made = array(value)
+    return f"{text[: SHOWN - 3]}..." if made is None else f"an array of shape {made.shape}"
 
 
 def text_of(value: Any, depth: int = DEPTH) -> str:

@@ -30,10 +30,9 @@ from app.checking.conventions import (
     Conventions,
     Shot,
     argument_lists,
-    vectorised_arguments,
 )
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
-from app.checking.kinds.values import text_of
+from app.checking.kinds.values import in_order, shown, text_of
 from app.checking.tasks import CheckCase, CheckTask
 
 Floats = NDArray[np.float64]
@@ -219,12 +218,11 @@ def _vectorised(task: CheckTask, cases: Cases) -> tuple[tuple[str, Any], ...]:
     """Return the arguments of a single call for all pixels. Arguments that depend on the pixel are
     lists.
     """
-    first = cases[0]
-    assert first.camera is not None and first.size is not None
-    assert first.target is not None and first.up is not None
-    shot = Shot(first.camera, first.size, first.target, first.up)
-    i, j = np.array([case.pixel for case in cases]).T
-    return vectorised_arguments(shot, task.conventions, i, j)
+    columns = zip(*([value for _, value in case.arguments] for case in cases), strict=True)
+    return tuple(
+        (name, [*values] if word in PIXEL_WORDS or word in PAIRS else values[0])
+        for (name, word), values in zip(task.conventions.arguments, columns, strict=True)
+    )
 
 
 def _vectorised_rays(task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
@@ -233,11 +231,7 @@ def _vectorised_rays(task: CheckTask, cases: Cases, values: Sequence[Any]) -> Re
     rays = np.full((len(cases), len(returns), 3), np.nan)
     problems: dict[int, str] = {}
     for value, (first, last) in zip(values, _images(cases), strict=False):
-        parts = (
-            [value[name] for name in returns]
-            if isinstance(value, dict) and all(name in value for name in returns)
-            else value
-        )
+        parts = in_order(value, returns)
         parts = [parts] if len(returns) == 1 and isinstance(parts, list) else parts
         try:
             assert isinstance(parts, list) and len(parts) == len(returns)
@@ -246,17 +240,7 @@ def _vectorised_rays(task: CheckTask, cases: Cases, values: Sequence[Any]) -> Re
                 rays[first:last, place] = array if array.ndim == 1 else array.reshape(-1, 3)
         except (AssertionError, TypeError, ValueError):
             problems[first] = (
-                f"returned {_shape_text(value)}, not {' and '.join(returns)} "
+                f"returned {shown(value)}, not {' and '.join(returns)} "
                 f"with three numbers for each of {last - first} pixels"
             )
     return rays, problems
-
-
-def _shape_text(value: Any) -> str:
-    """Describe a returned value, by its shape if it has one."""
-    if isinstance(value, list):
-        try:
-            return f"an array of shape {np.array(value, float).shape}"
-        except (TypeError, ValueError):
-            return f"a list of {len(value)}"
-    return text_of(value)[:60]

@@ -118,9 +118,8 @@ def diagnose_by_kind(
     def program_and_trial(kind: str, chosen: list[int]) -> tuple[Program, ValueTrial]:
         return programs[kind], ValueTrial([cases[number] for number in chosen])
 
-    sentences, found, explained = named(kinds, flags, program_and_trial)
-    facts = [] if explained else _facts(cases)
-    return Diagnosis((*sentences, *facts), found)
+    sentences, found, _ = named(kinds, flags, program_and_trial)
+    return Diagnosis(tuple(sentences), found)
 
 
 def _constant(cases: Sequence[ValueCase]) -> str:
@@ -132,26 +131,3 @@ def _constant(cases: Sequence[ValueCase]) -> str:
     if np.isinf(numbers[0]) and any(np.isinf(case.right).any() for case in cases):
         return "You never find a hit."
     return f"All your answers are {numbers[0]:.4g}, whatever is asked."
-
-
-def _facts(cases: Sequence[ValueCase]) -> list[str]:
-    """Return sentences on what all wrong numbers have in common."""
-    pairs = [
-        (np.ravel(np.asarray(case.given, float)), np.ravel(np.asarray(case.right, float)))
-        for case in cases
-        if case.given is not None and np.shape(case.given) == np.shape(case.right)
-    ]
-    if not pairs:
-        return []
-    given, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
-    told = []
-    if missed := np.count_nonzero(np.isinf(given) & np.isfinite(right)):
-        told.append(f"Hits that you do not find: {missed}.")
-    if invented := np.count_nonzero(np.isfinite(given) & np.isinf(right)):
-        told.append(f"Hits that you find where there is none: {invented}.")
-    both = np.isfinite(given) & np.isfinite(right) & (np.abs(right) > 1e-9)
-    if np.count_nonzero(both) >= 3:
-        ratio = given[both] / right[both]
-        if np.ptp(ratio) <= 1e-4 * abs(ratio[0]) and abs(ratio[0] - 1) > 1e-3:
-            told.append(f"Your numbers are {ratio[0]:.4g} times the correct ones.")
-    return told

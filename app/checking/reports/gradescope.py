@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from app.checking.checked import TaskResult
-from app.checking.reports.told import Reported, reported, told
+from app.checking.reports.told import Reported, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 
@@ -35,7 +35,7 @@ def results(
     return {
         "score": round(sum(result.points for result in tried), 6),
         "execution_time": round(seconds, 3),
-        "output": problem or _summary(tried),
+        "output": problem or summary(tried, tasks),
         "output_format": "text",
         "test_output_format": "text",
         "test_name_format": "text",
@@ -62,11 +62,3 @@ def _test(one: Reported) -> dict[str, Any]:
         "visibility": "hidden" if say.verdict is None else "visible",
     }
     return {**test, "extra_data": {"mistakes": say.mistakes}} if say.mistakes else test
-
-
-def _summary(tried: Sequence[TaskResult]) -> str:
-    open_ones = [result for result in tried if told(result).verdict is not None]
-    right = sum(result.status == "right" for result in open_ones)
-    if len(open_ones) < len(tried):
-        return f"{len(tried)} tasks were tried."
-    return f"{right} of {len(tried)} tasks are correct."

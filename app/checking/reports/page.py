@@ -17,7 +17,7 @@ from app.checking.checked import TaskResult, WrongCase
 from app.checking.reports.picture import difference
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.sketch import sketch
-from app.checking.reports.told import VERDICTS, Reported, of_points, reported, told
+from app.checking.reports.told import VERDICTS, Reported, Told, of_points, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.errors import visible
@@ -89,26 +89,14 @@ def page(
     found = reported(tried, tasks, problem)
     sections = [_section(one, pictures.get(one.task.name)) for one in found]
     title = f"Lucida check: {_text(name)}"
-    summary = _summary(tried, tasks) if not problem else _text(problem)
+    told = _text(problem) or summary(tried, tasks)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
-        f'<h1>{title}</h1>\n<p class="dim">{summary}</p>\n'
+        f'<h1>{title}</h1>\n<p class="dim">{told}</p>\n'
         f"{''.join(sections)}</body>\n</html>\n"
     )
-
-
-def _summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
-    """Return the numbers of correct tasks and points; only the number of tasks if a verdict is
-    withheld.
-    """
-    if any(told(result).verdict is None for result in tried):
-        return f"{len(tried)} tasks were tried."
-    right = sum(result.status == "right" for result in tried)
-    points = sum(result.points for result in tried)
-    most = sum(task.points for task in tasks)
-    return f"{right} of {len(tasks)} tasks are correct: {of_points(points, most)}."
 
 
 def _section(one: Reported, pictures: Pictured | None) -> str:
@@ -129,7 +117,7 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
         items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in say.diagnosis)
         parts.append(f'<ul class="told">{items}</ul>\n')
     if say.first is not None:
-        parts.append(_first(task, say.wrong, say.first))
+        parts.append(_first(task, say, say.first))
         if pictures is not None:
             parts.append(_pictures(pictures))
     if say.output:
@@ -137,11 +125,8 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
     return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
 
 
-def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
+def _first(task: CheckTask, say: Told, first: WrongCase) -> str:
     """Return the first wrong case in numbers, and as a drawing."""
-    lines = [first.where] if first.where else []
-    lines += [f"{task.function}({first.arguments})"]
-    lines += ["", f"correct: {first.right}", f"given: {first.given}"]
     drawn = ""
     case = first.case
     if task.kind == "viewing-ray" and case.camera and case.size:
@@ -151,7 +136,7 @@ def _first(task: CheckTask, wrong: str, first: WrongCase) -> str:
             'the correct ray, <span class="key given"></span> the given one; from the eye through '
             "the viewport</p>\n"
         )
-    return f"<h3>{_text(wrong)}; the first one:</h3>\n{_pre('', lines)}{drawn}"
+    return f"<h3>{_text(say.wrong)}; the first one:</h3>\n{_pre('', say.first_lines)}{drawn}"
 
 
 def _pictures(pictures: Pictured) -> str:

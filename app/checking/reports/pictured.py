@@ -6,7 +6,6 @@ camera: the checked images are small.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -52,23 +51,17 @@ def _of_rays(student: Student, result: TaskResult, first: WrongCase) -> Pictured
     assert case.camera and case.size and case.target and case.up
     camera, (width, height) = case.camera, case.size
     times = max(1, SIDE // max(width, height))
-    step = math.ceil(max(width, height) / (2 * SIDE))
     size = width * times, height * times
     task, kind = result.task, ViewingRayKind()
     shot = Shot(camera, size, case.target, case.up)
-    cases = [
-        pixel
-        for pixel in cases_of(task, shot)
-        if pixel.pixel and not (pixel.pixel[0] % step or pixel.pixel[1] % step)
-    ]
+    cases = cases_of(task, shot)
     run = student.call(kind.calls(task, cases))
     if run.failure or any(isinstance(value, Failure) for value in run.values):
         return None
     given, problems = kind.given(task, cases, run.values)
     if problems:
         return None
-    shape = (math.ceil(size[1] / step), math.ceil(size[0] / step), 2, 3)
-    rays = (np.asarray(part).reshape(shape) for part in (given, kind.right(cases)))
+    rays = (np.asarray(part).reshape(size[1], size[0], 2, 3) for part in (given, kind.right(cases)))
     return Pictured(*(picture(camera, size, part) for part in rays))
 
 

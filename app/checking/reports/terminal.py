@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from typing import TextIO
 
 from app.checking.checked import TaskResult
@@ -40,17 +39,6 @@ def _printed(output: str) -> list[str]:
         return []
     more = [f"... and {len(lines) - MOST} lines more"] if len(lines) > MOST else []
     return ["printed:", *(f"  {line}" for line in lines[:MOST]), *(f"  {line}" for line in more)]
-
-
-def summary(results: Sequence[TaskResult]) -> str:
-    """Return one line on all results. It is empty if there is only one, or if nothing may be
-    shown.
-    """
-    if len(results) < 2 or any(told(result).verdict is None for result in results):
-        return ""
-    right = sum(result.status == "right" for result in results)
-    points, most = sum(r.points for r in results), sum(r.task.points for r in results)
-    return f"{right} of {len(results)} tasks correct, {of_points(points, most)}"
 
 
 def _painted(text: str, color: str, colored: bool) -> str:

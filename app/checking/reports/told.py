@@ -46,10 +46,16 @@ class Told:
         """All helpful lines, without the printed output."""
         found = [*self.failure, *self.diagnosis]
         if self.first is not None:
-            found += [f"{self.wrong}; the first one:"] + [self.first.where] * bool(self.first.where)
-            found += [f"{self.function}({self.first.arguments})"]
-            found += [f"correct: {self.first.right}", f"given: {self.first.given}"]
+            found += [f"{self.wrong}; the first one:", *self.first_lines]
         return tuple(found)
+
+    @property
+    def first_lines(self) -> tuple[str, ...]:
+        """The first wrong case."""
+        assert self.first is not None
+        called = f"{self.function}({self.first.arguments})"
+        answers = f"correct: {self.first.right}", f"given: {self.first.given}"
+        return (*[self.first.where] * bool(self.first.where), called, *answers)
 
 
 def told(result: TaskResult) -> Told:
@@ -127,6 +133,15 @@ def reported(
         *(Reported(one.task, told(one), one.points, one.status == "right") for one in tried),
         *(Reported(task, untried) for task in tasks if task.name not in names),
     ]
+
+
+def summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
+    """Return one line on all results; only their number if a verdict is withheld."""
+    if any(told(result).verdict is None for result in tried):
+        return f"{len(tried)} tasks were tried."
+    right = sum(result.status == "right" for result in tried)
+    points = sum(result.points for result in tried), sum(task.points for task in tasks)
+    return f"{right} of {len(tasks)} tasks correct, {of_points(*points)}"
 
 
 def of_points(points: float, most: float) -> str:

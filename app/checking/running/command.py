@@ -7,120 +7,81 @@ import os
 import shlex
 import shutil
 import sys
-import threading
 import time
 from collections.abc import Sequence
-from contextlib import suppress
 from typing import Any
 
-from app.checking.calls import Call, Failure, Kind, Limits, Run
+from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.account import Account
-from app.checking.running.program import ProgramOverError, StudentProgram
+from app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
 from app.checking.running.told import told_call, told_over, whole_number
 from renderer.errors import LucidaError, one_line, shortened
 
-_FAREWELL_S = 1.0  # for a program to end after its last answer
 
-
-class CommandStudent:
+class CommandStudent(ProgramStudent):
     """A student's program, started by a command line. Raises LucidaError.
 
     Each run restarts the program, writes all calls and closes its input.
 
     command: words and quotes as in a shell, without a shell's other features.
-    account: the user that it runs as; None for this process's own.
-    survived: True if something that it started may still be running.
     """
 
     def __init__(
         self, command: str, limits: Limits | None = None, account: Account | None = None
     ) -> None:
-        self._limits, self._account = limits or Limits(), account
         self._words = _words(command)
-        self._name = os.path.basename(self._words[0])
-        self.survived = False
-        self._turn = threading.Lock()
-        self._change = threading.Lock()
-        self._program: StudentProgram | None = None
-        self._closed = False
+        super().__init__(os.path.basename(self._words[0]), limits, account)
 
     def functions(self) -> None:
         """Return None, because the functions are not known. Raises LucidaError if there is no such
         program.
         """
         if shutil.which(self._words[0]) is None:
-            raise _not_found(self._words[0])
+            remedy = "is it installed, executable, and on the PATH?"
+            raise LucidaError("", "there is no such program", remedy, self._words[0])
 
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
-            end = time.monotonic() + self._limits.seconds
+            end = time.monotonic() + self.limits.seconds
+            if self._closed:
+                return Run((), "", Failure("ended", f"{self._name}: it is closed"))
             try:
                 self.functions()
-                with self._change:
-                    program = self._program = self._started()
+                program = self._begin(self._words, os.getcwd(), self.limits)
             except LucidaError as error:
                 return Run((), "", Failure("missing", str(error)))
             values: list[Any] = []
             try:
                 failure = self._run(program, calls, values, end)
                 program.end()
-                output = program.output()
+                return Run(tuple(values), program.output(), failure)
             finally:
-                self.survived |= not program.close()
-            return Run(tuple(values), output, failure)
-
-    def stop(self) -> None:
-        with self._change:
-            program = self._program
-        if program:
-            program.stop()
-
-    def close(self) -> None:
-        self._closed = True
-        self.stop()
-
-    def _started(self) -> StudentProgram:
-        if self._closed:
-            raise LucidaError("", "it is closed", source=self._name)
-        try:
-            return StudentProgram(self._words, os.getcwd(), self._limits, self._account)
-        except OSError as error:
-            raise LucidaError("", f"cannot be started: {error.strerror}", "", self._name) from None
+                self._end()
 
     def _run(
         self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
     ) -> Failure | None:
         """Append the answers to `values`. Return the reason if the run ended early."""
         program.send("".join(map(_line, calls)).encode(), last=True)
+        line = b""
         try:
-            for call in calls:
+            while len(values) < len(calls):
                 line = _next_line(program, end)
-                try:
-                    values.append(json.loads(line, parse_int=whole_number))
-                except (ValueError, RecursionError):
-                    text = shortened(one_line(line.decode("utf-8", "replace")), 80)
-                    told = f"answer {len(values) + 1} is no JSON: {text}"
-                    remedy = f"answer to {told_call(call)}; print other things to standard error"
-                    return self._failure("answer", f"{told}; {remedy}", len(values))
+                values.append(json.loads(line, parse_int=whole_number))
         except ProgramOverError as over:
-            return self._over(over, calls, len(values))
-        with suppress(ProgramOverError):
-            _next_line(program, time.monotonic() + _FAREWELL_S)
-            told = f"it answers more than the {len(calls)} calls; one line for each call"
-            return self._failure("answer", told, None)
+            kind, text = told_over(over, self.limits, "it")
+            text = f"{self._name}: {text}, with {len(values)} of {len(calls)} answers"
+            if kind == "time":
+                text += "; does it read to the end of its input, and flush what it prints?"
+            return Failure(kind, text, call=len(values))
+        except (ValueError, RecursionError):
+            told = shortened(one_line(line.decode("utf-8", "replace")), 80)
+            told = f"{self._name}: answer {len(values) + 1} is no JSON: {told}"
+            remedy = (
+                f"answer to {told_call(calls[len(values)])}; print other things to standard error"
+            )
+            return Failure("answer", f"{told}; {remedy}", call=len(values))
         return None
-
-    def _over(self, over: ProgramOverError, calls: Sequence[Call], number: int) -> Failure:
-        kind, text = told_over(over, self._limits, "it")
-        text += f", with {number} of {len(calls)} answers"
-        if kind == "time":
-            text += "; does it read to the end of its input, and flush what it prints?"
-        elif over.why == "ended":
-            text += f"; the next was {told_call(calls[number])}"
-        return self._failure(kind, text, number)
-
-    def _failure(self, kind: Kind, text: str, number: int | None) -> Failure:
-        return Failure(kind, f"{self._name}: {text}", call=number)
 
 
 def _words(command: str) -> list[str]:
@@ -128,17 +89,11 @@ def _words(command: str) -> list[str]:
         words = shlex.split(command, posix=sys.platform != "win32")
     except ValueError as error:
         raise LucidaError("--command", f"{command!r}: {error}", "close the quotes") from None
-    if not words or not words[0].strip("\"'"):
-        raise LucidaError("--command", "is empty", 'name a program: --command "julia rays.jl"')
-    if "\0" in command:
-        raise LucidaError("--command", "has a zero byte")
-    return [words[0].strip("\"'"), *words[1:]] if sys.platform == "win32" else words
-
-
-def _not_found(word: str) -> LucidaError:
-    if os.path.isfile(word):
-        return LucidaError("", "it is not executable", "name what runs it first", word)
-    return LucidaError("", "there is no such program", "is it installed, and on the PATH?", word)
+    words[:1] = [word.strip("\"'") for word in words[:1]]
+    if not words or not words[0] or "\0" in command:
+        remedy = 'name a program: --command "julia rays.jl"'
+        raise LucidaError("--command", f"{command!r} is no command", remedy)
+    return words
 
 
 def _line(call: Call) -> str:
@@ -147,6 +102,6 @@ def _line(call: Call) -> str:
 
 def _next_line(program: StudentProgram, end: float) -> bytes:
     """Return the next answer that is not blank."""
-    while not (line := program.line(end).removeprefix(b"\xef\xbb\xbf").strip()):
+    while not (line := program.line(end).strip()):
         pass
     return line

@@ -18,6 +18,7 @@ from typing import Literal
 
 from app.checking.calls import Limits
 from app.checking.running.account import Account
+from renderer.errors import LucidaError
 
 _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too
@@ -36,7 +37,7 @@ DISHONEST = (
     "Run strangers' programs in a container, or as root with --as USER."
 )
 
-_Why = Literal["time", "ended", "stopped", "length"]
+_Why = Literal["time", "ended", "stopped", "length", "garbled"]
 
 
 class ProgramOverError(Exception):
@@ -184,6 +185,50 @@ def _cpu_seconds(seconds: float) -> int:
     FileStudent replaces a process whose runs took one time limit, so a process lasts at most two.
     """
     return math.ceil(min(seconds, 1e6) * max(2, os.cpu_count() or 1)) + 10
+
+
+class ProgramStudent:
+    """Base class of students whose answers come from a program, one at a time.
+
+    limits: of each run.
+    account: the user that the program runs as; None for this process's own.
+    survived: True if something that it started may still be running.
+    """
+
+    def __init__(self, name: str, limits: Limits | None, account: Account | None) -> None:
+        self._name, self.limits, self._account = name, limits or Limits(), account
+        self.survived = self._closed = False
+        self._turn = threading.Lock()  # allows one run at a time
+        self._change = threading.Lock()
+        self._program: StudentProgram | None = None
+
+    def stop(self) -> None:
+        with self._change:
+            program = self._program
+        if program:
+            program.stop()
+
+    def close(self) -> None:
+        self._closed = True
+        self.stop()
+        with self._turn:
+            self._end()
+
+    def _begin(self, command: Sequence[str], folder: str, limits: Limits) -> StudentProgram:
+        """Start the program. Raises LucidaError."""
+        with self._change:
+            try:
+                self._program = StudentProgram(command, folder, limits, self._account)
+            except OSError as error:
+                problem = f"cannot be started: {error.strerror}"
+                raise LucidaError("", problem, "", command[0]) from None
+            return self._program
+
+    def _end(self) -> None:
+        with self._change:
+            program, self._program = self._program, None
+        if program:
+            self.survived |= not program.close()
 
 
 def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Sequence[str]:

@@ -22,7 +22,11 @@ def told_over(over: ProgramOverError, limits: Limits, it: str) -> tuple[Kind, st
     """Return the kind of failure, and what ended a program. it: "it" or "its process"."""
     if over.why == "time":
         return "time", f"the time limit of {limits.seconds:g} s is over"
-    ends = {"stopped": "was stopped", "length": "answered too much"}
+    ends = {
+        "stopped": "was stopped",
+        "length": "answered too much",
+        "garbled": "wrote into a file of ours: one that it has not opened itself",
+    }
     return "ended", f"{it} {ends.get(over.why) or _told_status(over.status)}"
 
 

@@ -149,16 +149,6 @@ class Tracer:
         """
         return self._batch("closest_hits", origins, directions, t_min, t_max)
 
-    def any_hits(
-        self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
-    ) -> NDArray[np.bool_]:
-        """Return for each ray if it hits anything with t_min < t < t_max, bool (n,); see
-        closest_hits().
-
-        Backs of single-sided surfaces count: they cast shadows.
-        """
-        return self._batch("any_hits", origins, directions, t_min, t_max)
-
     def shaded(
         self, origins: ArrayLike, directions: ArrayLike, t_min: float = 0.0, t_max: float = math.inf
     ) -> NDArray[np.float32]:

@@ -27,7 +27,7 @@ from renderer.trace.packets.surface import SceneArrays, scene_arrays
 from renderer.trace.packets.texture import NO_TEXTURES, PacketTextures
 from renderer.trace.packets.view import PacketView, packet_view
 from renderer.trace.packets.write import writing_stage
-from renderer.trace.rays.query import Vectors, any_hits, closest_hits
+from renderer.trace.rays.query import Vectors, closest_hits
 from renderer.trace.scalar.kernel import shade_rays
 from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
 
@@ -93,12 +93,6 @@ class PacketEngine:
     ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
         """Return (t, primitive) of many rays; see rays/query.py."""
         return closest_hits(self.instances, self._team, origins, directions, t_min, t_max)
-
-    def any_hits(
-        self, origins: Vectors, directions: Vectors, t_min: float, t_max: float
-    ) -> NDArray[np.bool_]:
-        """Return whether each of many rays hits anything: see rays/query.py."""
-        return any_hits(self.instances, self._team, origins, directions, t_min, t_max)
 
     def shaded(
         self, origins: Vectors, directions: Vectors, t_min: float, t_max: float

@@ -1,4 +1,4 @@
-"""Rays that a user hands in: the closest hit of each, or any hit."""
+"""Rays that a user hands in: the closest hit of each."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from renderer.trace.bvh.bvh16 import FIRST_LEAF
 from renderer.trace.bvh.instances import Instances
 from renderer.trace.compile.compiled import kernel
-from renderer.trace.rays.traverse import any_hit, closest_hit
+from renderer.trace.rays.traverse import closest_hit
 from renderer.trace.scalar.vectors import triple
 from renderer.trace.simd.lanes import LANES
 from renderer.trace.simd.memory import pointer, pointers
@@ -35,23 +35,6 @@ def closest_hits(
     Arithmetic is float32, from the ray's origin in each object's space. A ray that contains NaN or
     has no direction hits nothing.
     """
-    return _trace(instances, team, origins, directions, t_min, t_max, False)
-
-
-def any_hits(
-    instances: Instances,
-    team: Team,
-    origins: Vectors,
-    directions: Vectors,
-    t_min: float = 0.0,
-    t_max: float = np.inf,
-) -> NDArray[np.bool_]:
-    """Return for each ray if it hits anything with t_min < t < t_max, bool (n,)."""
-    _, primitive = _trace(instances, team, origins, directions, t_min, t_max, True)
-    return primitive >= 0
-
-
-def _trace(instances, team, origins, directions, t_min, t_max, takes_any):
     # Read-only, or a kernel would be compiled again for arrays that are.
     rays = [
         np.ascontiguousarray(vectors, np.float64).reshape(-1) for vectors in (origins, directions)
@@ -61,20 +44,15 @@ def _trace(instances, team, origins, directions, t_min, t_max, takes_any):
     count = len(origins)
     t, primitive = np.empty(count, np.float32), np.empty(count, np.int32)
     team.run(
-        trace_rays, instances.world, *rays, np.float32(t_min), np.float32(t_max), takes_any,
+        trace_rays, instances.world, *rays, np.float32(t_min), np.float32(t_max),
         t, primitive, instances.stack_size, new_control(), size=-(-count // _CHUNK),
     )  # fmt: skip
     return t, primitive
 
 
 @kernel
-def trace_rays(
-    world, origins, directions, t_min, t_max, takes_any, t, primitive, stack_size, control
-):
-    """Trace chunks of rays until none are left.
-
-    takes_any: set primitive to 0 where a ray hits anything, otherwise to -1; leave t as it is.
-    """
+def trace_rays(world, origins, directions, t_min, t_max, t, primitive, stack_size, control):
+    """Trace chunks of rays until none are left."""
     floats, ints = np.empty(stack_size + LANES, np.float32), np.empty(stack_size, np.int32)
     inner = pointers(world)
     while True:
@@ -84,9 +62,6 @@ def trace_rays(
         for i in range(first, min(first + _CHUNK, len(t))):
             origin, direction = triple(origins, 3 * i), triple(directions, 3 * i)
             depths, nodes = pointer(floats), pointer(ints)
-            if takes_any:
-                primitive[i] = any_hit(inner, origin, direction, t_min, t_max, nodes) - 1
-                continue
             t[i], slot, space = closest_hit(inner, origin, direction, t_min, t_max, depths, nodes)
             if space >= 0:
                 primitive[i] = world.face[slot] + world.first_primitive[space]

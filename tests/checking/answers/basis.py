@@ -28,21 +28,6 @@ def right_arrays(eye, target, up):
     return np.array([u, np.cross(w, u), w])
 
 
-def right_gram_schmidt(eye, target, up):
-    w = np.subtract(eye, target) / math.dist(eye, target)
-    v = np.array(up) - np.dot(up, w) * w
-    v = v / np.sqrt(v @ v)
-    return [np.cross(v, w), v, w]
-
-
-def right_forward(eye, target, up):
-    forward = np.subtract(target, eye)
-    right = np.cross(forward, up)
-    right = right / np.linalg.norm(right)
-    above = np.cross(right, forward)
-    return right, above / np.linalg.norm(above), -forward / np.linalg.norm(forward)
-
-
 def right_float32(eye, target, up):
     eye, target, up = np.float32([eye, target, up])
     w = (eye - target) / np.linalg.norm(eye - target)
@@ -58,15 +43,6 @@ def wrong_upside_down(eye, target, up):
 
 def wrong_transposed(eye, target, up):
     return right_arrays(eye, target, up).T
-
-
-def wrong_order(eye, target, up):
-    u, v, w = right_arrays(eye, target, up)
-    return w, u, v
-
-
-def unusable_two(eye, target, up):
-    return right_arrays(eye, target, up)[:2]
 
 
 def unusable_none(eye, target, up):

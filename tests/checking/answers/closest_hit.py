@@ -28,10 +28,6 @@ def right_loop(origin, direction, objects):
     return None if which is None else (which, nearest)
 
 
-def right_min(origin, direction, objects):
-    return min(_hits(origin, direction, objects), key=lambda hit: hit[1], default=None)
-
-
 def right_arrays(origin, direction, objects):
     found = [
         hit_sphere.right_geometric(origin, direction, o["center"], o["radius"])
@@ -49,10 +45,6 @@ def right_dict(origin, direction, objects):
     return {"object": found[0], "t": found[1]} if found else {"object": None, "t": math.inf}
 
 
-def right_none_pair(origin, direction, objects):
-    return right_loop(origin, direction, objects) or (None, None)
-
-
 def wrong_last(origin, direction, objects):
     found = list(_hits(origin, direction, objects))
     return found[-1] if found else None
@@ -63,14 +55,5 @@ def wrong_from_one(origin, direction, objects):
     return found and (found[0] + 1, found[1])
 
 
-def wrong_order(origin, direction, objects):
-    found = right_loop(origin, direction, objects)
-    return found and found[::-1]
-
-
 def unusable_number(origin, direction, objects):
     return 3
-
-
-def unusable_empty(origin, direction, objects):
-    return min(_hits(origin, direction, objects), key=lambda hit: hit[1])

@@ -37,30 +37,9 @@ def right_geometric(origin, direction, center, radius):
     return math.inf
 
 
-def right_nan(origin, direction, center, radius):
-    with np.errstate(invalid="ignore"):
-        a, b, disc = _roots(origin, direction, center, radius)
-        roots = (-b + np.array([-1, 1]) * np.sqrt(np.float64(disc))) / (2 * a)
-    ahead = roots[roots > 0]
-    return ahead.min() if len(ahead) else np.nan
-
-
 def right_false(origin, direction, center, radius):
     found = right_quadratic(origin, direction, center, radius)
     return found if found else False
-
-
-def right_float32(origin, direction, center, radius):
-    o, d, c = (np.float32(part) for part in (origin, direction, center))
-    oc = o - c
-    a, h, k = d @ d, oc @ d, oc @ oc - np.float32(radius) ** 2
-    disc = h * h - a * k
-    if disc < 0:
-        return None
-    root = np.sqrt(disc)
-    t = (-h - root) / a
-    t = t if t > 0 else (-h + root) / a
-    return np.array([t]) if t > 0 else None
 
 
 def wrong_far_root(origin, direction, center, radius):
@@ -71,10 +50,6 @@ def wrong_far_root(origin, direction, center, radius):
 
 def wrong_never(origin, direction, center, radius):
     return None
-
-
-def unusable_point(origin, direction, center, radius):
-    return origin
 
 
 def unusable_exception(origin, direction, center, radius):

@@ -51,32 +51,6 @@ def right_moller_trumbore(origin, direction, a, b, c):
     return t if t > 0 else False
 
 
-def right_areas(origin, direction, a, b, c):
-    found = _solved(origin, direction, a, b, c)
-    if found is None or found[1] <= 0:
-        return None
-    p, t, n = found
-
-    def area(x, y):
-        return np.linalg.norm(np.cross(np.subtract(x, p), np.subtract(y, p)))
-
-    outside = area(a, b) + area(b, c) + area(c, a) > np.linalg.norm(n) * (1 + 1e-9)
-    return None if outside else t
-
-
-def right_float32(origin, direction, a, b, c):
-    o, d, a, b, c = (np.float32(part) for part in (origin, direction, a, b, c))
-    n = np.cross(b - a, c - a)
-    if n @ d == 0:
-        return float("nan")
-    t = (n @ (a - o)) / (n @ d)
-    p = o + t * d
-    beta = (np.cross(c - a, p - a) @ n) / (n @ n)
-    gamma = (np.cross(b - a, p - a) @ n) / (n @ n)
-    beta = -beta
-    return t if t > 0 and beta > 0 and gamma > 0 and beta + gamma < 1 else float("nan")
-
-
 def wrong_plane(origin, direction, a, b, c):
     found = _solved(origin, direction, a, b, c)
     return found[1] if found and found[1] > 0 else None
@@ -93,7 +67,3 @@ def wrong_never(origin, direction, a, b, c):
 def unusable_division(origin, direction, a, b, c):
     n = [float(x) for x in np.cross(np.subtract(b, a), np.subtract(c, a))]
     return 1 / sum(x * y for x, y in zip(n, direction))
-
-
-def unusable_point(origin, direction, a, b, c):
-    return a

@@ -13,16 +13,8 @@ def right_gray_channels(rgb):
     return 0.2126 * rgb[:, :, 0] + 0.7152 * rgb[:, :, 1] + 0.0722 * rgb[:, :, 2]
 
 
-def right_gray_lists(rgb):
-    return [[sum(w * c for w, c in zip(WEIGHTS, pixel)) for pixel in row] for row in rgb]
-
-
 def right_gray_float32(rgb):
     return rgb.astype(np.float32).dot(np.float32(WEIGHTS))
-
-
-def right_gray_bytes(rgb):
-    return np.round(rgb @ np.array(WEIGHTS) * 255) / 255
 
 
 def wrong_gray_mean(rgb):
@@ -37,24 +29,12 @@ def unusable_gray_three(rgb):
     return np.repeat((rgb @ np.array(WEIGHTS))[..., None], 3, axis=2)
 
 
-def unusable_gray_number(rgb):
-    return float(rgb.mean())
-
-
 def right_bitmap_array(gray, threshold):
     return gray >= threshold
 
 
 def right_bitmap_where(gray, threshold):
     return np.where(gray < threshold, 0, 1)
-
-
-def right_bitmap_lists(gray, threshold):
-    return [[1 if value >= threshold else 0 for value in row] for row in gray]
-
-
-def right_bitmap_float(gray, threshold):
-    return 1.0 - (gray < threshold)
 
 
 def right_bitmap_white(gray, threshold):
@@ -69,12 +49,6 @@ def wrong_bitmap_gray(gray, threshold):
     return np.where(gray >= threshold, gray, 0)
 
 
-def wrong_bitmap_one_row(gray, threshold):
-    bits = gray >= threshold
-    bits[1:] = bits[0]
-    return bits
-
-
 def unusable_bitmap_flat(gray, threshold):
     return (gray >= threshold).ravel()
 
@@ -83,16 +57,8 @@ def right_offset_rows(i, j, width):
     return i * width + j
 
 
-def right_offset_float(i, j, width):
-    return 1.0 * i * width + j
-
-
 def right_offset_numpy(i, j, width):
     return np.ravel_multi_index((i, j), (i + 1, width))
-
-
-def right_offset_counted(i, j, width):
-    return len(range(i * width)) + len(range(j))
 
 
 def right_offset_strides(i, j, width):
@@ -104,17 +70,9 @@ def wrong_offset_bytes(i, j, width):
     return 12 * (i * width + j)
 
 
-def wrong_offset_doubles(i, j, width):
-    return 24 * (i * width + j)
-
-
 def wrong_offset_nan(i, j, width):
     return float("nan")
 
 
 def unusable_offset_none(i, j, width):
     return None
-
-
-def unusable_offset_pair(i, j, width):
-    return i * width, j

@@ -24,16 +24,8 @@ def right_project_array(*given):
     return np.array(right_project_tuple(*given))
 
 
-def right_project_float32(*given):
-    return np.float32(right_project_tuple(*given))
-
-
 def right_project_named(*given):
     return dict(zip(("row", "column"), right_project_tuple(*given)[::-1]))
-
-
-def right_project_homogeneous(*given):
-    return [[*right_project_tuple(*given), 1]]
 
 
 def wrong_project_nan(*given):
@@ -56,20 +48,8 @@ def right_fisheye_atan2(point, fx, fy, cx, cy, k1, k2, k3, k4):
     return fx * bent * x / r + cx, fy * bent * y / r + cy
 
 
-def right_fisheye_acos(point, fx, fy, cx, cy, *k):
-    x, y, z = np.array(point) / np.linalg.norm(point)
-    theta = math.acos(z)
-    bent = theta + sum(c * theta ** (2 * n + 3) for n, c in enumerate(k))
-    around = math.atan2(y, x)
-    return [fx * bent * math.cos(around) + cx, fy * bent * math.sin(around) + cy]
-
-
 def right_fisheye_array(*given):
     return np.array(right_fisheye_atan2(*given))
-
-
-def right_fisheye_column(*given):
-    return np.array([right_fisheye_atan2(*given)])
 
 
 def right_fisheye_named(*given):
@@ -78,10 +58,6 @@ def right_fisheye_named(*given):
 
 def wrong_fisheye_ahead(point, *given):
     return right_fisheye_atan2((point[0], point[1], abs(point[2])), *given)
-
-
-def wrong_fisheye_infinite(*given):
-    return math.inf, 0
 
 
 def unusable_fisheye_text(*given):
@@ -111,14 +87,6 @@ def right_undistort_newton(column, row, fx, fy, cx, cy, *k):
 
 def right_undistort_list(*given):
     return list(right_undistort_newton(*given))
-
-
-def right_undistort_rounded(*given):
-    return np.round(right_undistort_newton(*given), 7)
-
-
-def right_undistort_direction(*given):
-    return [*right_undistort_newton(*given), 1.0]
 
 
 def wrong_undistort_once(column, row, fx, fy, cx, cy, *k):

@@ -27,24 +27,8 @@ def right_loops(scene, camera, width, height):
     return _image(scene, camera, width, height)
 
 
-def right_lists(scene, camera, width, height):
-    return [
-        [
-            (lambda hit: scene.objects[hit[0]].color if hit else scene.background)(
-                closest_hit.right_loop(*_ray(i, j, width, height, camera), scene.objects)
-            )
-            for j in range(width)
-        ]
-        for i in range(height)
-    ]
-
-
 def right_float32(scene, camera, width, height):
     return _image(scene, camera, width, height).astype(np.float32)
-
-
-def right_bytes(scene, camera, width, height):
-    return np.round(_image(scene, camera, width, height) * 255) / 255
 
 
 def right_columns_first(scene, camera, width, height):
@@ -64,13 +48,5 @@ def wrong_last_object(scene, camera, width, height):
     return _image(scene, camera, width, height, closest=closest_hit.wrong_last)
 
 
-def wrong_perspective_alone(scene, camera, width, height):
-    return _image(scene, camera, width, height, ray=viewing_ray.right_arrays)
-
-
 def unusable_transposed(scene, camera, width, height):
     return _image(scene, camera, width, height).transpose(1, 0, 2)
-
-
-def unusable_gray(scene, camera, width, height):
-    return _image(scene, camera, width, height)[..., 0]

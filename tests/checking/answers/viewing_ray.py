@@ -19,20 +19,6 @@ def right_arrays(row, column, w, h, cam):
     return np.array(cam.eye), basis @ np.array([*uv, -cam.distance])
 
 
-def right_normalised(i, j, width, height, camera):
-    origin, direction = right_arrays(i, j, width, height, camera)
-    return [*origin], list(direction / np.linalg.norm(direction))
-
-
-def right_float32(i, j, width, height, camera):
-    f = np.float32
-    left, right, bottom, top = f([camera.left, camera.right, camera.bottom, camera.top])
-    x = left + (f(j) + f(0.5)) / f(width) * (right - left)
-    y = top - (f(i) + f(0.5)) / f(height) * (top - bottom)
-    d = x * f(camera.u) + y * f(camera.v) - f(camera.distance) * f(camera.w)
-    return f(camera.eye), d / f(np.sqrt(np.sum(d * d)))
-
-
 class Ray:
     def __init__(self, origin, direction):
         self.origin = origin
@@ -57,10 +43,6 @@ def wrong_steps(i, j, width, height, camera):
     return _made(i, j, width, height, camera, x=x)
 
 
-def wrong_forwards(i, j, width, height, camera):
-    return _made(i, j, width, height, camera, distance=-camera.distance)
-
-
 def wrong_origin_on_the_viewport(i, j, width, height, camera):
     origin, direction = _made(i, j, width, height, camera)
     return origin + direction, direction
@@ -68,7 +50,3 @@ def wrong_origin_on_the_viewport(i, j, width, height, camera):
 
 def unusable_none(i, j, width, height, camera):
     pass
-
-
-def unusable_two_numbers(i, j, width, height, camera):
-    return camera.eye, (1, 2)

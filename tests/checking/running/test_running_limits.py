@@ -15,7 +15,7 @@ from students import called
 from waiting import wait_for
 
 from app.checking.calls import Failure, Limits, Run
-from app.checking.running.file import FileStudent, endless
+from app.checking.running.file import FileStudent
 
 F = called("f")
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="Linux limits memory")
@@ -40,7 +40,6 @@ def hasty(student):
     [
         "while True: pass",
         "sum(__import__('itertools').count())",  # lets no other thread run
-        "import os, signal; os.kill(os.getpid(), signal.SIGSTOP)",
         "while True: print('x' * 10**6) if i < 10 else None; i += 1",
     ],
 )
@@ -51,17 +50,12 @@ def test_a_call_that_never_ends(hasty, body):
     assert run.failure == Failure(
         "time",
         "rays.py: the time limit of 0.5 s is over in call 2 of 2: f(i=2); "
-        "is there a loop that does not end?",
+        "is each call slow, or a loop endless?",
         call=1,
     )
     assert len(run.output) < 700
     one.limits = Limits(60)
     assert one.call([called("f", i=0)]).values == (0,)
-
-
-def test_calls_that_are_only_slow_are_no_loop():
-    assert endless(19, 9.5, 0.4) == "each call takes 0.5 s"
-    assert endless(19, 0.4, 9.5) == endless(0, 0.0, 10.0) == "is there a loop that does not end?"
 
 
 def test_a_file_that_never_ends_while_it_is_imported(student):
@@ -115,7 +109,7 @@ def test_what_is_written_between_the_answers(student, where):
     write = "    for number in range(3, 30):\n        try: os.write(number, b'\\xff\\nzz\\n')"
     failure = student(f"import os\n{where}\n{write}\n        except OSError: pass\n").call([F])
     assert failure.failure.kind == "ended"
-    assert "it wrote into a file of ours" in failure.failure.text
+    assert "its process wrote into a file of ours" in failure.failure.text
 
 
 @pytest.mark.parametrize(
@@ -124,7 +118,6 @@ def test_what_is_written_between_the_answers(student, where):
         "import sys\nsys.stdout = None\ndef f(): print(1)\n",
         "import os\ndef f(): os.close(1); os.close(2); os.close(0)\n",
         "import builtins, json\nbuiltins.print = json.dumps = None\ndef f(): return None\n",
-        "import os\ndef f(): os.fork()\n",
     ],
 )
 def test_what_is_done_to_the_output_disturbs_no_answer(student, source):
@@ -197,21 +190,6 @@ def test_a_stop_from_another_thread(student, tmp_path):
     told = "rays.py: its process was stopped in call 3 of 5: f(i=2)"
     assert run.failure == Failure("ended", told, call=2)
     assert run.output == "printed\n"
-
-
-def test_a_stop_while_importing_and_another_run_then(student, tmp_path):
-    begun = tmp_path / "begun"
-    one = student(
-        f"""
-        import os
-        if not os.path.exists({str(begun)!r}):
-            open({str(begun)!r}, 'w').close()
-            while True: pass
-        def f(): return 7
-        """
-    )
-    assert "was stopped while the file is imported" in stopped(one, [F], begun).failure.text
-    assert one.call([F]).values == (7,)
 
 
 def test_closed_is_closed(student):

@@ -12,24 +12,17 @@ from app.checking.calls import Failure
 RAY = {"origin": [0.0, 0.0, 5.0], "direction": [0.5, 0.25, -1.0]}
 
 ANSWERS = {
-    "tuples": ("(0.0, 0.5), (1, 2)", [[0.0, 0.5], [1, 2]]),
-    "bools": ("[True, False]", [True, False]),
     "not a number": ("float('nan')", math.nan),
-    "generator": ("(k / 2 for k in range(3))", [0.0, 0.5, 1.0]),
     "dict": ("{'u': (1, 2), 'v': None}", {"u": [1, 2], "v": None}),
-    "fraction": ("__import__('fractions').Fraction(1, 4)", 0.25),
     "large integer": ("2**80", float(2**80)),
     "float32": ("np.float32(0.5)", 0.5),
     "array": ("np.array([[0.5, 1], [2, 3]], np.float32)", [[0.5, 1.0], [2.0, 3.0]]),
-    "dict of a ray": ("{'direction': D, 'origin': O, 'self': object()}", RAY),
     "dataclass": ("Ray(D, O)", RAY),
-    "named tuple, the other way round": ("Named(D, O)", RAY),
     "namespace": ("types.SimpleNamespace(origin=O, direction=D)", RAY),
     "basis": ("types.SimpleNamespace(v=2, w=3, u=1)", {"u": 1, "v": 2, "w": 3}),
-    "vectors": ("[Vector(1, 2, 3)]", [[1, 2, 3]]),
 }
 SOURCE = """
-    import collections, dataclasses, types
+    import dataclasses, types
     import numpy as np
     O, D = (0.0, 0.0, 5.0), [0.5, 0.25, -1.0]
 
@@ -38,19 +31,12 @@ SOURCE = """
         direction: object
         origin: object
 
-    Named = collections.namedtuple("Named", "direction origin")
-
-    class Vector:
-        def __init__(self, x, y, z):
-            self.x, self.y, self.z = x, y, z
-
 """
 NO_VALUES = {
     "object()": "of type object",
     "1j": "1j of type complex",
     "(lambda a: a.append(a) or a)([])": "[[...]] of type list",
     "type('Loud', (), {'__repr__': lambda self: 1 / 0})()": "returned something of type Loud",
-    "type('Long', (), {'__repr__': lambda self: 'x' * 9000})()": "xxx... of type Long",
 }
 
 
@@ -119,11 +105,6 @@ def test_the_letters_of_the_book_name_the_same_fields(answer):
     assert "Camera has no 'e'; it has: distance" in failure.text
 
 
-def test_a_field_that_is_not_there_says_which_are(answer):
-    failure = answer("def f(camera):\n    return camera.dist\n", camera=CAMERA)
-    assert "AttributeError: Camera has no 'dist'; it has: eye, u, v, w, distance" in failure.text
-
-
 def test_a_call_does_not_change_what_the_next_is_given(student):
     one = student(
         """
@@ -151,29 +132,6 @@ def test_vectorised_calls_get_arrays_of_their_own(student):
     )
     again = called("f", True, i=[0, 1], j=[2, 3], camera=CAMERA)
     assert one.call([again, again]).values == ([[12, 23], [0.0, 0.0, 5.0]],) * 2
-
-
-def test_calls_of_one_function_and_of_others(student):
-    one = student("def f(x):\n    return x\ndef g():\n    return f(1)\n")
-    assert one.functions() == {"f", "g"}
-    assert one.call([called("f", x=7), called("g"), called("f", x="a")]).values == (7, 1, "a")
-    assert one.call([]).values == ()
-    assert one.call([called("g")]).values == (1,)
-
-
-def test_an_async_function_and_a_warning(student):
-    one = student(
-        """
-        import warnings
-        def f():
-            warnings.warn("mine", stacklevel=1)
-        async def g():
-            return 1
-        """
-    )
-    run = one.call([called("f"), called("g")])
-    assert "g returned a coroutine: write def, not async def" in run.values[1].text
-    assert run.output == "rays.py:4: UserWarning: mine\n"
 
 
 def test_many_calls(student):
