@@ -13,7 +13,7 @@ from window_driver import SIZE, Driver, Key
 from app.compare import comparing
 from app.compare.view import waiting
 from app.images.progressive_ray import RayImage
-from app.state.options import Pixel
+from app.state.options import ImageOptions, Pixel
 from app.widgets.theme import framebuffer_scale
 from renderer.compare import LABEL_COLORS, SHADING, Comparison
 from renderer.difference import false_color, signed_difference
@@ -189,6 +189,11 @@ def check_steps(d):
 
 
 def check_causes(d):
+    fit = ImageOptions()  # undo has left the magnification
+    assert d.window.state.images.magnification == comparing.MARKED_MAGNIFICATION
+    whole = {"magnification": fit.magnification, "center": fit.center}
+    d.window.change(d.window.state.with_options(images=whole))
+    d.settle()
     d.ctx.key_press(int(Key.k))
     d.settle()
     assert d.window.state.options.compare.causes

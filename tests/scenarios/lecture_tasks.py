@@ -214,6 +214,5 @@ def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
         d.ctx.item_click(f"//###{STEPPER}/###step")
     after, other = walked()
     assert after.pixel != before.pixel and ray and other and ray != other
-    d.ctx.item_click(f"//###{STEPPER}/###more")  # for the rest of the row there is no room
-    d.ctx.item_click("//$FOCUSED/###last")
+    d.ctx.key_press(int(Key.end))  # a low view has no button for it
     assert walked()[0].finished
