@@ -76,6 +76,7 @@ def read(given: Given, options: Options) -> CameraSet:
     origin = options.pixel_origin or "corner"
     shared = {name: value for name, value in table.items() if _is_optical(name)}
     optics: dict[str, _Optics] = {}  # by all the values that determine them
+    disagree = False
     cameras = []
     for i, frame in enumerate(frames):
         if not isinstance(frame, dict):
@@ -86,6 +87,7 @@ def read(given: Given, options: Options) -> CameraSet:
             key = repr(own) if own else ""
             if key not in optics:
                 optics[key] = _optics({**shared, **own}, size, origin, options)
+                disagree = disagree or _disagree({**shared, **own})
             name = frame.get("file_path", table.get("file_path", ""))
             cameras.append(_camera(pose, optics[key], name, folder))
         except LucidaError as error:
@@ -95,6 +97,8 @@ def read(given: Given, options: Options) -> CameraSet:
     told += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         told.append("transform_matrix is no rotation, and held as it is")
+    if disagree:
+        told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     if "applied_transform" in table:
         told.append("applied_transform is not undone: the poses stand as they are in the file")
     told += [sizing] if sizing else []
@@ -232,6 +236,15 @@ def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _
         with errors_as("fl_x"):
             check_for_lens(np.diag([fx, fy, 1.0]))
     return _Optics(size, viewport, signs, lens)
+
+
+def _disagree(table: Table) -> bool:
+    """Return True if both forms of the focal length are given and differ by more than 1 %."""
+    angle = table.get("camera_angle_x")
+    if not isinstance(angle, float) or not 0 < angle < math.pi or not {"fl_x", "w"} <= table.keys():
+        return False
+    fx = table["w"] / 2 / math.tan(angle / 2)
+    return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
 
 
 def _half_of_square(table: Table) -> float:

@@ -27,8 +27,6 @@ class Window:
     state: AppState
     size: tuple[int, int] = (160, 90)
     said: list[str] = field(default_factory=list)
-    taken: list[str] = field(default_factory=list)  # texts that views were asked to take
-    takes: tuple[str, ...] = ()  # those that one does
     message: str = ""
 
     @property
@@ -51,10 +49,6 @@ class Window:
         self.state = state
 
     change = travel
-
-    def take(self, text: str) -> bool:
-        self.taken.append(text)
-        return text in self.takes
 
 
 @pytest.fixture
@@ -137,18 +131,6 @@ def test_copy_and_paste(window: Window, clipboard: list[str]) -> None:
     assert len(window.said) == 8
     run(window, "Command line")
     assert clipboard[0].startswith("lucida render spheres -o ")
-
-
-def test_a_text_that_a_view_takes_is_no_error(window: Window, clipboard: list[str]) -> None:
-    start = window.state
-    window.takes = ("1 0 0 0",)
-    clipboard[0] = "1 0 0 0"
-    run(window, "Paste camera")
-    assert window.taken == ["1 0 0 0"]
-    assert window.message == "" and not window.said and window.state == start
-    run(window, "Copy camera")
-    run(window, "Paste camera")
-    assert len(window.taken) == 1  # a camera is nobody's but the camera's
 
 
 def test_a_clipboard_without_a_camera_is_told_and_changes_nothing(

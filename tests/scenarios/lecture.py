@@ -111,7 +111,7 @@ def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
 
 def drive_undo_walks_back_over_steps(d: Driver) -> None:
     first, second = give(d).steps
-    moved = d.window.state.with_options(images={"exposure_ev": 3.0})
+    moved = d.window.state.with_options(mirrors=True)
     d.window.change(moved)
     d.settle()
     d.ctx.key_press(int(Key.page_down))
@@ -140,7 +140,8 @@ def drive_undo_walks_back_over_steps(d: Driver) -> None:
         d.window.undo()
         d.ctx.yield_(2)
     d.settle()
-    assert (number_of(d), d.window.state) == (0, d.start)
+    begun = d.start.with_options(preferences={"presentation": True})  # which undo leaves alone
+    assert (number_of(d), d.window.state) == (0, begun)
 
 
 def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
@@ -329,7 +330,7 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     assert lecture.session is not None and lecture.session.lecture.title == "Dropped"
     assert shown(d) == {LECTURE, "Raster"}
     d.window.undo()  # what was there before is one step of undo away
-    assert d.window.state == d.start
+    assert d.window.state == d.start.with_options(preferences={"presentation": True})
 
 
 def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:

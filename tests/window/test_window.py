@@ -226,10 +226,10 @@ def look(target):
     for name, shown in (("Raster", textures._shown_raster), ("Ray", textures._shown_ray)):
         texture = shown._pictures["pane"].texture
         width, height = texture.size
-        right, bottom = (round(edge) for edge in run.window.shell.stage.rects[name][2:])
+        left, _, _, bottom = (round(edge) for edge in run.window.shell.stage.rects[name])
         rows = np.frombuffer(texture.read(), np.uint8)
         image = rows.reshape(height, width, -1)[..., :3].astype(int)
-        seen = picture[bottom - height : bottom, right - width : right]
+        seen = picture[bottom - height : bottom, left : left + width]
         assert image.std() > 20, f"no image at {sizes[0]}"
         differ = (np.abs(seen - image).max(axis=2) > 2).mean()
         assert differ < 0.01, f"{differ:.1%} of the pixels differ at {sizes[0]}"
