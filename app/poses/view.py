@@ -53,6 +53,7 @@ class PosesView(DockedView):
 
     name = POSES
     title = "Poses"
+    space = layout.INSTRUMENTS
 
     def __init__(self, outside: OutsideView) -> None:
         self._outside = outside

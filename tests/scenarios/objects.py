@@ -301,6 +301,6 @@ def drive_the_column_grows_with_the_type(d: Driver) -> None:
         window.change(window.state.with_options(preferences={"font_scale": scale}))
         d.settle()
         d.picture()
-        wide.append(d.ctx.item_info("//###Inspector/##move.x").rect_full.get_width())
+        wide.append(d.ctx.item_info("//###Objects/##search").rect_full.get_width())
     assert wide[1] > 1.25 * wide[0]
     assert abs(wide[2] - wide[0]) <= 1, wide
