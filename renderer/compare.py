@@ -30,8 +30,7 @@ from renderer.difference import (
 from renderer.explained import CAUSES, DEPTH_RELATIVE, NORMAL, Differing, explained
 from renderer.frame import CHANNELS, Frame
 from renderer.images.display import encode_srgb
-from renderer.lens_faces import ENLARGEMENT
-from renderer.pixels import Indexing, Pixel
+from renderer.pixels import ENLARGEMENT, Indexing, Pixel
 from renderer.precision import check_precision
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene

@@ -19,8 +19,6 @@ from renderer.camera import LARGEST_KEPT, Camera, Floats, Size
 from renderer.lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
-ENLARGEMENTS = (1, 2, 4)  # texels of the faces per pixel, along a side
-ENLARGEMENT = 2
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
 
 # In place of a face's number: the lens shows nothing there.

@@ -10,6 +10,10 @@ from enum import Enum
 
 Pixel = tuple[int, int]
 
+# Texels per pixel, along a side, of the pinhole images that a lens's image is looked up in.
+ENLARGEMENTS = (1, 2, 4)
+ENLARGEMENT = 2
+
 
 class Indexing(Enum):
     """The first number of a pixel: 1, as in the lecture, or 0, as in arrays."""

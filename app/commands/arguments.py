@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, NoReturn
 from app.cameras.options import with_camera_options
 from app.commands.given_camera import say_changes, viewed
 from renderer.errors import LucidaError, one_line, visible
-from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
-from renderer.pixels import Indexing
+from renderer.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 
 if TYPE_CHECKING:
     from tqdm import tqdm

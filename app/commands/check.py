@@ -127,6 +127,7 @@ def run(arguments: argparse.Namespace) -> int:
     results: list[TaskResult] = []
     pictures: dict[str, Pictured] = {}
     from app.checking.checked import check
+    from app.checking.running.program import DISHONEST
 
     try:
         _check_arguments(arguments)
@@ -138,6 +139,8 @@ def run(arguments: argparse.Namespace) -> int:
         write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)
+            if arguments.user is None:
+                print(f"lucida: {DISHONEST}", file=sys.stderr)
             for result in check(student, tasks):
                 results.append(result)
                 _tell(arguments, result)
@@ -219,16 +222,13 @@ def _checked(arguments: argparse.Namespace) -> str:
 
 
 def _account(arguments: argparse.Namespace) -> Account | None:
-    """Return the user of the student's program, who can reach neither results nor tasks.
-
-    Without one, print what a dishonest program could do.
+    """Return the user of the student's program, who can reach neither results nor tasks; None
+    without `--as`.
     """
     from app.checking.courses import task_path
     from app.checking.running.account import account
-    from app.checking.running.program import DISHONEST
 
     if arguments.user is None:
-        print(f"lucida: {DISHONEST}", file=sys.stderr)
         return None
     user = account(arguments.user)
     results = [Path(path) for path in (arguments.json, arguments.html) if path not in (None, "-")]

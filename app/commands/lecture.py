@@ -68,8 +68,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--results",
         metavar="FILE",
         nargs="+",
-        help="write which mistakes a class makes into the page -o OUT.html: files of --answers or "
-        "lucida check --json",
+        help="write which mistakes a class makes, as a page (-o); "
+        "files of --answers or lucida check --json",
     )
     parser.add_argument(
         "--no-answers",

@@ -16,7 +16,7 @@ from renderer.camera import Camera, Size
 from renderer.frame import Frame
 from renderer.images import encode_image, picture
 from renderer.images.png import write_png
-from renderer.lens_faces import ENLARGEMENT
+from renderer.pixels import ENLARGEMENT
 from renderer.scene.model import Scene
 
 if TYPE_CHECKING:

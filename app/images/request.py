@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from renderer.camera import Camera
-from renderer.lens_faces import ENLARGEMENT
+from renderer.pixels import ENLARGEMENT
 from renderer.scene.model import Scene
 from renderer.scene_editing.documents import are_versions
 

@@ -20,7 +20,7 @@ from app.images.imaging import (
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
-from renderer.lens_faces import ENLARGEMENTS
+from renderer.pixels import ENLARGEMENTS
 
 Change = Callable[[AppState], AppState]
 

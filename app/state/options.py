@@ -12,8 +12,7 @@ from typing import Annotated, Literal
 from app.state.bounds import Accepted, AtMost, OneOf, Range
 from renderer.frame import LARGEST_SIDE, check_size
 from renderer.intrinsics import PixelOrigin
-from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
-from renderer.pixels import Indexing
+from renderer.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from renderer.scene.model import View
 
 Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]

@@ -19,7 +19,7 @@ import moderngl
 from renderer.camera import Camera, check_camera
 from renderer.errors import LucidaError
 from renderer.frame import Frame, check_channels, check_size
-from renderer.lens_faces import ENLARGEMENT, ENLARGEMENTS
+from renderer.pixels import ENLARGEMENT, ENLARGEMENTS
 from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.lens_passes import draw_passes
 from renderer.raster.prepared import Prepared, prepare

@@ -138,7 +138,7 @@ class TestMistakes:
             ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
             ("pick spheres 0 9 --size 9x9", "COLUMN: 9 is outside an image of 9x9; give 0 to 8"),
             ("pick spheres 0 1 --from 1", "ROW: 0 is outside an image of 1280x720; give 1 to 720"),
-            ("scenes all few", "unrecognized arguments: few; see 'lucida scenes --help'"),
+            ("scenes all", "unrecognized arguments: all; see 'lucida scenes --help'"),
         ],
     )
     def test_mistake(self, capsys, in_an_empty_folder, line, told):

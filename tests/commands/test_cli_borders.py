@@ -224,7 +224,6 @@ text = "{HOSTILE}"
     "check rays.csv --tasks tasks.toml --view view.toml --size 1x1",
     "check --starter all --tasks tasks.toml",
     "scene scene.toml",
-    "scenes scene.toml",
     "pick scene.toml 360 640",
     "lecture \x1b[31m.toml --check",
     "camera transforms.json",
