@@ -139,7 +139,8 @@ def run(arguments: argparse.Namespace) -> int:
         write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)
-            if arguments.user is None:
+            runs = arguments.command is not None or Path(arguments.file).suffix.lower() not in RAYS
+            if runs and arguments.user is None:
                 print(f"lucida: {DISHONEST}", file=sys.stderr)
             for result in check(student, tasks):
                 results.append(result)

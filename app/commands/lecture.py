@@ -68,8 +68,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--results",
         metavar="FILE",
         nargs="+",
-        help="write which mistakes a class makes, as a page (-o); "
-        "files of --answers or lucida check --json",
+        help="write a page (-o) of a class's mistakes, from --answers or check --json",
     )
     parser.add_argument(
         "--no-answers",

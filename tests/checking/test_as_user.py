@@ -22,7 +22,7 @@ from app.cli import main
 
 TASKS = 'seed = 4711\n[[tasks]]\nkind = "memory-offset"\npoints = 2\n'
 RIGHT = "def memory_offset(i, j, width): return i * width + j\n"
-USER = "lucida-test-student"
+USER = f"lucida-test-{os.getpid()}"
 CHEATS = {
     "writes the results": "open(ROOT + '/results/results.json', 'w').write('999')",
     "reads the tasks": "open(ROOT + '/source/hw2.toml').read()",

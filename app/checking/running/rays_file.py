@@ -16,7 +16,6 @@ from renderer.scene.reading import read_file
 
 _COLUMNS = ["i", "j", "ox", "oy", "oz", "dx", "dy", "dz"]
 _LONGEST_FILE = 1 << 28  # bytes
-_UNREADABLE = (ValueError, EOFError, SyntaxError, TypeError, ArithmeticError, MemoryError)
 
 Floats = NDArray[np.float64]
 
