@@ -127,7 +127,7 @@ def run(arguments: argparse.Namespace) -> int:
     results: list[TaskResult] = []
     pictures: dict[str, Pictured] = {}
     from app.checking.checked import check
-    from app.checking.running.program import DISHONEST
+    from app.checking.running.program import DISHONEST, ProgramStudent
 
     try:
         _check_arguments(arguments)
@@ -139,8 +139,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)
-            runs = arguments.command is not None or Path(arguments.file).suffix.lower() not in RAYS
-            if runs and arguments.user is None:
+            if isinstance(student, ProgramStudent) and arguments.user is None:
                 print(f"lucida: {DISHONEST}", file=sys.stderr)
             for result in check(student, tasks):
                 results.append(result)

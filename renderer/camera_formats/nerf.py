@@ -86,8 +86,9 @@ def read(given: Given, options: Options) -> CameraSet:
             own = {name: value for name, value in frame.items() if _is_optical(name)}
             key = repr(own) if own else ""
             if key not in optics:
-                optics[key] = _optics({**shared, **own}, size, origin, options)
-                disagree = disagree or _disagree({**shared, **own})
+                optical = {**shared, **own}
+                optics[key] = _optics(optical, size, origin, options)
+                disagree = disagree or _disagree(optical)
             name = frame.get("file_path", table.get("file_path", ""))
             cameras.append(_camera(pose, optics[key], name, folder))
         except LucidaError as error:

@@ -103,7 +103,7 @@ class GltfScene(msgspec.Struct, rename="camel"):
 
 
 class GltfVersion(msgspec.Struct):
-    """What every version has; glTF 1.0 has tables where 2.0 has lists, and may omit its version."""
+    """Fields of every version. glTF 1.0 has tables for 2.0's lists, and may omit its version."""
 
     asset: Asset
 
