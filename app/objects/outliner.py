@@ -59,24 +59,22 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
 
 def _visible_rows(result: Listed) -> Listed:
     """Draw the visible rows, and the one whose name is being typed."""
-    height = imgui.get_frame_height() + 2 * imgui.get_style().cell_padding.y
     items = [row.item for row in result.rows]
-    selected = chosen(result.state)
-    last = selected[-1] if selected else None
-    if last != result.outliner.seen:  # scroll to an item that was selected elsewhere
-        if last in items and not imgui.is_window_hovered():
-            room = imgui.get_window_height()
-            at = scroll_to(items.index(last), height, imgui.get_scroll_y(), room)
-            imgui.set_scroll_y(at)
-        result = result.keeping(seen=last)
     clipper = imgui.ListClipper()
-    clipper.begin(len(items), height)
+    clipper.begin(len(items))
     renamed = result.outliner.renamed
     if renamed is not None and renamed[0] in items:
         clipper.include_item_by_index(items.index(renamed[0]))
     while clipper.step():
         for row in result.rows[clipper.display_start : clipper.display_end]:
             result = _row(row, result)
+    selected = chosen(result.state)
+    last = selected[-1] if selected else None
+    if last != result.outliner.seen:  # scroll to an item that was selected elsewhere
+        if last in items and not imgui.is_window_hovered():
+            place, room = items.index(last), imgui.get_window_height()
+            imgui.set_scroll_y(scroll_to(place, clipper.items_height, imgui.get_scroll_y(), room))
+        result = result.keeping(seen=last)
     return result
 
 

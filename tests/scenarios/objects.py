@@ -204,7 +204,8 @@ def drive_a_number_that_is_dragged_is_one_step(d: Driver) -> None:
 def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
     enter(d)
     window = d.window
-    row = next(row for row in rows_of(window.state.scene) if row.material)
+    row = next(row for row in rows_of(window.state.scene) if row.shown == "box")
+    assert window.state.scene.objects[row.ids[0]].material.checker is None
     before = {entry.material.shininess for entry in window.state.scene.objects}
     d.ctx.item_click(in_list(d, row.shown))
     d.ctx.yield_(3)
