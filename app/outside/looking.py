@@ -236,7 +236,9 @@ def ray_ends(
     pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, counts)]
     asked = (*pixels, marked) if marked is not None else tuple(pixels)
     known: dict[Pixel, float] = {}
-    if asked:
+    if not asked:
+        hits.forget()
+    else:
 
         def depths(painter: RayPainter) -> dict[Pixel, float]:
             return ray_depths(painter, camera, size, asked)

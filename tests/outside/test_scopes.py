@@ -7,8 +7,9 @@ from types import SimpleNamespace
 import pytest
 from imgui_bundle import ImVec2
 
+from app.images.ray_pictures import RayPictures
 from app.outside import looking
-from app.outside.looking import NOTHING, STILL_S, Scopes
+from app.outside.looking import NOTHING, STILL_S, Scopes, ray_ends
 from app.outside.options import OutsideOptions
 from renderer.camera import Camera
 
@@ -93,3 +94,17 @@ def test_the_users_own_camera_waits_for_nothing(made):
         scopes.of(host(step, own="mine"), (300, 200), *PLACE, NOTHING, step / 60)
         assert not scopes.waits
     assert made == list(range(4))
+
+
+def test_a_ray_that_nobody_asks_for_any_more_is_not_awaited():
+    hits = RayPictures("test", lambda: None)
+    live = SimpleNamespace(tracer_of=lambda _: None, preparing_s=1.0)  # the ray has to wait
+    renderers = SimpleNamespace(live=live, size=(40, 30), depth_at=lambda *_: None)
+    state = SimpleNamespace(scene="scene", marked=(3, 4), of=lambda _: OutsideOptions())
+    about = hits, SimpleNamespace(state=state, renderers=renderers, hovered=None), Camera(), (40, 30)
+    assert ray_ends(*about, ())[0].pixel == (3, 4)
+    assert hits.busy
+    state.marked = None
+    assert ray_ends(*about, ())[0] is None
+    assert not hits.busy
+    hits.close()
