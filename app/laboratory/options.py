@@ -24,7 +24,7 @@ class LaboratoryOptions:
     """
 
     page: Literal[
-        "heights", "kinds", "bitmaps", "exposure", "projectors", "displays", "subpixels", "array",
+        "heights", "kinds", "bitmaps", "exposure", "projectors", "displays", "array",
         "vector",
     ] = "kinds"  # fmt: skip
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"

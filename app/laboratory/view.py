@@ -47,7 +47,7 @@ ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the le
 LEAST_EM = {"heights": 8.0, "displays": 8.4, "array": 19.0}  # of pages that are otherwise
 TWO_COLUMNS_EM = 30.0  # of the array page, whose parts stand below one another in less
 PROGRAM_EM = 20.0  # of a part of it, which is without its program in less
-ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
+ABOUT_A_PIXEL = ("displays", "array")  # a click on these pages chooses it
 
 
 class LaboratoryView(DockedView):

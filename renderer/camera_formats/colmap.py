@@ -14,10 +14,8 @@ from pathlib import Path, PureWindowsPath
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats
 from renderer.camera_formats import colmap_binary, colmap_lenses, colmap_text
 from renderer.camera_formats.colmap_lenses import model_for
 from renderer.camera_formats.distortion import lens_of
@@ -143,18 +141,6 @@ _POINTS_HEAD = """\
 #   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
 # Number of points: 0
 """
-
-
-def points_text(points: Floats, colors: NDArray[np.uint8]) -> bytes:
-    """Return a points3D.txt: points (n, 3), with their colours, uint8 (n, 3), without tracks."""
-    lines = [
-        f"{number} {' '.join(map(repr, point))} {' '.join(map(str, color))} 0\n"
-        for number, (point, color) in enumerate(
-            zip(points.tolist(), colors.tolist(), strict=True), 1
-        )
-    ]
-    head = _POINTS_HEAD.replace(" 0\n", f" {len(lines)}\n")
-    return "".join([head, *lines]).encode()
 
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
