@@ -84,9 +84,9 @@ def test_scenes_made_in_python_are_written_by_their_parts(tmp_path):
 
 def test_numpy_s_numbers_are_written_as_numbers(tmp_path):
     material = Material(np.float32([0.5, 0.25, 0]), shininess=np.float32(3), single_sided=np.True_)
-    ball = SceneObject(Sphere(np.arange(3), np.float64(1.5)), material)
+    ball = SceneObject(Sphere(np.arange(3), np.float64(1.5)), material, "a")
     view = View(Camera(distance=np.float64(2)), fit=np.True_)
-    scene = Scene((ball,), (PointLight(np.arange(3)),), np.ones(3), view=view)
+    scene = Scene((ball,), (PointLight(np.arange(3)),), np.ones(3), view=view, name="b")
     save_scene(tmp_path / "scene.toml", scene)
     found = load_scene(tmp_path / "scene.toml")
     check_same(found, scene)
