@@ -87,12 +87,20 @@ def read(given: Given, options: Options) -> CameraSet:
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
         posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
+    others = [] if folder == given.path else _other_models(folder, kind)
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
         "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
     )
-    return CameraSet("colmap", tuple(posed), taken, *cloud)
+    notes = tuple(f"{other} is another model: give its folder to see it" for other in others)
+    return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
+
+
+def _other_models(folder: Path, kind: str) -> list[Path]:
+    """Return the models next to one: COLMAP numbers those that it could not connect."""
+    beside = sorted(folder.parent.glob("[0-9]*"))
+    return [other for other in beside if other != folder and isfile(other / f"images{kind}")]
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
