@@ -135,27 +135,24 @@ def _gltf_content(
 ) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
     from renderer.scene.gltf import read_gltf
 
-    file = read_gltf(path, images, is_mapped)
-    built: dict[int, Mesh | None] = {}  # primitives of the same numbers share their part
-    for part in file.parts.values():
-        check_cancelled()
-        if id(part) not in built:
-            built[id(part)] = build_mesh(part)
-    meshes = {key: built[id(part)] for key, part in file.parts.items()}
+    instances, views = read_gltf(path, images, is_mapped)
+    built: dict[int, Mesh | None] = {}
     objects = []
-    for instance in file.instances:
-        mesh = meshes[instance.primitive]
+    for instance in instances:
+        part = instance.part
+        if id(part) not in built:
+            check_cancelled()
+            built[id(part)] = build_mesh(part)
+        mesh = built[id(part)]
         if mesh is None or _is_flat(instance.matrix):
             continue
         name = instance.name or path.stem
-        given = None if instance.material is None else file.materials[instance.material]
-        material = given or _material(file.parts[instance.primitive])
-        material = _shown_on(mesh, material, name, images)
+        material = _shown_on(mesh, instance.material or _material(part), name, images)
         with under(f"node {name!r}"[:80]):
             placed = mesh.placed(instance.matrix @ mesh.transform)
         is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
         objects.append(SceneObject(placed, material, name, is_gone))
-    return objects, file.views
+    return objects, views
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:
