@@ -13,6 +13,7 @@ import numpy as np
 from renderer.errors import LucidaError, under
 from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled, during
+from renderer.scene.gltf import read_gltf
 from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import (
@@ -24,7 +25,9 @@ from renderer.scene.model import (
     triangles_of,
     without_metal,
 )
+from renderer.scene.obj import read_obj
 from renderer.scene.parts import Part, build_mesh
+from renderer.scene.readers import READERS
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 from renderer.scene.reading import check_count, naming
 
@@ -110,15 +113,7 @@ def model_scene(path: str | Path) -> Scene:
 
 
 def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> list[SceneObject]:
-    # Imported here: scenes without models need none of it.
-    if ending == ".obj":
-        from renderer.scene.obj import read_obj
-
-        parts = read_obj(path, images, is_mapped)
-    else:
-        from renderer.scene.readers import READERS
-
-        parts = READERS[ending](path)
+    parts = read_obj(path, images, is_mapped) if ending == ".obj" else READERS[ending](path)
     objects = []
     for part in parts:
         check_cancelled()
@@ -133,8 +128,6 @@ def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> l
 def _gltf_content(
     path: Path, images: ModelImages, is_mapped: bool
 ) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
-    from renderer.scene.gltf import read_gltf
-
     instances, views = read_gltf(path, images, is_mapped)
     built: dict[int, Mesh | None] = {}
     objects = []

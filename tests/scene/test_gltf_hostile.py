@@ -54,7 +54,10 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"nodes": [{}]}, "holds no triangle"),
     ({"nodes": [{"mesh": 0, "scale": [0, 1, 1]}]}, "holds no triangle"),
     ({"nodes": [{"mesh": 0, "scale": [1e300, 1e300, 1]}]}, "node 'x'.transform: is too large"),
-    ({"nodes": [{"mesh": 0, "matrix": [1] * 15}]}, "nodes[0].matrix: expected array of length >= 16"),
+    (
+        {"nodes": [{"mesh": 0, "matrix": [1] * 15}]},
+        "nodes[0].matrix: expected array of len",
+    ),
     (
         {"nodes": [{"mesh": 0, "translation": ["a", 0, 0]}]},
         "nodes[0].translation[0]: expected float",
