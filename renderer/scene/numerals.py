@@ -20,6 +20,15 @@ _POWERS = 10.0 ** np.arange(23)  # and these powers of ten
 _NEWLINE, _PLUS, _MINUS, _DOT, _SLASH, _BLANK = 10, 43, 45, 46, 47, 32
 
 
+def is_number(word: str) -> bool:
+    """Return True if float() takes the word."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
 def words(text: bytes) -> tuple[Ints, Ints]:
     """Return where each word begins, and how many words each line has."""
     octets = np.frombuffer(text, np.uint8)
