@@ -34,7 +34,7 @@ from renderer.scene.gltf_textures import read_coordinates
 from renderer.scene.images import ModelImages
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import Material, NamedView
-from renderer.scene.parts import Part, linear_colors, used_vertices
+from renderer.scene.parts import Part, linear_colors
 from renderer.scene.reading import check_count
 
 # The types of accessors that primitives may name.
@@ -104,7 +104,7 @@ def read_gltf(
                 images.note("the opacity of vertices cuts no holes", "materials")
             fields["vertex_colors"] = linear_colors(colors, linear=True)
             fields["uv"] = _coordinates(file, places, images)
-            parts[key] = Part(entry.mesh_name, **_compacted(fields), has_backs=has_backs)
+            parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
         placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
     return placed, camera_views(tree, nodes)
 
@@ -205,21 +205,3 @@ def _fields(file: OpenGltf, primitive: Primitive, where: str) -> dict[str, Any]:
         "normals": read("NORMAL"),
         "vertex_colors": read("COLOR_0"),
     }
-
-
-def _compacted(fields: dict[str, Any]) -> dict[str, Any]:
-    """Return a part's fields with only the vertices that its faces use: of primitives that share
-    one large list of vertices, each uses few.
-    """
-    count, faces = len(fields["vertices"]), fields["faces"]
-    if not len(faces) or faces.max() >= count:
-        return fields  # reported elsewhere
-    source, faces = used_vertices(faces)
-    if len(source) == count:
-        return fields
-    per_vertex = {
-        name: value[source]
-        for name, value in fields.items()
-        if name != "faces" and value is not None and len(value) == count
-    }
-    return fields | per_vertex | {"faces": faces}

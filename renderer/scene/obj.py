@@ -99,9 +99,9 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     Indices count from 0; -1 means none, less an impossible one.
     """
     text = lines.of("f")
-    begins, counts = numerals.words(text)
+    _, counts = numerals.words(text)
     columns = []
-    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text, begins), strict=True):
+    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text), strict=True):
         if column is not None:
             # Negative ones count from the end of what was defined above their line.
             if column.min() < 0:

@@ -58,15 +58,21 @@ def build_mesh(part: Part) -> Mesh | None:
     vertices = _rows(part.vertices, count, 3)
     if not len(faces) or vertices is None or not count:
         return None
+    check_corners(faces.reshape(-1), count)
     vertex_colors = _rows(part.vertex_colors, count, 3)
     face_colors = _rows(part.face_colors, len(faces), 3)
     normals = _rows(part.normals, count, 3)
     uv, lost_places = _rows(part.uv, count, 2), 0
+    if count > 3 * len(faces):  # parts may share one list of vertices
+        source, faces = used_vertices(faces)
+        vertices = vertices[source]
+        vertex_colors, normals, uv = (
+            None if rows is None else rows[source] for rows in (vertex_colors, normals, uv)
+        )
     if uv is not None:
         usable = np.abs(uv) <= LARGEST_UV  # false for NaN too
         lost_places = int(np.count_nonzero(~usable.all(axis=1)))
         uv = np.where(usable, uv, 0.0).astype(np.float32)
-    check_corners(faces.reshape(-1), len(vertices))
     _check_used(vertices, faces)
     origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses

@@ -230,7 +230,8 @@ def read_stl(path: Path) -> list[Part]:
     elif len(data) < 84:
         raise damaged("is too short to be STL")
     else:
-        raise damaged(f"declares {triangles} triangles, and has {len(data):,} bytes")
+        declared = f"{triangles} triangles, {84 + 50 * triangles:,} bytes"
+        raise damaged(f"declares {declared}, and has {len(data):,} bytes")
     return [
         Part(name or path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))
         for name, points in solids

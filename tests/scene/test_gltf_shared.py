@@ -45,20 +45,11 @@ def test_one_buffer_shown_a_thousand_times_is_built_once(tmp_path: Path, monkeyp
     assert len({id(entry.shape.faces) for entry in objects}) == 1
 
 
-def test_primitives_of_one_list_of_vertices_have_only_their_own(
-    tmp_path: Path, monkeypatch
-) -> None:
-    from renderer.scene import models
-
-    build, sizes = models.build_mesh, []
-    monkeypatch.setattr(
-        models, "build_mesh", lambda part: sizes.append(len(part.vertices)) or build(part)
-    )
+def test_primitives_of_one_list_of_vertices_have_only_their_own(tmp_path: Path) -> None:
     one, two = load_gltf(shared(CORNERS, FACES, own=False), tmp_path).objects
     assert (one.shape.vertices == CORNERS[:3]).all()
     assert {tuple(v) for v in two.shape.vertices} == {tuple(v) for v in CORNERS[[0, 1, 2, 3, 4]]}
     assert len(two.shape.faces) == 2
-    assert sizes == [3, 5]
 
 
 def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> None:
