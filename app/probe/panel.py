@@ -45,7 +45,6 @@ SECTIONS = {
     "hit": "Hit",
     "colour": "Colour",
 }
-RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
 
@@ -62,7 +61,7 @@ class Pin:
 
 
 def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
-    """Draw the pixel, its indexing, the rays, the copies. pixel: the marked one, or the one under
+    """Draw the pixel, its indexing, the copies. pixel: the marked one, or the one under
     the mouse.
     """
     indexing = state.options.indexing
@@ -74,7 +73,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
-    state = _section_field(_rays_field(state))
+    state = _section_field(state)
     pins = state.of(ProbeOptions).pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -148,23 +147,6 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
         for part, most in zip(chosen, (size[1], size[0]), strict=True)
     )
     return state.with_options(marked=(row, column))
-
-
-def _rays_field(state: AppState) -> AppState:
-    name = f"Rays: {RAYS[state.of(ProbeOptions).rays]}"
-    widest = max(button_width(f"Rays: {text}") for text in RAYS.values())
-    follow(widest)
-    if widest > imgui.get_content_region_avail().x:
-        name, widest = "Rays", 0.0
-    if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
-        imgui.open_popup("rays")
-    imgui.set_item_tooltip("which viewing rays the outside view shows")
-    if imgui.begin_popup("rays"):
-        for key, text in RAYS.items():
-            if imgui.menu_item(f"of {text}", "", key == state.of(ProbeOptions).rays)[0]:
-                state = state.with_options(probe={"rays": key})
-        imgui.end_popup()
-    return state
 
 
 def _section_field(state: AppState) -> AppState:

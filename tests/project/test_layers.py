@@ -108,7 +108,7 @@ PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers lens_section projection sections",
     "photograph": "layer laying",
-    "pair": "boxes camera_drag choices dark_note footprint hatching image_mouse marks overlay pane "
+    "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "

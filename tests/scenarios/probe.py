@@ -137,21 +137,19 @@ def lines(d: Driver, name: str) -> int:
     return sum(len(part.points) for part in found)
 
 
-def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d):
+def drive_rays_of_pins_stand_in_the_outside_view(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     d.settle()
-    assert lines(d, "rays") == lines(d, "pin") == 0
+    assert lines(d, "pin") == 0
     assert lines(d, "normal") > 0
-    for which in ("row", "column"):
-        options = {"rays": which, "pins": ((20, 30), (100, 40))}
-        d.window.change(d.window.state.with_options(probe=options))
-        d.settle()
-        d.until(lambda: lines(d, "rays") >= 30)
-        assert lines(d, "pin") >= 2
+    options = {"pins": ((20, 30), (100, 40))}
+    d.window.change(d.window.state.with_options(probe=options))
+    d.settle()
+    assert lines(d, "pin") >= 2
     d.window.shell.stage.show(PROBE, False)
     d.ctx.yield_(4)
-    assert [lines(d, name) for name in ("rays", "pin", "normal")] == [0, 0, 0]
+    assert [lines(d, name) for name in ("pin", "normal")] == [0, 0]
     d.window.shell.stage.show(PROBE)
     d.ctx.yield_(4)
     leave(d)

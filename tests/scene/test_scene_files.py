@@ -160,12 +160,12 @@ MISTAKES = {
     "[[objects]]\ntype = 'spere'": "objects[0].type: 'spere' is unknown; did you mean 'sphere'?",
     BALL + "radios = 1": "objects[0].radios: is unknown; did you mean 'radius'?",
     BALL + "radius = -1": "objects[0].radius: -1 is not above 0",
-    BALL + "radius = nan": "objects[0].radius: nan is not above 0",
-    BALL + "radius = 1e308": "objects[0].radius: 1e+308 is outside 1e-09 to 1e+12",
-    BALL + "radius = 1e-300": "objects[0].radius: 1e-300 is outside 1e-09 to 1e+12",
+    BALL + "radius = nan": "objects[0].radius: nan is not finite",
+    BALL + "radius = 1e308": "objects[0].radius: 1e+308 is too large",
+    BALL + "radius = 1e-300": "objects[0].radius: 1e-300 is below 1e-09",
     BALL + "radius = 'a'": "objects[0].radius: is text in quotes; give a number",
     BALL + "radius = 1979-05-27": "objects[0].radius: is a date; give a number",
-    BALL + "center = [1, inf, 0]": "objects[0].center: inf is not a usable number",
+    BALL + "center = [1, inf, 0]": "objects[0].center: inf is not finite",
     BALL + "center = [1, 'a', 0]": "objects[0].center[1]: is text in quotes; give a number",
     BALL + BALL + "material = {difuse = 1}": (
         "objects[1].material.difuse: is unknown; did you mean 'diffuse'?"
@@ -184,7 +184,7 @@ MISTAKES = {
     BALL + "[materials.red]\nshiny = 1": "materials.red.shiny: is unknown",
     BALL + "[materials]\nred = 1": "materials.red: is a whole number; give a table",
     "[[objects]]\ntype = 'box'\nscale = 0": "objects[0].scale: (0.0, 0.0, 0.0) flattens the shape",
-    "[[objects]]\ntype = 'box'\nscale = 1e300": "objects[0].scale: 1e+300 is not a usable number",
+    "[[objects]]\ntype = 'box'\nscale = 1e300": "objects[0].scale: 1e+300 is too large",
     "[[objects]]\ntype = 'cone'\nsegments = 1000000000": (
         "objects[0].segments: 1000000000 is outside 3 to 1024"
     ),

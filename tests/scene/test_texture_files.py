@@ -238,7 +238,7 @@ WRONG_TABLES = {
     "'s.toml'": r"materials\.m\.texture: 's.toml' is none of PNG",
     "3": r"materials\.m\.texture: is a whole number; give",
     "{ file = 'a.png', wrap = 'tile' }": r"texture\.wrap: 'tile' is unknown; give one of repeat",
-    "{ file = 'a.png', scale = nan }": r"texture\.scale: nan is not a usable number",
+    "{ file = 'a.png', scale = nan }": r"texture\.scale: nan is not finite",
     "{ file = 'a.png', size = 1 }": r"texture\.size: is unknown",
     "'a.png'\nchecker = {}": r"materials\.m\.texture: is given, and so is a checker",
 }
