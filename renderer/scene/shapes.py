@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.limits import SEGMENTS
-from renderer.scene.material import check_length, vector
+from renderer.scene.material import length, vector
 from renderer.scene.model import Mesh
 
 Floats = NDArray[np.float64]
@@ -228,10 +228,7 @@ def _exact(value: float) -> float:
 
 
 def _length(name: str, value: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
-        raise LucidaError(name, f"{value!r} is not a number", "give a length, e.g. 1.0")
-    check_length(name, float(value), 1e-9, "give a length, e.g. 1.0")
-    return float(value)
+    return length(name, value, 1e-9, "give a length, e.g. 1.0")
 
 
 def _sides(name: str, value: float | Iterable[float]) -> tuple[float, float, float]:
