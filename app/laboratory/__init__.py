@@ -7,6 +7,5 @@ light       three projectors whose light adds; test pictures
 displays    tube, DLP, LCD and LED in time, whose mean over a cycle is the pixel's colour
 memory      the array itself: canvas[i, j], row-major or column-major, memory offsets
 array_code  the same as a program, in Python and Julia
-disk        the sizes of files, and files of what is stored
 pages       which pictures each page shows; view, tools, tables, ...: on the screen
 """

@@ -34,7 +34,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
     imgui.push_item_width(min(14 * imgui.get_font_size(), 0.5 * width))
     match changed.page:
         case "kinds":
-            changed = _table(_bitmap(_exposure(changed)))
+            changed = _bitmap(_exposure(changed))
         case "exposure":
             changed = _exposure(changed)
         case "projectors":
@@ -123,13 +123,6 @@ def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
         "exposure after storage##after", options.after_ev, *limits, "%+.1f EV"
     )
     return replace(options, after_ev=value) if moved else options
-
-
-def _table(options: LaboratoryOptions) -> LaboratoryOptions:
-    follow(imgui.calc_text_size("sizes").x + 1.5 * imgui.get_frame_height())
-    moved, table = checkbox("sizes", options.table)
-    imgui.set_item_tooltip("a table of the kinds' sizes, in memory and as files")
-    return replace(options, table=table) if moved else options
 
 
 def _bitmap(options: LaboratoryOptions) -> LaboratoryOptions:

@@ -23,7 +23,7 @@ from renderer.scene import (
 )
 from renderer.scene.cancelling import cancelled_by
 from renderer.scene.files import scene_from_toml
-from renderer.scene.limits import MADE_TRIANGLES, OBJECTS
+from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.scene_parts import SceneParts
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -260,26 +260,24 @@ def test_a_few_lines_that_make_millions_of_triangles_are_refused_unbuilt(
     name: str, monkeypatch
 ) -> None:
     each = len(scene(f"objects = [{HEAVY[name]}]").objects[0].shape.faces)
-    count = MADE_TRIANGLES // each + 1
+    count = TRIANGLES // each + 1
     if count > OBJECTS:
         monkeypatch.setattr("renderer.scene.files.OBJECTS", count)
     monkeypatch.setattr(SceneParts, "mesh", None)
     with pytest.raises(LucidaError) as caught:
         scene(f"objects = [{HEAVY[name] * count}]")
-    assert str(caught.value) == (
-        f"s.toml: objects: make {each * count} triangles of shapes and copies of models; "
-        f"stay within {MADE_TRIANGLES}: fewer segments, sides or copies"
-    )
+    problem = f"holds {each * count} triangles; give at most {TRIANGLES}, or split the scene"
+    assert str(caught.value) == f"s.toml: objects: {problem}"
 
 
-def test_copies_of_a_model_are_counted_the_model_itself_is_not(tmp_path: Path, monkeypatch) -> None:
+def test_copies_of_a_model_are_counted(tmp_path: Path, monkeypatch) -> None:
     (tmp_path / "t.obj").write_text(TRIANGLE)
-    monkeypatch.setattr("renderer.scene.files.MADE_TRIANGLES", 9)
+    monkeypatch.setattr("renderer.scene.files.TRIANGLES", 10)
     table = "[[objects]]\ntype = 'model'\nfile = 't.obj'\n"
     (tmp_path / "a.toml").write_text(table * 10)
     assert len(load_scene(tmp_path / "a.toml").objects) == 10
     (tmp_path / "a.toml").write_text(table * 11)
-    with pytest.raises(LucidaError, match="make 10 triangles of shapes and copies of models"):
+    with pytest.raises(LucidaError, match="holds 11 triangles"):
         load_scene(tmp_path / "a.toml")
 
 
