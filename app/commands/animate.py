@@ -137,8 +137,8 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
 
 def _photographed(arguments: argparse.Namespace) -> list[Key]:
     """Return a key for each camera of a data set, a second apart."""
-    from app.commands.given_camera import source_of
     from app.cameras.taken import is_fitted
+    from app.commands.given_camera import source_of
     from app.films.paths import Key
     from renderer.camera_formats import Options, read_cameras
     from renderer.scene.model import View

@@ -254,7 +254,7 @@ def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
 
 
 def drive_names_in_any_script_stay_intact(d: Driver) -> None:
-    name = "图像 صورة e\u0301 می\u200cخواهم"
+    name = "图像 صورة e\u0301 نیم\u200cروز"
     path = d.folder / name / "场景.toml"
     path.parent.mkdir()
     path.write_text(
