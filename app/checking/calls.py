@@ -72,7 +72,7 @@ class Run:
 
 
 class Student(Protocol):
-    """The interface of whatever answers calls: a Python file, a program, a file of rays.
+    """The interface of whatever answers calls: a Python file or a program.
 
     survived: True if something that it started may still be running after `close`.
     """
