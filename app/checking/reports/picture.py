@@ -35,7 +35,7 @@ TOWARDS_LIGHT = np.array([-0.48, 0.72, 0.5]) / np.linalg.norm([-0.48, 0.72, 0.5]
 AMBIENT = 0.25
 
 
-def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
+def _in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
     """Convert rays (..., 2, 3), origin and direction, from the world to the frustum's
     coordinates.
     """
@@ -58,7 +58,7 @@ def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
 
 def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
     """Return the picture that rays (H, W, 2, 3) of the world see, sRGB (H, W, 3)."""
-    inside = in_frustum(camera, size, rays)
+    inside = _in_frustum(camera, size, rays)
     origin, direction = inside[..., 0, :], inside[..., 1, :]
     with np.errstate(all="ignore"):
         direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
