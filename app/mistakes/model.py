@@ -150,14 +150,6 @@ def without_line(program: Program, names: Sequence[str], key: str) -> tuple[str,
     return tuple(one.name for one in named(program, names) if key not in one.keys)
 
 
-def following(program: Program, names: Sequence[str], step: int) -> tuple[str, ...]:
-    """The next mistake of the program alone, or the one before."""
-    all_names = [mistake.name for mistake in program.mistakes]
-    now = named(program, names)
-    at = all_names.index(now[0].name) + step if now else (0 if step > 0 else -1)
-    return (all_names[at % len(all_names)],)
-
-
 def folded(code: str, letters: int) -> list[str]:
     """Return the code in rows of so many letters."""
     return [row for line in code.split("\n") for row in broken(line, letters)]

@@ -15,7 +15,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.explaining import symbols
 from app.mistakes import model
-from app.mistakes.options import COLUMNS, MistakesOptions, Mode
+from app.mistakes.options import MistakesOptions, Mode
 from app.mistakes.question import LETTERS, switched_to
 from app.outside.paint import role_color
 from app.state.options import Notation
@@ -24,7 +24,7 @@ from app.widgets.areas import press_area
 from app.widgets.checks import checkbox, radio_button, verdict_sign
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
-from app.widgets.rows import button_width, follow, tip
+from app.widgets.rows import button_width, follow
 from app.widgets.theme import Fonts
 
 Wish = Literal["", "reveal", "next", "right"]
@@ -52,20 +52,15 @@ def wrong_color() -> ImVec4:
     return theme.legible(role_color("other"))
 
 
-def controls(
-    options: MistakesOptions, columns: int, is_asked: bool, is_low: bool
-) -> tuple[MistakesOptions, Wish]:
-    """Draw the mode, the pictures' size, and what the mode has.
+def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions, Wish]:
+    """Draw the mode, and the controls of that mode.
 
-    columns: of the pictures as they are. is_asked: there is a question. is_low: there is no room
-    for more than a row.
+    is_asked: there is a question.
     """
     wish: Wish = ""
-    mode = _mode_list(options.mode) if is_low else _modes(options.mode)
+    mode = _modes(options.mode)
     if mode != options.mode:
         options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
-    if not is_low or columns == options.columns:
-        options = _columns(options, columns)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
         _, on = checkbox("difference", options.difference)
@@ -101,35 +96,11 @@ def _modes(now: Mode) -> Mode:
     return now
 
 
-def _mode_list(now: Mode) -> Mode:
-    """Draw the modes as a list. Return the selected one."""
-    names = [name for name, _ in MODES.values()]
-    widest = max(imgui.calc_text_size(name).x for name in names)
-    imgui.set_next_item_width(widest + 2.2 * imgui.get_frame_height())
-    _, number = imgui.combo("##mode", list(MODES).index(now), names)
-    return list(MODES)[number]
-
-
 def _button(label: str, said: str) -> bool:
     follow(button_width(label))
     clicked = bool(imgui.button(label))
     imgui.set_item_tooltip(said)
     return clicked
-
-
-def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
-    width = imgui.calc_text_size("320 pixels").x + 2.2 * imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    imgui.begin_disabled(shown != options.columns)  # the images' own resolution is as coarse
-    if imgui.begin_combo("##columns", f"{shown} pixels"):
-        for columns in COLUMNS:
-            if imgui.selectable(f"{columns} pixels", columns == options.columns)[0]:
-                options = replace(options, columns=columns)
-        imgui.end_combo()
-    imgui.end_disabled()
-    tip("the pictures' width: half a pixel is visible where there are few")
-    return options
 
 
 # The program.

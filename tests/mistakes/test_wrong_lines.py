@@ -111,18 +111,6 @@ def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_the_next_wrong_line_goes_through_all(program) -> None:
-    names, seen = (), []
-    for _ in program.mistakes:
-        names = model.following(program, names, 1)
-        seen += names
-    assert seen == [mistake.name for mistake in program.mistakes]
-    assert model.following(program, names, 1) == (seen[0],)
-    assert model.following(program, (), -1) == (seen[-1],)
-    assert model.following(program, (seen[0],), -1) == (seen[-1],)
-
-
-@pytest.mark.parametrize("program", PROGRAMS)
 def test_lines_are_folded_without_loss(program) -> None:
     for mistake in program.mistakes:
         for _, code in mistake.lines:
