@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.kinds.shapes import sphere_hits
+from app.checking.kinds.shapes import hits
 from renderer.camera import Camera, Size
 from renderer.images import to_srgb8
 
@@ -67,7 +67,8 @@ def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
         nearest, floor = _floor(origin, direction)
         color = np.where(np.isfinite(nearest)[..., None], floor, color)
         for center, radius, albedo in SPHERES:
-            t, _ = sphere_hits(origin, direction, center, radius)
+            sphere = {"type": "sphere", "center": center, "radius": radius}
+            t, _ = hits(origin, direction, sphere)
             at = origin + t[..., None] * direction
             normal = (at - center) / radius
             light = AMBIENT + (1 - AMBIENT) * np.maximum(normal @ TOWARDS_LIGHT, 0)
