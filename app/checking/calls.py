@@ -89,6 +89,9 @@ class Student(Protocol):
         limit applies to each run.
         """
 
+    def restart(self) -> None:
+        """Make the next run begin in a new process, which remembers no call."""
+
     def stop(self) -> None:
         """Stop the current run, from any thread: `call` returns soon, with a failure."""
 

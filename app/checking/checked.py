@@ -90,12 +90,13 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
 
 
 def _asked_again(student: Student, result: TaskResult) -> TaskResult:
-    """Call the first wrong case again. If its answer has changed, add a sentence on that to the
-    result.
+    """Call the first wrong case again, in a program that remembers no other call. If its answer has
+    changed, add a sentence on that to the result.
     """
     task, first = result.task, result.first
     assert first is not None
     kind = KINDS[task.kind]
+    student.restart()
     run = student.call(kind.calls(task, [first.case]))
     if run.failure is not None or any(isinstance(value, Failure) for value in run.values):
         return result

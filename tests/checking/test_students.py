@@ -106,12 +106,12 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, bool]] = {
         *("the origin comes first",) * 2,
         True,
     ),
-    "first_camera_kept": (  # the first one is the world's: it may have been left out as well
+    "first_camera_kept": (
         [
             ("camera):", "camera, kept=[]):"),
             ("    us", "    kept.append((u, v, w, e))\n    u, v, w, e = kept[0]\n    us"),
         ],
-        *("also where it is given another one: does it keep its eye and basis",) * 2,
+        *("does it keep something from one call to the next?",) * 2,
         True,
     ),
     "square_pixels": (
@@ -140,11 +140,6 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, bool]] = {
     "orthonormal": (
         [(VECTORS, "(*np.linalg.inv([camera.u, camera.v, camera.w]).T, np.array(camera.eye))")],
         *("correct where the basis is orthonormal, and wrong elsewhere",) * 2,
-        False,
-    ),
-    "border": (
-        [("    us", "    i, j = min(i, height - 2), min(j, width - 2)\n    us")],
-        *("Only rays of the last row or column are wrong.",) * 2,
         False,
     ),
     "counts_for_itself": (

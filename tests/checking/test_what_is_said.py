@@ -116,13 +116,6 @@ def test_where_rays_are_right():
     assert not any("wrong elsewhere" in sentence for sentence in said.sentences)
 
 
-def test_the_first_camera_for_all():
-    cases = whole_images((4, 4))
-    first = cases[0].camera
-    said = diagnosed(lambda o, d, c: first.ray(*c.pixel, c.size), cases)
-    assert "does it keep it from one call to the next?" in " ".join(said.sentences)
-
-
 def test_any_point_of_the_ray():
     """An origin further on is no mistake where any is allowed; another mistake is reported."""
 

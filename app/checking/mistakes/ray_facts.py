@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +14,6 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 TOLD = 3  # facts at most; more would hide the helpful one
-KEPT = (
-    "Your rays are correct for the first camera that your function was given, also where it is "
-    "given another one: does it keep {} from one call to the next?"
-)
 
 
 def facts(cases: Sequence[RayCase], trial: RayTrial, wrong: Flags) -> list[str]:
@@ -65,17 +60,9 @@ PLACES: dict[str, Callable[[RayCase], bool]] = {
     "in square images": lambda case: case.size[0] == case.size[1],
 }  # fmt: skip
 
-# Of first row, first column, last row, last column: those that are wrong.
-EDGES = {
-    "the last row or column": [2, 3],
-    "the first row or column": [0, 1],
-}
-
 
 def _where(cases: Sequence[RayCase], wrong: Flags) -> Iterator[str]:
-    """Yield a property of exactly the images whose rays are all correct, and the edges that all
-    wrong pixels are on.
-    """
+    """Yield a property of exactly the images whose rays are all correct."""
     spans = list(images(cases))
     right = [not wrong[first:last].any() for first, last in spans]
     if any(right):
@@ -83,29 +70,6 @@ def _where(cases: Sequence[RayCase], wrong: Flags) -> Iterator[str]:
         found = [place for place, is_there in PLACES.items() if [*map(is_there, firsts)] == right]
         if found:
             yield f"Your rays are correct {' and '.join(found)}, and wrong elsewhere."
-    pixels = np.array([case.pixel for case in cases])
-    last = np.array([case.size[::-1] for case in cases]) - 1
-    at = np.column_stack([pixels == 0, pixels == last])
-    for name, edges in EDGES.items():
-        if not wrong.all() and at[wrong][:, edges].any(axis=1).all():
-            yield f"Only rays of {name} are wrong."
-            return
-
-
-def kept(cases: Sequence[RayCase], trial: RayTrial) -> str:
-    """Return a sentence if the rays of all cameras are those of the first camera; "" otherwise."""
-    first = cases[0].camera
-    for what in ("it", "its eye and basis"):
-        made = []
-        for case in cases:
-            own = case.camera
-            if what != "it":
-                own = replace(own, eye=first.eye, u=first.u, v=first.v, w=first.w)
-            made.append((first if what == "it" else own).ray(*case.pixel, case.size))
-        apart = trial.apart(trial.given, np.array(made), np.arange(trial.count))
-        if apart.max() <= LOOSE:
-            return KEPT.format(what)
-    return ""
 
 
 def _same(cases: Sequence[RayCase], given: Floats) -> Iterator[str]:
