@@ -5,9 +5,7 @@ panel.py and widgets/picture_grid.py draw the parts.
 
 from __future__ import annotations
 
-import functools
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,21 +19,16 @@ from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.coded_text import coded_text
-from app.widgets.picture_grid import HEADING_EM, GridPicture, columns_for, picture_grid
+from app.widgets.picture_grid import GridPicture, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
-WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
-SAID = {True: ", correct", False: ", your answer", None: ""}
-LOW_PART = 0.78  # at most, where the text would be higher than the page
+WIDE = 1.2  # width / height of a page whose pictures are next to its text
+LEAST_PART, MOST_PART = 0.45, 0.6  # of its width that the text then has
 GAP_EM = 0.8  # between both
 REFERENCE_PART = 0.36  # of the width below the text: the correct picture
-LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
-TITLE_EM = 5.2  # the width of a picture's title, about
 LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
-LINES = 4  # of a program
-LETTER_EM = 0.5  # the width of a letter, about
 ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
 TITLES = {
     "which-line": "Which line made the second picture?",
@@ -104,8 +97,7 @@ def laboratory(
     program = now.program.in_notation(page.notation)
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
-    count = 1 + bool(mistakes) * (1 + options.difference)
-    text = _program_text(page, program, mistakes, told, count)
+    text = _program_text(page, program, mistakes)
     clicked = panel.program_lines(program, mistakes, text.width, page.fonts, page.notation)
     for one in told:
         coded_text(one, text.width, theme.TEXT, page.fonts)
@@ -179,22 +171,12 @@ def _which_line(
 ) -> int | None:
     program = made.now.program.in_notation(page.notation)
     lines = [_code(program, name, 999) for name in asked.names]
-    text = _text(
-        page,
-        told,
-        ANSWER_MARGIN + max(len(row) for one in lines for row in one),
-        lambda letters: sum(
-            1 + len(_code(program, name, letters - ANSWER_MARGIN)) for name in asked.names
-        ),
-        2,
-    )
+    text = _text(page, ANSWER_MARGIN + max(len(row) for one in lines for row in one))
     letters = panel.letters_in(text.width) - ANSWER_MARGIN
-    choices = [
-        panel.Choice(_code(program, name, letters), _verdict(asked, options, number))
-        for number, name in enumerate(asked.names)
-    ]
+    choices = [_code(program, name, letters) for name in asked.names]
+    verdicts = [_verdict(asked, options, number) for number in range(len(choices))]
     _say(page, told, options, text)
-    clicked = panel.choose_line(choices, text.width, page.fonts)
+    clicked = panel.choose_line(choices, verdicts, text.width, page.fonts)
     page.put(page.uploads, _choices, made, page.exposure_ev)
     wrong = page.uploads.get(f"picture {asked.right_at}")
     shown = [
@@ -213,7 +195,7 @@ def _which_picture(
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
-    text = _program_text(page, part, mistakes, told, len(asked.names))
+    text = _program_text(page, part, mistakes)
     _say(page, told, options, text)
     panel.program_lines(part, mistakes, text.width, page.fonts, page.notation, can_change=False)
     page.put(page.uploads, _choices, made, page.exposure_ev)
@@ -226,7 +208,7 @@ def _which_picture(
         caption = name if options.revealed else ""
         verdict = _verdict(asked, options, number)
         texture = page.uploads.get(f"picture {number}")
-        title, frame = LETTERS[number] + SAID[verdict], panel.verdict_color(verdict)
+        title, frame = LETTERS[number] + panel.SAID[verdict], panel.verdict_color(verdict)
         shown.append(GridPicture(f"picture {number}", title, texture, caption, frame))
     clicked = picture_grid(shown, made.now.size, room, page.fonts)
     return clicked.number if clicked is not None else None
@@ -280,47 +262,20 @@ class PageText:
     beside: bool
 
 
-def _text(
-    page: Page, told: Sequence[str], longest: int, rows: Callable[[int], float], pictures: int
-) -> PageText:
-    """Divide the page.
+def _text(page: Page, longest: int) -> PageText:
+    """Put the pictures next to the text on a wide page, and below it on any other.
 
-    longest: letters of a line of code, which a column next to pictures has room for. rows: of code
-    that is so many letters wide. pictures: how many have the rest of the page, which is next to the
-    text or below it, wherever they are larger.
+    longest: letters of the longest line of code.
     """
-    room, em = page.room, imgui.get_font_size()
-    corner = imgui.get_cursor_screen_pos()
-
-    def height_of(width: float) -> float:
-        said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
-        between = LINES * imgui.get_style().item_spacing.y
-        return panel.LINE * em * (rows(panel.letters_in(width)) + said) + between
-
-    def text(beside: bool) -> tuple[PageText, float]:
-        """Return the layout, and the width of a picture."""
-        width = room.x
-        if beside:
-            width = max(_code_width(em, longest), WIDE_PART * room.x)
-            most = (
-                COLUMN_PART if height_of(min(width, COLUMN_PART * room.x)) <= room.y else LOW_PART
-            )
-            width = min(width, most * room.x, room.x - (GAP_EM + TITLE_EM) * em)
-        height = height_of(width)
-        rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height)
-        _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)
-        return PageText(corner, width, beside), wide
-
-    (first, beside_px), (second, below_px) = text(True), text(False)
-    return second if below_px > LARGER * beside_px else first
+    room, corner = page.room, imgui.get_cursor_screen_pos()
+    if room.x < WIDE * room.y:
+        return PageText(corner, room.x, False)
+    code = imgui.get_font_size() * (0.52 * longest + 2.0)  # a letter is half as wide as high
+    return PageText(corner, min(max(code, LEAST_PART * room.x), MOST_PART * room.x), True)
 
 
-def _program_text(
-    page: Page, program: Program, mistakes: Mistakes, told: Sequence[str], pictures: int
-) -> PageText:
-    longest = panel.longest_line(program, mistakes) + CARET_MARGIN
-    rows = functools.partial(panel.row_count, program, mistakes)
-    return _text(page, told, longest, rows, pictures)
+def _program_text(page: Page, program: Program, mistakes: Mistakes) -> PageText:
+    return _text(page, panel.longest_line(program, mistakes) + CARET_MARGIN)
 
 
 def _pictures_room(
@@ -345,8 +300,3 @@ def _pictures_room(
         imgui.set_cursor_screen_pos(ImVec2(here.x + width, here.y))
         room.x -= width
     return room
-
-
-def _code_width(size: float, longest: int) -> float:
-    """Return the width of so many letters, each half as wide as high."""
-    return size * (0.52 * longest + 2.0)

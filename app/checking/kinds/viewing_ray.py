@@ -31,6 +31,7 @@ from app.checking.conventions import (
     Shot,
     argument_lists,
 )
+from app.checking.kinds.basis import conditioning
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
 from app.checking.kinds.values import in_order, shown, text_of
 from app.checking.tasks import CheckCase, CheckTask
@@ -142,10 +143,7 @@ def _tolerances(conventions: Conventions, shot: Shot, directions: Floats) -> tup
     angle = largest / np.linalg.norm(directions, axis=1)
     origin = np.full(len(directions), largest)
     if {"target", "up"} & conventions.words:
-        eye, target = np.asarray(camera.eye), np.asarray(shot.target)
-        away = np.linalg.norm(eye - target)
-        sine = np.linalg.norm(np.cross(shot.up, camera.w)) / np.linalg.norm(shot.up) / w
-        basis = (1 + (np.linalg.norm(eye) + np.linalg.norm(target)) / away) / sine
+        basis = conditioning(camera.eye, shot.target, shot.up)
         angle = angle + basis
         origin = origin + basis * (x * u + y * v)
     return FLOAT32 * origin, FLOAT32 * angle

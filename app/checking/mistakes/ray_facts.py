@@ -13,16 +13,15 @@ from app.checking.mistakes.ray_trial import RayCase, RayTrial, images
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-TOLD = 3  # facts at most; more would hide the helpful one
-
 
 def facts(cases: Sequence[RayCase], trial: RayTrial, wrong: Flags) -> list[str]:
     """Return a few sentences, the most helpful first. wrong: the wrong rays, (N,)."""
     broken = trial.count - np.count_nonzero(np.isfinite(trial.given).all(axis=(1, 2)))
     if broken:
         return [f"{broken} of {trial.count} rays have NaN or inf: look for a division by 0."]
-    told = [*_parts(trial), *_where(cases, wrong), *_same(cases, trial.given)]
-    return told[:TOLD]
+    if np.ptp(trial.given, axis=0).max() == 0:
+        return ["All your rays are the same: they do not depend on i and j."]
+    return [*_parts(trial), *_where(cases, wrong)]
 
 
 def _parts(trial: RayTrial) -> Iterator[str]:
@@ -70,23 +69,3 @@ def _where(cases: Sequence[RayCase], wrong: Flags) -> Iterator[str]:
         found = [place for place, is_there in PLACES.items() if [*map(is_there, firsts)] == right]
         if found:
             yield f"Your rays are correct {' and '.join(found)}, and wrong elsewhere."
-
-
-def _same(cases: Sequence[RayCase], given: Floats) -> Iterator[str]:
-    """Detect rays that do not depend on i or j."""
-    found = []
-    for first, last in images(cases):
-        i, j = np.array([case.pixel for case in cases[first:last]]).T
-        if np.ptp(i) and np.ptp(j):
-            found.append([_is_constant(given[first:last], group) for group in (0 * i, j, i)])
-    told = (
-        "All your rays of an image are the same: they do not depend on i and j.",
-        "Your rays are the same in all rows: they do not depend on i.",
-        "Your rays are the same in all columns: they do not depend on j.",
-    )
-    if found:
-        yield from [text for text, are in zip(told, np.all(found, axis=0), strict=True) if are][:1]
-
-
-def _is_constant(given: Floats, group: NDArray[np.intp]) -> bool:
-    return all(bool(np.ptp(given[group == value], axis=0).max() == 0) for value in set(group))
