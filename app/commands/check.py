@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from app.checking.checked import TaskResult
     from app.checking.reports.pictured import Pictured
     from app.checking.running.account import Account
-    from app.checking.running.program import ProgramStudent
+    from app.checking.running.command import CommandStudent
+    from app.checking.running.file import FileStudent
     from app.checking.tasks import CheckTask
 
 NAME = "check"
@@ -37,7 +38,8 @@ Check what a student wrote, a Python file or any program, and say what it does i
 
 EPILOG = """\
 The code runs in a process of its own, with limits on time and memory. Without --as, a dishonest
-program could read the right answers, change its results, or end the check.
+program could read the right answers, change its results, end the check, or leave a daemon behind
+that it has started by two forks.
 exit status: 0 all correct, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
 
@@ -238,7 +240,7 @@ def _account(arguments: argparse.Namespace) -> Account | None:
     return user
 
 
-def _student(arguments: argparse.Namespace, limits: Limits) -> ProgramStudent:
+def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | CommandStudent:
     if arguments.command is not None:
         from app.checking.running.command import CommandStudent
 

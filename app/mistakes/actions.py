@@ -1,7 +1,6 @@
 """The mistakes' actions: what is shown, and the quiz's keys.
 
-The answers' keys 1 to 4 and A to D hold while the view has the keyboard and are read by its panel;
-the ones here hold wherever the keyboard is.
+The panel reads the answers' keys, 1 to 4 and A to D, while the view has the keyboard.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ def _mode(mode: Mode, name: str) -> Action:
     )
 
 
-def _asking(name: str, wish: Wish | int, keys: str, chord: int, separated: bool) -> Action:
+def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Action:
     return Action(
         MENU,
         f"Mistakes: {name}",
@@ -52,14 +51,8 @@ def _asking(name: str, wish: Wish | int, keys: str, chord: int, separated: bool)
     )
 
 
-_NUMBERS = (Key._1, Key._2, Key._3, Key._4)
-
 WRONG_LINES = (
     *(_mode(mode, name) for mode, name in MODES.items()),
-    *(
-        _asking(f"answer {number + 1}", number, f"Shift+{number + 1}", SHIFT | int(key), not number)
-        for number, key in enumerate(_NUMBERS)
-    ),
     _asking("reveal the answer", "reveal", "R", int(Key.r), True),
     _asking("next question", "next", "Shift+R", SHIFT | int(Key.r), False),
 )

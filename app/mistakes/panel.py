@@ -112,12 +112,6 @@ def rows_of(instead: str | None, letters: int) -> list[str]:
     return [] if instead is None else model.folded(instead, letters)
 
 
-def longest_line(program: Program, mistakes: Mistakes) -> int:
-    """Return the letters of the longest line of program_lines(), before it is broken."""
-    lines = [(line.code, line.instead or "") for line in program.text(mistakes)]
-    return max(len(row) for pair in lines for code in pair for row in code.split("\n"))
-
-
 def letters_in(width: float) -> int:
     """Return the number of letters of code that fit, between an inset and a caret."""
     return max(8, int((width / imgui.get_font_size() - INSET - 1.6) * 2))

@@ -157,12 +157,13 @@ class ClosestHitKind(HitKind):
 
     def _case(self, task: CheckTask, values: Values) -> CheckCase:
         ray = {name: values[name] for name in ("origin", "direction")}
-        found = closest(values["origin"], values["direction"], values["objects"])
-        number, t = int(found[0]), float(found[1])
+        found = [*_all_hits(**ray, objects=values["objects"]), np.inf]
+        number, t = int(np.argmin(found)), float(min(found))
         near = 0.0
-        if number >= 0:
-            shape = values["objects"][number]
-            near = tolerance(values["origin"], values["direction"], shape, t, FLOAT32)
+        if t < np.inf:
+            near = tolerance(**ray, shape=values["objects"][number], t=t, rounding=FLOAT32)
+        else:
+            number = -1
         values = {**values, "ray": ray}
         return CheckCase(named(task, values), (float(number), t), near, values)
 
@@ -225,15 +226,6 @@ class ClosestHitKind(HitKind):
             return "None (no hit)"
         parts = {"object": which + task.conventions.base, "t": t}
         return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
-
-
-def closest(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> tuple[int, float]:
-    """Return the number of the nearest object, from 0, and t; -1 and inf for a miss."""
-    parameters = _all_hits(origin, direction, objects)
-    if not np.isfinite(parameters).any():
-        return -1, np.inf
-    number = int(np.argmin(parameters))
-    return number, float(parameters[number])
 
 
 def _all_hits(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> Floats:
@@ -299,7 +291,8 @@ def _triangle(random: Random, ray: Values, place: Place) -> Values:
 
 
 def _unit(vector: ArrayLike) -> Floats:
-    return np.asarray(vector / np.linalg.norm(vector))
+    values = np.asarray(vector, float)
+    return values / np.linalg.norm(values)
 
 
 def _is_clear(ray: Values, shape: Values) -> bool:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.checking.cases import is_orthonormal, is_symmetric
 from app.checking.mistakes.candidates import LOOSE
-from app.checking.mistakes.ray_trial import RayCase, RayTrial, images
+from app.checking.mistakes.ray_trial import RayCase, RayTrial
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -40,21 +42,11 @@ def _parts(trial: RayTrial) -> Iterator[str]:
         yield "Your directions are correct, your origins are not."
 
 
-def _is_orthonormal(case: RayCase) -> bool:
-    basis = case.camera.basis
-    return bool(np.allclose(basis.T @ basis, np.eye(3), atol=1e-9))
-
-
-def _is_symmetric(case: RayCase) -> bool:
-    left, right, bottom, top = case.camera.viewport
-    return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
-
-
 PLACES: dict[str, Callable[[RayCase], bool]] = {
     "in parallel projection": lambda case: case.camera.is_parallel,
     "in perspective": lambda case: not case.camera.is_parallel,
-    "where the basis is orthonormal": _is_orthonormal,
-    "where the viewport is symmetric": _is_symmetric,
+    "where the basis is orthonormal": lambda case: is_orthonormal(case.camera),
+    "where the viewport is symmetric": lambda case: is_symmetric(case.camera),
     "where `distance` = 1": lambda case: case.camera.distance == 1.0,
     "in square images": lambda case: case.size[0] == case.size[1],
 }  # fmt: skip
@@ -62,10 +54,13 @@ PLACES: dict[str, Callable[[RayCase], bool]] = {
 
 def _where(cases: Sequence[RayCase], wrong: Flags) -> Iterator[str]:
     """Yield a property of exactly the images whose rays are all correct."""
-    spans = list(images(cases))
-    right = [not wrong[first:last].any() for first, last in spans]
+    firsts, right = [], []
+    numbers = range(len(cases))
+    for _, group in groupby(numbers, lambda number: (cases[number].camera, cases[number].size)):
+        image = list(group)
+        firsts.append(cases[image[0]])
+        right.append(not wrong[image].any())
     if any(right):
-        firsts = [cases[first] for first, _ in spans]
         found = [place for place, is_there in PLACES.items() if [*map(is_there, firsts)] == right]
         if found:
             yield f"Your rays are correct {' and '.join(found)}, and wrong elsewhere."

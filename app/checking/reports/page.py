@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.checked import TaskResult
-from app.checking.reports.picture import difference
+from app.checking.reports.picture import changed_pixels, difference_picture
 from app.checking.reports.pictured import Pictured
 from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
 from app.checking.starter import signature
@@ -115,10 +115,11 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
 
 
 def _pictures(pictures: Pictured) -> str:
+    changed = changed_pixels(pictures.right, pictures.given)
     shown = (
         ("with your code", pictures.given),
         ("correct", pictures.right),
-        ("where they differ", difference(pictures.given, pictures.right)),
+        ("where they differ", difference_picture(pictures.right, changed)),
     )
     figures = "".join(
         f'<figure><img alt="{caption}" src="{_data(image)}">'

@@ -17,7 +17,7 @@ from app.checking.builtin import BUILTIN
 from app.checking.checked import TaskResult, checked
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.reports.page import page
-from app.checking.reports.picture import NO_RAY, picture
+from app.checking.reports.picture import MARK, NO_RAY, changed_pixels, picture
 from app.checking.reports.pictured import Pictured, pictured
 from app.checking.running.file import FileStudent
 from app.checking.tasks import FEEDBACK
@@ -106,8 +106,9 @@ def test_pictures_are_what_was_given_what_is_right_and_where_they_differ(tried) 
     assert given.shape == right.shape == apart.shape and max(given.shape) >= 64
     upside_down = np.abs(given[::-1].astype(int) - right).max(axis=-1)
     assert np.mean(upside_down > 8) < 0.02  # but for pixels that an edge goes through
-    same = (given == right).all(axis=-1)
-    assert (apart[same] == 0).all() and (apart[~same] >= 60).all() and not same.all()
+    changed = changed_pixels(right, given)
+    marked = (apart == MARK).all(axis=-1)
+    assert (marked == changed).all() and changed.any() and not changed.all()
 
 
 @pytest.mark.parametrize("feedback", FEEDBACK)
