@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
@@ -41,6 +41,7 @@ from renderer.camera_formats.nerf_lens import (
 )
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole, pose_of
+from renderer.camera_formats.unused import entries_of, notes_on
 from renderer.errors import LucidaError
 from renderer.intrinsics import check_for_lens, pixel_offset, viewport_of
 
@@ -54,12 +55,31 @@ _OPTICAL = {
     *("camera_model", "is_fisheye", "rolling_shutter", "from_mitsuba"),
     *NAMES,
 }
+_USED = {"frames", "transform_matrix", "file_path"}
+_HARMLESS = """
+aabb* renderaabb* *filename* *filepath* *path up camera*id cameralabel colmapimid rotation sharpness
+sharpen* *depth* *mask* *semantic* orientationoverride nextralearnabledims *transparent fixpremult
+wantimportance image*id *bounds near far time timestamp split
+"""
+_APPLIED = "it was applied to the poses, which are shown as they are in the file"
+_OF_PROGRAM = "the program's own units; the poses are shown as they are in the file"
+_MEANINGS = {
+    "applied*": _APPLIED,
+    "scale": _OF_PROGRAM,
+    "offset": _OF_PROGRAM,
+    "fisheyecropradius": "pixels outside of it are masked; the whole image's camera is shown",
+    "?fov": "degrees from edge to edge; fl_x or camera_angle_x is used",
+}
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
 
 
 def recognises(given: Given) -> bool:
-    return isinstance(given.json, dict) and isinstance(given.json.get("frames"), list)
+    table = given.json
+    frames = table.get("frames") if isinstance(table, dict) else None
+    return isinstance(frames, list) and any(
+        isinstance(part, dict) and "transform_matrix" in part for part in (table, *frames)
+    )
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -100,10 +120,9 @@ def read(given: Given, options: Options) -> CameraSet:
         told.append("transform_matrix is no rotation, and held as it is")
     if disagree:
         told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
-    if "applied_transform" in table:
-        told.append("applied_transform is not undone: the poses stand as they are in the file")
-    told += [sizing] if sizing else []
-    return CameraSet("nerf", tuple(cameras), tuple(told), sizing=sizing)
+    notes = notes_on(_unused(table, frames), _HARMLESS, _MEANINGS)
+    notes = (sizing, *notes) if sizing else notes
+    return CameraSet("nerf", tuple(cameras), (*told, *notes), notes=notes)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -122,6 +141,14 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
     table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
     return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
+
+
+def _unused(table: Table, frames: Sequence[Table]) -> Iterator[tuple[str, Any]]:
+    """Yield the values that are not used, of the file and of its frames."""
+    for part in (table, *frames):
+        for name, value in part.items():
+            if name not in _USED and not _is_optical(name):
+                yield from entries_of({name: value})
 
 
 def _size_for_all(

@@ -1,7 +1,7 @@
 """OpenGL's cameras: a view and a projection matrix, for column vectors, row-major or column-major.
 
-The depth range is OpenGL's, -1 to 1. Source: Khronos, "OpenGL 3.3 core", Coordinate
-transformations.
+The range of depths is OpenGL's, -1 to 1, if the projection can have it.
+Source: Khronos, "OpenGL 3.3 core", Coordinate transformations.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from renderer.camera_checks import Floats, Vector, listed
 from renderer.camera_formats.entries import in_image, single
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.camera_formats.unused import entries_of, notes_on
 from renderer.errors import LucidaError
 from renderer.intrinsics import matrix
 from renderer.scene.reading import check_bytes
@@ -32,6 +33,12 @@ _OURS = ("camera_from_world", "clip_from_camera")
 _VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
 _CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_ASSIGNED = re.compile(r"\b([A-Za-z_]\w*)\s*(?:\[\s*\d*\s*\]\s*)?[=:]")
+# Other matrices that follow from the two, and the parts of a matrix in JSON.
+_HARMLESS = "*inverse *viewproj* *projview* *mvp vp pv normalmatrix *matrixworld data elements"
+# Depths of the near and the far plane: OpenGL's; the same reversed; and both of other programs.
+_RANGES = ((-1, 1), (1, -1), (1, 0), (0, 1))
+_ENDLESS = 1e-7  # relative to near: float32's rounding of an infinite far
 _ORDERS: tuple[Order, Order] = ("column by column", "row by row")
 _EXACT = 1e-6  # relative to a matrix's largest number: what counts as 0
 
@@ -55,13 +62,18 @@ def read(given: Given, options: Options) -> CameraSet:
     check_bytes(len(given.data), MOST_BYTES, given.name)
     if given.json is not None:
         view, clip = _in_table(given.json, _VIEW), _in_table(given.json, _CLIP)
-        fitted = False
+        fitted, entries = False, entries_of(given.json)
     else:
         view, clip = _in_text(given.text, _VIEW), _in_text(given.text, _CLIP)
         fitted = FITTED in given.text or CHOSEN in given.text
+        assigned = _ASSIGNED.finditer(given.text)
+        named = ((found[1], _numbers(given.text, found)) for found in assigned)
+        entries = ((name, list(map(float, nums))) for name, nums in named if len(nums) == 16)
     names = (view[0], clip[0])
     camera, taken = _camera(names, view[1], clip[1], fitted)
-    return CameraSet("opengl", (PosedCamera(camera, options.size),), taken)
+    unused = ((name, value) for name, value in entries if name not in names)
+    notes = notes_on(unused, _HARMLESS, {})
+    return CameraSet("opengl", (PosedCamera(camera, options.size),), (*taken, *notes), notes=notes)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -163,9 +175,13 @@ def _camera(
     low, high = -half - middle, half - middle
     near = far = None
     if not clip[2, :2].any():
-        near, far = (None, None) if fitted else _clip_planes(clip, parallel)
+        if not fitted:
+            near, far, told = _clip_planes(names[1], clip, parallel)
+            taken += told
     else:
         taken.append("the projection's oblique near plane is left out")
+    if b < 0:
+        taken.append(f"{names[1]} mirrors the image top to bottom, as for Vulkan")
     u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
     viewport = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
     kind = "parallel" if parallel else "perspective"
@@ -198,15 +214,39 @@ def _last(table: Floats, order: Order) -> Floats:
     return table[:, 3] if order == "column by column" else table[3]
 
 
-def _clip_planes(clip: Floats, parallel: bool) -> tuple[float | None, float | None]:
-    if parallel:
-        near, far = (clip[2, 3] + 1) / clip[2, 2], (clip[2, 3] - 1) / clip[2, 2]
-    else:
-        near, far = clip[2, 3] / (clip[2, 2] - 1), clip[2, 3] / (clip[2, 2] + 1)
-    return (
-        float(near) if 0 < near < np.inf else None,
-        float(far) if 0 < far < np.inf else None,
-    )
+def _clip_planes(
+    name: str, clip: Floats, parallel: bool
+) -> tuple[float | None, float | None, list[str]]:
+    """Return near and far, None for one that does not clip, and in words the range of depths.
+
+    The range is the first in _RANGES with near before far. Raises LucidaError if there is none.
+    """
+    scale, shift = clip[2, 2:]
+    planes = []
+    for depths in _RANGES:
+        if parallel:
+            near, far = ((shift - depth) / scale for depth in depths)
+        else:  # inverses, since far may be infinite
+            nearest, farthest = ((depth + scale) / shift for depth in depths)
+            is_endless = abs(farthest) < _ENDLESS * nearest
+            near, far = 1 / nearest, np.inf if is_endless else 1 / farthest
+        if near < far and (parallel or near > 0):
+            planes.append((depths, float(near), float(far)))
+    if not planes:
+        problem = f"its third row {listed(clip[2])} has no near before far"
+        raise LucidaError(name, problem, "give depths from -1 to 1, or from 0 to 1")
+    depths, near, far = planes[0]
+    told = []
+    if name != _OURS[1]:
+        others = "".join(
+            f"; if to {other[0]} and {other[1]}, they are {n:g} and {f:g}"
+            for other, n, f in planes[1:]
+        )
+        sides = f"near = {near:g} and far = {far:g}"
+        told = [f"{name} takes {sides} to depths {depths[0]} and {depths[1]}{others}"]
+    if near <= 0:
+        told.append(f"{name} has near = {near:g}, behind the eye: nothing behind the eye is seen")
+    return near if near > 0 else None, far if 0 < far < np.inf else None, told
 
 
 def _vector(values: Floats) -> Vector:

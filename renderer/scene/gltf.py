@@ -6,8 +6,7 @@ Source: Khronos, glTF 2.0 Specification.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,7 @@ from renderer.scene.gltf_file import (
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     TRIANGLE_STRIP,
+    Accessor,
     Gltf,
     OpenGltf,
     Primitive,
@@ -30,42 +30,48 @@ from renderer.scene.gltf_file import (
 from renderer.scene.gltf_materials import read_materials
 from renderer.scene.gltf_nodes import PlacedNode, placed_nodes
 from renderer.scene.gltf_numbers import read_numbers, scaled, triangles_of, whole_numbers
-from renderer.scene.gltf_shared import (
-    TYPES,
-    Key,
-    check_size,
-    compacted,
-    same_primitives,
-)
-from renderer.scene.gltf_textures import coordinates_of, read_coordinates
+from renderer.scene.gltf_textures import read_coordinates
 from renderer.scene.images import ModelImages
-from renderer.scene.limits import OBJECTS
+from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import Material, NamedView
 from renderer.scene.parts import Part, linear_colors
+from renderer.scene.reading import check_count
+
+# The types of accessors that primitives may name.
+TYPES = {
+    "POSITION": ("VEC3",),
+    "NORMAL": ("VEC3",),
+    "COLOR_0": ("VEC3", "VEC4"),
+    "indices": ("SCALAR",),
+}
 
 
 @dataclass(frozen=True, eq=False)
 class Instance:
-    """A primitive of a mesh at a node. matrix: world_from_object. material: its index, or None."""
+    """A primitive of a mesh at a node. matrix: world_from_object. field: of the primitive."""
 
-    primitive: Key
+    primitive: Primitive
     name: str
+    mesh_name: str
     matrix: NDArray[np.float64]
-    material: int | None
+    field: str
 
 
 @dataclass(frozen=True, eq=False)
-class GltfContent:
-    """The instances, the parts and materials that they show, and the views of the cameras."""
+class PlacedPart:
+    """What is drawn of an instance. Instances of the same numbers share their part."""
 
-    instances: list[Instance]
-    parts: dict[Key, Part]
-    materials: dict[int, Material]
-    views: tuple[NamedView, ...]
+    part: Part
+    name: str
+    matrix: NDArray[np.float64]
+    material: Material | None
 
 
-def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfContent:
-    """Return the content of a .gltf or .glb file. Raises LucidaError.
+def read_gltf(
+    path: Path, images: ModelImages, is_mapped: bool = False
+) -> tuple[list[PlacedPart], tuple[NamedView, ...]]:
+    """Return the instances of a .gltf or .glb file, and the views of its cameras. Raises
+    LucidaError.
 
     images: for its textures.
     is_mapped: all parts with texture coordinates.
@@ -74,36 +80,33 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
     tree = file.tree
     nodes = list(placed_nodes(tree))
     instances = _instances(tree, nodes)
+    check_count(
+        sum(_triangles(tree, entry.primitive) for entry in instances), TRIANGLES, "triangles"
+    )
     if still := list(_not_moved(tree, nodes)):
         images.note(f"not shown: {', '.join(still)}", "shapes")
-    shown = [entry.primitive for entry in instances]
-    same = same_primitives(tree, shown, is_mapped)
-    keys = sorted(set(same.values()))
-    check_size(tree, shown, keys)
-    materials = read_materials(file, {entry.material for entry in instances}, images)
-    shared = Counter(tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys)
-    users = [
-        (same[entry.primitive], materials[entry.material])
-        for entry in instances
-        if entry.material is not None
-    ]
-    single_sided = {key for key, material in users if material.single_sided}
-    cut_out = {key for key, material in users if material.cutout is not None}
-    parts = {}
-    for key in keys:
-        check_cancelled()
-        given = tree.meshes[key[0]].primitives[key[1]]
-        fields = _fields(file, given, f"meshes[{key[0]}].primitives[{key[1]}]")
-        colors = fields["vertex_colors"]
-        fields["vertex_colors"] = linear_colors(colors, linear=True)
-        fields["uv"] = _coordinates(file, given, images, is_mapped)
-        if shared[given.attributes["POSITION"]] > 1:
-            fields = compacted(fields)
-        if key in cut_out and _is_clear(colors):
-            images.note("the opacity of vertices cuts no holes", "materials")
-        parts[key] = Part(tree.meshes[key[0]].name, **fields, has_backs=key in single_sided)
-    shown_parts = {key: parts[first] for key, first in same.items()}
-    return GltfContent(instances, shown_parts, materials, camera_views(tree, nodes))
+    materials = read_materials(file, {entry.primitive.material for entry in instances}, images)
+    parts: dict[Hashable, Part] = {}
+    placed = []
+    for entry in instances:
+        given = entry.primitive
+        material = None if given.material is None else materials[given.material]
+        has_backs = material is not None and material.single_sided
+        places = _coordinates_of(tree, given, is_mapped)
+        # A few bytes of JSON can show one buffer a thousand times: it is built once.
+        numbers = given.indices, *map(given.attributes.get, TYPES), places
+        key = given.mode, has_backs, *(_accessor(tree, number) for number in numbers)
+        if key not in parts:
+            check_cancelled()
+            fields = _fields(file, given, entry.field)
+            colors = fields["vertex_colors"]
+            if material is not None and material.cutout is not None and _is_clear(colors):
+                images.note("the opacity of vertices cuts no holes", "materials")
+            fields["vertex_colors"] = linear_colors(colors, linear=True)
+            fields["uv"] = _coordinates(file, places, images)
+            parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
+        placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
+    return placed, camera_views(tree, nodes)
 
 
 def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
@@ -133,17 +136,39 @@ def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
             if primitive.material is not None:
                 entry_at(tree.materials, primitive.material, f"{where}.material")
             name = placed.node.name or mesh.name
-            instances.append(Instance((number, k), name, placed.matrix, primitive.material))
+            instances.append(Instance(primitive, name, mesh.name, placed.matrix, where))
         if len(instances) > OBJECTS:
             raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
     return instances
 
 
-def _coordinates(
-    file: OpenGltf, primitive: Primitive, images: ModelImages, is_mapped: bool
-) -> NDArray[Any] | None:
-    """Return the texture coordinates of a primitive's vertices; None if it needs or has none."""
-    number = coordinates_of(file.tree, primitive, is_mapped)
+def _accessor(tree: Gltf, number: int | None) -> Accessor | None:
+    return None if number is None else entry_at(tree.accessors, number, "accessors")
+
+
+def _triangles(tree: Gltf, primitive: Primitive) -> int:
+    """Return the number of triangles of a primitive, which has not been read."""
+    number = primitive.indices
+    corners = _accessor(tree, primitive.attributes["POSITION"] if number is None else number)
+    count = 0 if corners is None else corners.count
+    return count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
+
+
+def _coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
+    """Return the accessor of a primitive's texture coordinates, if its material has an image.
+
+    is_mapped: without an image, the accessor of its first coordinates.
+    """
+    name = "TEXCOORD_0" if is_mapped else ""
+    if primitive.material is not None:
+        pbr = tree.materials[primitive.material].pbr_metallic_roughness
+        if info := pbr.base_color_texture or pbr.metallic_roughness_texture:
+            name = info.attribute
+    return primitive.attributes.get(name)
+
+
+def _coordinates(file: OpenGltf, number: int | None, images: ModelImages) -> NDArray[Any] | None:
+    """Return texture coordinates; None if there are none, or they cannot be read."""
     try:
         return None if number is None else read_coordinates(file, number)
     except LucidaError as error:

@@ -24,7 +24,7 @@ from renderer.frame import DISPLAY
 from renderer.scene.material import BRIGHTEST as BRIGHTEST
 from renderer.scene.material import Checker as Checker
 from renderer.scene.material import Color as Color
-from renderer.scene.material import Material, check_length, color, vector
+from renderer.scene.material import Material, color, length, vector
 from renderer.scene.material import without_metal as without_metal
 from renderer.scene.noting import Noted
 from renderer.scene.texture import is_final
@@ -94,7 +94,8 @@ class Sphere:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "center", vector("center", self.center))
-        check_length("radius", self.radius, 1e-9, "give e.g. 1.0")
+        radius = length("radius", self.radius, 1e-9, "give e.g. 1.0")
+        object.__setattr__(self, "radius", radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,6 +178,7 @@ class SceneObject:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", _shown(self.name))
+        object.__setattr__(self, "hidden", bool(self.hidden))
         image = self.material.image
         if image is not None and image.rotate_deg and isinstance(self.shape, Sphere):
             problem = "turns its texture, which a sphere cannot show"
@@ -201,6 +203,9 @@ class View:
     given: tuple[Camera, tuple[int, int] | None] | None = field(
         default=None, compare=False, repr=False
     )
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "fit", bool(self.fit))
 
     @property
     def own_size(self) -> tuple[int, int] | None:

@@ -13,6 +13,7 @@ import numpy as np
 from renderer.errors import LucidaError, under
 from renderer.scene import framing
 from renderer.scene.cancelling import check_cancelled, during
+from renderer.scene.gltf import read_gltf
 from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import (
@@ -24,7 +25,9 @@ from renderer.scene.model import (
     triangles_of,
     without_metal,
 )
+from renderer.scene.obj import read_obj
 from renderer.scene.parts import Part, build_mesh
+from renderer.scene.readers import READERS
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 from renderer.scene.reading import check_count, naming
 
@@ -110,15 +113,7 @@ def model_scene(path: str | Path) -> Scene:
 
 
 def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> list[SceneObject]:
-    # Imported here: scenes without models need none of it.
-    if ending == ".obj":
-        from renderer.scene.obj import read_obj
-
-        parts = read_obj(path, images, is_mapped)
-    else:
-        from renderer.scene.readers import READERS
-
-        parts = READERS[ending](path)
+    parts = read_obj(path, images, is_mapped) if ending == ".obj" else READERS[ending](path)
     objects = []
     for part in parts:
         check_cancelled()
@@ -133,29 +128,24 @@ def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> l
 def _gltf_content(
     path: Path, images: ModelImages, is_mapped: bool
 ) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
-    from renderer.scene.gltf import read_gltf
-
-    file = read_gltf(path, images, is_mapped)
-    built: dict[int, Mesh | None] = {}  # primitives of the same numbers share their part
-    for part in file.parts.values():
-        check_cancelled()
-        if id(part) not in built:
-            built[id(part)] = build_mesh(part)
-    meshes = {key: built[id(part)] for key, part in file.parts.items()}
+    instances, views = read_gltf(path, images, is_mapped)
+    built: dict[int, Mesh | None] = {}
     objects = []
-    for instance in file.instances:
-        mesh = meshes[instance.primitive]
+    for instance in instances:
+        part = instance.part
+        if id(part) not in built:
+            check_cancelled()
+            built[id(part)] = build_mesh(part)
+        mesh = built[id(part)]
         if mesh is None or _is_flat(instance.matrix):
             continue
         name = instance.name or path.stem
-        given = None if instance.material is None else file.materials[instance.material]
-        material = given or _material(file.parts[instance.primitive])
-        material = _shown_on(mesh, material, name, images)
+        material = _shown_on(mesh, instance.material or _material(part), name, images)
         with under(f"node {name!r}"[:80]):
             placed = mesh.placed(instance.matrix @ mesh.transform)
         is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
         objects.append(SceneObject(placed, material, name, is_gone))
-    return objects, file.views
+    return objects, views
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:

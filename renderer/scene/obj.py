@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene import numerals
-from renderer.scene.images import ModelImages
+from renderer.scene.images import ModelImages, inner_path, shown
 from renderer.scene.limits import OBJECTS
 from renderer.scene.model import Material
-from renderer.scene.mtl import Library, read_mtl
+from renderer.scene.mtl import MtlMaterial, read_mtl
 from renderer.scene.numerals import Ints
 from renderer.scene.obj_lines import Lines
 from renderer.scene.parts import Part, linear_colors, used_vertices
@@ -99,9 +99,9 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     Indices count from 0; -1 means none, less an impossible one.
     """
     text = lines.of("f")
-    begins, counts = numerals.words(text)
+    _, counts = numerals.words(text)
     columns = []
-    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text, begins), strict=True):
+    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text), strict=True):
         if column is not None:
             # Negative ones count from the end of what was defined above their line.
             if column.min() < 0:
@@ -155,10 +155,11 @@ def _named_parts(
     """
     keys: dict[tuple[str, str], int] = {("", ""): 0}
     at, states = [-1], [0]
-    found = used = library = ""
+    found = used = ""
+    libraries = []
     for number, keyword, rest in lines.statements():
         if keyword == "mtllib":
-            library = library or rest
+            libraries.append(rest)
             continue
         found, used = (rest, used) if keyword == "o" else (found, " ".join(rest.split()))
         at.append(number)
@@ -169,31 +170,39 @@ def _named_parts(
     if len(keys) == 1 or len(groups) > OBJECTS or not len(order):
         return [(path.stem, None, None)]
     groups.sort(key=lambda group: int(group[0]))
-    materials = _materials(path.parent, library) if library else Library({}, {}, path.parent)
+    materials = _materials(path.parent, libraries, images)
     all_keys = list(keys)
     named: list[tuple[str, Ints | None, Material | None]] = []
     taken: dict[str, int] = {}
     for group in groups:
         found, used = all_keys[part[group[0]]]
-        name = "_".join(filter(None, (found, used if len(materials.plain) > 1 else "")))
+        name = "_".join(filter(None, (found, used if len(materials) > 1 else "")))
         name = name or "geometry"
         while name in taken:
             taken[name] += 1
             name = f"{name}_{taken[name]}"
         taken[name] = 0
-        named.append((name, group, materials.material(used, images)))
+        given = materials.get(used)
+        named.append((name, group, None if given is None else given.material(images)))
     return named
 
 
-def _materials(folder: Path, name: str) -> Library:
-    """Return the materials of an .mtl file in the folder of the .obj file; none if it cannot be
-    read.
+def _materials(folder: Path, libraries: list[str], images: ModelImages) -> dict[str, MtlMaterial]:
+    """Return the materials of the .mtl files in the folder of the .obj file, by name. The first
+    file that has a name defines it. Note the files that cannot be read.
+
+    libraries: what follows each mtllib: a name that may hold blanks, or several.
     """
-    with contextlib.suppress(LucidaError, OSError, ValueError):
-        path = (folder / name).resolve()
-        if path.is_relative_to(folder.resolve()):
-            return read_mtl(path)
-    return Library({}, {}, folder)
+    found: dict[str, MtlMaterial] = {}
+    for line in libraries:
+        several = any((folder / word).is_file() for word in line.split())
+        for name in line.split() if several else [line]:
+            try:
+                found = read_mtl(inner_path(name, folder)) | found
+            except LucidaError as error:
+                problem = f"{shown(name)} {error.problem}; default colours are shown"
+                images.note(problem, "materials")
+    return found
 
 
 def _blame_line(path: Path, lines: Lines) -> NoReturn:
@@ -205,7 +214,7 @@ def _blame_line(path: Path, lines: Lines) -> NoReturn:
         problem = ""
         if keyword in _VALUES:
             above += keyword == "v"
-            if (keyword == "v" and len(words) < 3) or not all(map(_is_number, words)):
+            if (keyword == "v" and len(words) < 3) or not all(map(numerals.is_number, words)):
                 problem = f"is not {_VALUES[keyword]}"
         elif keyword == "f":
             corners = [_CORNER.fullmatch(word) for word in words]
@@ -221,10 +230,3 @@ def _blame_line(path: Path, lines: Lines) -> NoReturn:
             where = f"line {number}"
             raise LucidaError(where, f"{line[:60]!r} {problem}", "repair the line", str(path))
     raise LucidaError("", "cannot be read as OBJ", "export it again, as triangles", str(path))
-
-
-def _is_number(word: str) -> bool:
-    with contextlib.suppress(ValueError):
-        float(word)
-        return True
-    return False

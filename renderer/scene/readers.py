@@ -17,7 +17,7 @@ from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES,
 from renderer.scene.numerals import floats, words
 from renderer.scene.parts import Part, linear_colors
 from renderer.scene.polygons import check_corners, triangulated
-from renderer.scene.reading import check_bytes, check_count, read_file, size_texts
+from renderer.scene.reading import check_bytes, check_count, damaged, read_file
 from renderer.scene.texts import read_text_bytes, tidy
 
 _SOLID = re.compile(rb"(?is)\n[ \t]*solid\b([^\n]*)(.*?)endsolid")
@@ -230,8 +230,8 @@ def read_stl(path: Path) -> list[Part]:
     elif len(data) < 84:
         raise damaged("is too short to be STL")
     else:
-        declared, there = size_texts(84 + 50 * triangles, len(data))
-        raise damaged(f"declares {triangles} triangles, {declared}, and has {there}")
+        declared = f"{triangles} triangles, {84 + 50 * triangles:,} bytes"
+        raise damaged(f"declares {declared}, and has {len(data):,} bytes")
     return [
         Part(name or path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))
         for name, points in solids
@@ -239,8 +239,3 @@ def read_stl(path: Path) -> list[Part]:
 
 
 READERS = {".ply": read_ply, ".stl": read_stl, ".off": read_off}
-
-
-def damaged(problem: str) -> LucidaError:
-    """Return the error for a file that is not what its ending or its header says."""
-    return LucidaError("", problem, "it is cut off or of another kind; export it again")

@@ -8,7 +8,6 @@ Source: Karis 2013, "Specular BRDF reference"; Walter et al. 2007, "Microfacet m
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,23 +34,15 @@ class LeftOut:
         return tuple(self._lines)
 
 
-@dataclass(frozen=True)
-class Microfacets:
-    """A microfacet lobe. alpha: the roughness, root mean square slope. f0: the reflectance at
-    normal incidence, each 0 to 1.
+def microfacets(material: Material) -> tuple[float, Color] | None:
+    """Return the equivalent of the highlight; None for a material without one: the roughness alpha,
+    the root mean square slope, and the reflectance at normal incidence, each 0 to 1.
     """
-
-    alpha: float
-    f0: Color
-
-
-def microfacets(material: Material) -> Microfacets | None:
-    """Return the equivalent of the highlight; None for a material without one."""
     if not any(material.specular):
         return None
     squared = 2 / (material.shininess + 2)
     red, green, blue = (min(4 * squared * part, MOST_REFLECTED) for part in material.specular)
-    return Microfacets(math.sqrt(squared), (red, green, blue))
+    return math.sqrt(squared), (red, green, blue)
 
 
 def reflectance(color: Color, what: str, left: LeftOut) -> Color:
@@ -75,12 +66,6 @@ def mean_of_pattern(material: Material) -> Color:
         for one, other in zip(material.diffuse, material.checker.diffuse, strict=True)
     )
     return red, green, blue
-
-
-def note_texture(material: Material, name: str, left: LeftOut) -> None:
-    """Note a texture that is lost on a sphere."""
-    if material.texture is not None:
-        left.add(f"texture of {name}", "no image was written; the mean of its colours was")
 
 
 def light_strengths(scene: Scene, left: LeftOut) -> list[Color]:
@@ -110,11 +95,3 @@ def light_strengths(scene: Scene, left: LeftOut) -> list[Color]:
         red, green, blue = (factor * part for part in light.color)
         strengths.append((red, green, blue))
     return strengths
-
-
-def note_highlights(scene: Scene, left: LeftOut) -> None:
-    if any(any(entry.material.specular) for _, entry in scene.visible):
-        left.add(
-            "highlights",
-            "microfacets, as wide and as bright in the middle, stand for (n . h)^shininess",
-        )

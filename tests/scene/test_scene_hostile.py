@@ -220,7 +220,10 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (stl(4_000_000_000, 1), "declares 4000000000 triangles, 186 GiB, and has 134 bytes"),
+        (
+            stl(4_000_000_000, 1),
+            "declares 4000000000 triangles, 200,000,000,084 bytes",
+        ),
         (stl(2000, 1999), "declares 2000 triangles, 100,084 bytes, and has 100,034 bytes"),
         (stl(2, 1), "declares 2 triangles"),
         (stl(1, 2), "declares 1 triangles"),

@@ -95,7 +95,6 @@ PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
         ("indices", "Pixels from 0 (arrays)"),
         ("undo", "Undo"),
         ("depth", "Depth"),
-        ("subpixels", "Image laboratory: Subpixels"),
         ("dithers", "Image laboratory: One bit"),
         ("lcd", "Display: LCD"),
         ("lights", "Add point light"),
