@@ -406,7 +406,7 @@ class Camera:
         u /= np.linalg.norm(u)
         return replace(self, u=three(u), v=three(v), w=three(w))
 
-    def fitted(self, size: Size) -> Camera:
+    def fitted(self, size: tuple[float, float]) -> Camera:
         """Return this camera with its viewport enlarged about its centre, in one direction, to the
         image's aspect ratio. Nothing inside the old viewport is lost.
 

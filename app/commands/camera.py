@@ -14,7 +14,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
-from app.commands.given_camera import add_distortion_option, say_changes, source_of, with_remedy
+from app.commands.given_camera import (
+    add_distortion_option,
+    say_changes,
+    say_notes,
+    source_of,
+    with_remedy,
+)
 from renderer.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
@@ -119,6 +125,7 @@ def run(arguments: argparse.Namespace) -> int:
         save_files(Path(arguments.output), files)
         told = common.counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
+    say_notes(found, file)
     say_changes(own, arguments.size)
     return 0
 

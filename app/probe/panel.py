@@ -22,12 +22,14 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
+from app.widgets.lettering import lettering
 from app.widgets.messages import wrapped
 from app.widgets.rows import button_width, follow, tip
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
+from renderer.scene.model import Color
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
 SHORT_EM = 24.0  # a ray alone in less width, in which formulas take many rows, is without
@@ -47,6 +49,9 @@ SECTIONS = {
 }
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
+
+
+Shown = tuple[tuple[int, int, int], Color]  # a pixel's bytes, and its colour, 0..1
 
 
 @dataclass(frozen=True)
@@ -331,6 +336,17 @@ def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) ->
 
 
 # Parts.
+
+
+def color_row(shown: Shown | None, fonts: Fonts) -> None:
+    """Draw a pixel's colour as displayed, and its red, green and blue. None: there is no pixel."""
+    side = imgui.get_text_line_height()
+    _swatch(shown[1] if shown is not None else (0, 0, 0), side)
+    with lettering(fonts.mono):
+        for k, name in enumerate("RGB"):
+            text = f"{name} {shown[0][k]:3d}" if shown is not None else f"{name}   -"
+            imgui.same_line()
+            imgui.text_colored(theme.legible(theme.CHANNELS[k]), text)
 
 
 def _swatch(color: Iterable[float], side: float) -> None:

@@ -1,6 +1,6 @@
 """The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
 
-The view computes the readings, the image's histogram, and its lines in the outside view.
+The view computes the readings, and its lines in the outside view.
 probe/panel.py draws a reading, probe/model.py computes it.
 """
 
@@ -14,8 +14,6 @@ import numpy as np
 from imgui_bundle import imgui
 
 from app.host.view import DockedView, Host
-from app.images.histogram import Histogram, histogram
-from app.images.progressive_ray import RayImage
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
@@ -25,12 +23,11 @@ from app.outside.view import OutsideView
 from app.pair.marks import walked
 from app.pair.view import Linked
 from app.probe import panel
-from app.probe.histogram import values_and_histogram
 from app.probe.model import Probe
 from app.probe.options import ProbeOptions
 from app.probe.reading import Reading
 from app.state.app_state import AppState
-from app.state.options import ImageOptions, Pixel
+from app.state.options import Pixel
 from app.widgets import formula, theme
 from app.widgets.background import Background
 from app.widgets.messages import wrapped
@@ -57,8 +54,6 @@ class ProbeView(DockedView):
         self._outside = outside
         images.pins = lambda state: state.of(ProbeOptions).pins
         self._making: Background[Probe] | None = None
-        self._counting: Background[Histogram] | None = None
-        self.histogram: Histogram | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
         self._error = ""
@@ -69,17 +64,14 @@ class ProbeView(DockedView):
 
     @property
     def settled(self) -> bool:
-        works = (self._making, self._counting)
-        return not self._seen or not any(work is not None and work.busy for work in works)
+        return not self._seen or self._making is None or not self._making.busy
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._making = Background("lucida-probe", host.animate)
-        self._counting = Background("lucida-histogram", host.animate)
 
     def end(self) -> None:
-        for work in (self._making, self._counting):
-            if work is not None:
-                work.close()
+        if self._making is not None:
+            self._making.close()
         formula.release()
 
     def unseen(self, host: Host) -> None:
@@ -102,13 +94,12 @@ class ProbeView(DockedView):
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
-        is_traced = self._count(host)
         shown = None
         if reading is not None and not reading.is_outside:
             shown = reading.bytes, reading.display
         section = host.state.of(ProbeOptions).section
         if section in ("all", "colour"):
-            values_and_histogram(shown, self.histogram, is_traced, host.fonts)
+            panel.color_row(shown, host.fonts)
         imgui.separator()
         # Formulas keep their rows whether the scrollbar is there or not.
         wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
@@ -143,29 +134,6 @@ class ProbeView(DockedView):
                 self._error = describe(outcome.error)
         self._wanted = state.scene
         self._making.ask(Probe, state.scene)
-
-    def _count(self, host: Host) -> bool:
-        """Count the ray image's histogram in the background, once an image. Return True if one is
-        shown.
-
-        While an image is on its way, the last histogram is shown.
-        """
-        assert self._counting is not None
-        both, images = host.renderers, host.state.images
-        outcome = self._counting.poll()
-        if outcome is not None:
-            self.histogram = outcome.value
-        if not both.is_tracing:
-            self.histogram = None
-            self._counting.forget()
-            return False
-        image = both.shown_ray(host.state)
-        if image is None:  # the last histogram is of another scene
-            self.histogram = None
-            self._counting.forget()
-        elif image.factor == 1:
-            self._counting.ask(_counted, image, images)
-        return True
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
         """Return the marked pixel, else the one under the mouse."""
@@ -223,10 +191,6 @@ class ProbeView(DockedView):
         pinned = tuple(pin for pin in pins if pin is not None)
         end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
         self._outside.show(PROBE, self._items(reading, pinned, end, length))
-
-
-def _counted(image: RayImage, options: ImageOptions) -> Histogram:
-    return histogram(image.frame.channel("color"), options)
 
 
 def _outside_items(

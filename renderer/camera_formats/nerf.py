@@ -33,7 +33,6 @@ from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.nerf_lens import (
     NAMES,
     PANORAMA,
-    check_lens,
     coefficients,
     is_panorama,
     lens_in,
@@ -52,7 +51,7 @@ LENSES = nerf_lens.LENSES
 # All entries that determine a camera's optics, as opposed to its pose.
 _OPTICAL = {
     *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
-    *("camera_model", "is_fisheye", "rolling_shutter", "from_mitsuba"),
+    *("camera_model", "is_fisheye"),
     *NAMES,
 }
 _USED = {"frames", "transform_matrix", "file_path"}
@@ -69,6 +68,14 @@ _MEANINGS = {
     "offset": _OF_PROGRAM,
     "fisheyecropradius": "pixels outside of it are masked; the whole image's camera is shown",
     "?fov": "degrees from edge to edge; fl_x or camera_angle_x is used",
+}
+# instant-ngp's lenses and axes that are not in camera_model; its equirectangular one is Lambert's.
+_REFUSED = {
+    "equirectangular": "is a lens that is not supported",
+    "orthographic": "is a lens that is not supported",
+    "fthetap*": "is an f-theta lens's",
+    "frommitsuba": "turns the axes of the poses",
+    "rollingshutter": "takes the rows of an image from different places",
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
@@ -94,7 +101,7 @@ def read(given: Given, options: Options) -> CameraSet:
     folder = given.path and given.path.parent
     size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
-    shared = {name: value for name, value in table.items() if _is_optical(name)}
+    shared = {name: value for name, value in table.items() if name in _OPTICAL}
     optics: dict[str, _Optics] = {}  # by all the values that determine them
     disagree = False
     cameras = []
@@ -103,7 +110,7 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
         try:
             pose = _pose({**table, **frame})
-            own = {name: value for name, value in frame.items() if _is_optical(name)}
+            own = {name: value for name, value in frame.items() if name in _OPTICAL}
             key = repr(own) if own else ""
             if key not in optics:
                 optical = {**shared, **own}
@@ -120,7 +127,7 @@ def read(given: Given, options: Options) -> CameraSet:
         told.append("transform_matrix is no rotation, and held as it is")
     if disagree:
         told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
-    notes = notes_on(_unused(table, frames), _HARMLESS, _MEANINGS)
+    notes = notes_on(_unused(table, frames), _HARMLESS, _MEANINGS, _REFUSED)
     notes = (sizing, *notes) if sizing else notes
     return CameraSet("nerf", tuple(cameras), (*told, *notes), notes=notes)
 
@@ -147,7 +154,7 @@ def _unused(table: Table, frames: Sequence[Table]) -> Iterator[tuple[str, Any]]:
     """Yield the values that are not used, of the file and of its frames."""
     for part in (table, *frames):
         for name, value in part.items():
-            if name not in _USED and not _is_optical(name):
+            if name not in _USED | _OPTICAL:
                 yield from entries_of({name: value})
 
 
@@ -189,10 +196,6 @@ def _image(name: object, folder: Path | None) -> str:
         return ""
     path = (folder or Path()) / PurePosixPath(name.replace("\\", "/"))
     return str(path if _ENDING.search(path.name) else path.with_name(f"{path.name}.png"))
-
-
-def _is_optical(name: str) -> bool:
-    return name in _OPTICAL or name.startswith("ftheta_p")
 
 
 def _pose(table: Table) -> list[Any]:
@@ -240,11 +243,6 @@ def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _
     table: optical entries only, so that frames with equal entries share their optics. size: for
     tables without one. Raises LucidaError.
     """
-    shutter = table.get("rolling_shutter")
-    if isinstance(shutter, list) and any(number_of("rolling_shutter", x) for x in shutter):
-        problem = "the rows of an image are taken from different places"
-        raise LucidaError("rolling_shutter", problem, "give a pose for each image")
-    check_lens(table)
     if "w" in table or "h" in table:
         for name in "wh":
             if name not in table:

@@ -213,18 +213,22 @@ def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str]:
         if not numbers.size or numbers.size % 6:
             problem = f"has {numbers.size} numbers"
             raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
+        if poses:
+            raise _disagreeing(poses[0][0], found[0])
         rows = numbers.reshape(-1, 6)
         views = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
-        poses = [(found[0], pose, "") for _, pose in views] + poses if poses else []
-        told = f"{found[0]}: rvec and tvec of each picture of the calibration"
-    elif poses:
-        views, told = [poses[0][:2]], poses[0][2]
-    else:
+        return views, f"{found[0]}: rvec and tvec of each picture of the calibration"
+    if not poses:
         return [("", np.eye(4))], "no pose: the camera stands at the origin"
-    for name, pose, _ in poses[1:]:
-        if np.abs(pose - poses[0][1]).max() > _AGREE * max(1.0, np.abs(pose).max()):
-            raise LucidaError(name, f"is another pose than {poses[0][0]}", "give one of the two")
-    return views, told
+    first, pose, told = poses[0]
+    for name, other, _ in poses[1:]:
+        if np.abs(other - pose).max() > _AGREE * max(1.0, np.abs(pose).max()):
+            raise _disagreeing(name, first)
+    return [(first, pose)], told
+
+
+def _disagreeing(name: str, other: str) -> LucidaError:
+    return LucidaError(name, f"is another pose than {other}", "give one of the two")
 
 
 def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:

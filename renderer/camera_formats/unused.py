@@ -20,6 +20,7 @@ TOLD = 8  # unknown keys that are named; the others are counted
 _LENS = re.compile(r"dist(?!anc)|.*(?<!un)distort|[kps]\d\d?$")
 _POSE = re.compile(r".*(?:pose|extrin|transf|quat|rotat|transl|position|orient|world)|[tq][a-z]{2}")
 _FOCAL = re.compile(r".*\.(?:flx|fx|focal.*)")
+_NONE: Mapping[str, str] = {}
 _AT_REST = [np.eye(*shape).ravel() for shape in ((3, 3), (3, 4), (4, 4), (1, 4))]
 _AT_REST.append(_AT_REST[-1][::-1])  # quaternions, with w first or last
 
@@ -43,12 +44,16 @@ def entries_of(tree: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def notes_on(
-    entries: Iterable[tuple[str, Any]], harmless: str, meanings: Mapping[str, str]
+    entries: Iterable[tuple[str, Any]],
+    harmless: str,
+    meanings: Mapping[str, str],
+    refused: Mapping[str, str] = _NONE,
 ) -> tuple[str, ...]:
     """Return phrases on unused entries, by their keys. Raises LucidaError for one that matters.
 
     harmless: keys, perhaps without their tables', and patterns of keys. meanings: by patterns, what
-    a key means and what is shown instead. Zeros, identities and empty values mean nothing.
+    a key means and what is shown instead. refused: by patterns, why a key is an error. Zeros,
+    identities and empty values mean nothing.
     """
     told: dict[str, None] = {}
     unknown: dict[str, None] = {}
@@ -59,6 +64,9 @@ def notes_on(
         meaning, numbers = seen[name], numbers_in(value)
         if meaning is None or _is_nothing(value, numbers):
             continue
+        for pattern, problem in refused.items():
+            if fnmatchcase(plain(name), pattern):
+                raise LucidaError(name, problem, "give poses and images of a pinhole camera")
         if meaning:
             told[f"{name} is not used: {meaning}"] = None
         else:

@@ -218,8 +218,18 @@ class View:
         return self.given[1] if self.given is not None and self.given[0] == self.camera else None
 
     def for_size(self, size: tuple[int, int]) -> Camera:
-        """Return the camera that draws an image of (width, height)."""
-        return self.camera.fitted(size) if self.fit else self.camera
+        """Return the camera that draws an image of (width, height).
+
+        The pixels of a camera that was given for an image of its own keep their shape.
+        """
+        if self.fit:
+            return self.camera.fitted(size)
+        own = None if self.given is None else self.given[1]
+        if self.given is None or own is None or own == size:
+            return self.camera
+        left, right, bottom, top = self.given[0].viewport
+        wide = (right - left) / own[0] * own[1] / (top - bottom)  # a pixel's width over its height
+        return self.camera.fitted((wide * size[0], size[1]))
 
 
 @dataclass(frozen=True)

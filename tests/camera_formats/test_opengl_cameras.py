@@ -140,7 +140,7 @@ def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
         (changed((2, 3), 0, clip=True), "projection: its third row .* has no near before far"),
         (changed((0, 0), 1e-320, clip=True), "viewport: -?inf is not finite"),
         ("view = 1" + " " * 2_000_000, "is too large"),
-        (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has the shape"),
+        (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has 2 numbers; give 16"),
         (json.dumps({"view": VIEW.tolist()}), "clip_from_camera: is missing"),
         (
             json.dumps({"view": np.diag([1, 1, 0, 1]).tolist(), "projection": CLIP.tolist()}),

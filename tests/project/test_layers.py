@@ -114,7 +114,7 @@ DRAW = {
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
     "painting parts pixel_plane scrubber tint tools widening",
     "objects": "handles in_views inspector material_fields outliner value_fields",
-    "probe": "histogram",
+    "probe": "",
     "stepper": "controls listing numbers plan",
     "costs": "plots",
     "your_code": "code_pictures",
