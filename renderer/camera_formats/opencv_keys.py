@@ -45,9 +45,9 @@ _NAMES = {
     "lens": "distortioncoefficients distortioncoefficient distortioncoeffs distortioncoeff "
     "distortioncoefs distortionparameters distortionparams distortionvector distcoeffs distcoeff "
     "distcoefs distcoef distortion dist d",
-    "lens model": "distortionmodel",
+    "lens model": "distortionmodel distortiontype lensmodel projectionmodel",
     "fisheye": "fisheyemodel isfisheye",
-    "camera model": "cameramodel cameratype modeltype",
+    "camera model": "cameramodel cameratype modeltype model",
     "mirror": "xi",
     "name": "cameraname",
     **{name: name.lower() for name in (*NAMES, "omega")},

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from renderer.camera_formats.given import Given, from_json
+from renderer.camera_formats.given import Given, from_json, unique
 from renderer.camera_formats.literals import values_in
 from renderer.errors import LucidaError
 from renderer.scene.reading import check_bytes
@@ -137,17 +137,16 @@ def _from_xml(text: str) -> Any:
     if root.tag != "opencv_storage":
         problem = f"is XML of another kind: {root.tag}"
         raise LucidaError("", problem, "give OpenCV's <opencv_storage>")
-    return {entry.tag: _of_element(entry) for entry in root}
+    return unique([(entry.tag, _of_element(entry)) for entry in root])
 
 
 def _of_element(element: ElementTree.Element) -> Any:
-    parts = {part.tag: (part.text or "").split() for part in element}
-    if not parts:
+    if not len(element):
         return _words(element.text or "")
-    return {
-        name: [_word(word) for word in words] if name == "data" else _word(" ".join(words))
-        for name, words in parts.items()
-    }
+    parts = [(part.tag, _of_element(part)) for part in element]
+    if parts[0][0] == "_":  # a sequence
+        return [value for _, value in parts]
+    return unique(parts)
 
 
 def _words(text: str) -> Any:

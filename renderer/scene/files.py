@@ -223,6 +223,8 @@ class _Builder:
             model = self._parts.model(fields.file, material)
             path, single_sided = self._parts.path(fields.file), fields.single_sided
             made, views, notes = model.objects, model.views, model.notes
+            if model.lights:
+                notes += (f"{path}: lights: not shown; a scene file has its own",)
             if is_textured(material):
                 check_mapped(fields, made)
         else:

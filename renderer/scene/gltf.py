@@ -16,24 +16,26 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.cancelling import check_cancelled
-from renderer.scene.gltf_cameras import camera_views
 from renderer.scene.gltf_file import (
+    MATERIALS,
+    READ,
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     TRIANGLE_STRIP,
     Accessor,
     Gltf,
+    Node,
     OpenGltf,
     Primitive,
     entry_at,
 )
 from renderer.scene.gltf_materials import read_materials
-from renderer.scene.gltf_nodes import PlacedNode, placed_nodes
+from renderer.scene.gltf_nodes import PlacedNode, node_matrix, placed_nodes
 from renderer.scene.gltf_numbers import read_numbers, scaled, triangles_of, whole_numbers
 from renderer.scene.gltf_textures import read_coordinates
 from renderer.scene.images import ModelImages
 from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.model import Material, NamedView
+from renderer.scene.model import Material
 from renderer.scene.parts import Part, linear_colors
 from renderer.scene.reading import check_count
 
@@ -44,6 +46,7 @@ TYPES = {
     "COLOR_0": ("VEC3", "VEC4"),
     "indices": ("SCALAR",),
 }
+INSTANCED = {"TRANSLATION": "VEC3", "ROTATION": "VEC4", "SCALE": "VEC3"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,11 +70,17 @@ class PlacedPart:
     material: Material | None
 
 
-def read_gltf(
-    path: Path, images: ModelImages, is_mapped: bool = False
-) -> tuple[list[PlacedPart], tuple[NamedView, ...]]:
-    """Return the instances of a .gltf or .glb file, and the views of its cameras. Raises
-    LucidaError.
+@dataclass(frozen=True, eq=False)
+class GltfContent:
+    """The instances; the tree and its placed nodes, for cameras and lights."""
+
+    parts: list[PlacedPart]
+    tree: Gltf
+    nodes: list[PlacedNode]
+
+
+def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfContent:
+    """Return the content of a .gltf or .glb file. Raises LucidaError.
 
     images: for its textures.
     is_mapped: all parts with texture coordinates.
@@ -79,12 +88,14 @@ def read_gltf(
     file = OpenGltf(path)
     tree = file.tree
     nodes = list(placed_nodes(tree))
-    instances = _instances(tree, nodes)
+    instances = _instances(file, nodes)
     check_count(
         sum(_triangles(tree, entry.primitive) for entry in instances), TRIANGLES, "triangles"
     )
     if still := list(_not_moved(tree, nodes)):
         images.note(f"not shown: {', '.join(still)}", "shapes")
+    if left := [n for n in tree.extensions_used if n not in READ and not n.startswith(MATERIALS)]:
+        images.note(f"not read: {', '.join(left)}", "extensions")
     materials = read_materials(file, {entry.primitive.material for entry in instances}, images)
     parts: dict[Hashable, Part] = {}
     placed = []
@@ -106,7 +117,7 @@ def read_gltf(
             fields["uv"] = _coordinates(file, places, images)
             parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
         placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
-    return placed, camera_views(tree, nodes)
+    return GltfContent(placed, tree, nodes)
 
 
 def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
@@ -119,14 +130,15 @@ def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
         yield "animations"
 
 
-def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
+def _instances(file: OpenGltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
     """Return every triangle primitive at every node, depth first, in the file's order."""
-    instances: list[Instance] = []
+    tree, instances = file.tree, list[Instance]()
     for placed in nodes:
         number = placed.node.mesh
         if number is None:
             continue
         mesh = entry_at(tree.meshes, number, f"{placed.field}.mesh")
+        matrices = _matrices(file, placed)
         for k, primitive in enumerate(mesh.primitives):
             where = f"meshes[{number}].primitives[{k}]"
             if primitive.mode not in (TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN):
@@ -136,10 +148,25 @@ def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
             if primitive.material is not None:
                 entry_at(tree.materials, primitive.material, f"{where}.material")
             name = placed.node.name or mesh.name
-            instances.append(Instance(primitive, name, mesh.name, placed.matrix, where))
+            instances += [
+                Instance(primitive, name, mesh.name, matrix, where) for matrix in matrices
+            ]
         if len(instances) > OBJECTS:
             raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
     return instances
+
+
+def _matrices(file: OpenGltf, placed: PlacedNode) -> list[NDArray[np.float64]]:
+    """Return world_from_object of each instance of a node's mesh."""
+    if (given := placed.node.extensions.instancing) is None:
+        return [placed.matrix]
+    found = {}
+    for name, kind in INSTANCED.items():
+        if (number := given.attributes.get(name)) is not None:
+            numbers = read_numbers(file, number, (kind,), f"{placed.field}.{name}")
+            found[name.lower()] = scaled(numbers, file, number).tolist()
+    rows = (dict(zip(found, row, strict=True)) for row in zip(*found.values(), strict=False))
+    return [placed.matrix @ node_matrix(Node(**row)) for row in rows]
 
 
 def _accessor(tree: Gltf, number: int | None) -> Accessor | None:

@@ -23,7 +23,10 @@ Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
 
 TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN = 4, 5, 6
-COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
+LIGHTS, INSTANCING = "KHR_lights_punctual", "EXT_mesh_gpu_instancing"
+READ = (TRANSFORM, WEBP, LIGHTS, INSTANCING, "KHR_mesh_quantization")
+MATERIALS = "KHR_materials_"  # these change no geometry: gltf_materials.py names what is not shown
 
 
 class Table(msgspec.Struct, rename="camel"):
@@ -93,9 +96,7 @@ class TextureTransform(Value, frozen=True):
 
 
 class TextureInfoExtensions(Value, frozen=True):
-    transform: TextureTransform = msgspec.field(
-        default=TextureTransform(), name="KHR_texture_transform"
-    )
+    transform: TextureTransform = msgspec.field(default=TextureTransform(), name=TRANSFORM)
 
 
 class TextureInfo(Table):
@@ -115,7 +116,7 @@ class Webp(Table):
 
 
 class TextureExtensions(Value, frozen=True):
-    webp: Webp | None = msgspec.field(default=None, name="EXT_texture_webp")
+    webp: Webp | None = msgspec.field(default=None, name=WEBP)
 
 
 class GltfTexture(Table):
@@ -155,6 +156,33 @@ class GltfMaterial(Table):
     extensions: dict[str, Any] = {}
 
 
+class LightIndex(Table):
+    light: Index
+
+
+class Instancing(Table):
+    attributes: dict[str, Index]
+
+
+class NodeExtensions(Table):
+    light: LightIndex | None = msgspec.field(default=None, name=LIGHTS)
+    instancing: Instancing | None = msgspec.field(default=None, name=INSTANCING)
+
+
+class GltfLight(Table):
+    type: str
+    color: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    intensity: float = 1.0
+
+
+class Lights(Table):
+    lights: list[GltfLight] = []
+
+
+class GltfExtensions(Table):
+    punctual: Lights = msgspec.field(default_factory=Lights, name=LIGHTS)
+
+
 class Node(Table):
     name: str = ""
     mesh: Index | None = None
@@ -165,6 +193,7 @@ class Node(Table):
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
     skin: Any = None
     camera: Index | None = None
+    extensions: NodeExtensions = msgspec.field(default_factory=NodeExtensions)
 
 
 class GltfScene(Table):
@@ -181,6 +210,8 @@ class Gltf(GltfVersion):
     """The parts of a glTF tree that become objects and cameras; all others are ignored."""
 
     extensions_required: list[str] = []
+    extensions_used: list[str] = []
+    extensions: GltfExtensions = msgspec.field(default_factory=GltfExtensions)
     scene: Index = 0
     scenes: list[GltfScene] = []
     nodes: list[Node] = []
@@ -216,9 +247,9 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
         raise damaged(f"is not glTF: {str(error)[:120]}") from None
     for name in tree.extensions_required:
-        if name in COMPRESSED:
-            remedy = "open it in Blender, say, and export it without compression"
-            raise LucidaError("", f"is compressed with {name}", remedy)
+        if name not in READ and not name.startswith(MATERIALS):
+            remedy = "open it in Blender, say, and export it without"
+            raise LucidaError("extensionsRequired", f"{name[:60]} is not read", remedy)
     return tree, binary
 
 

@@ -10,15 +10,18 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from renderer.scene.gltf_file import GltfMaterial, OpenGltf
+from renderer.scene.gltf_file import MATERIALS, GltfMaterial, OpenGltf
 from renderer.scene.gltf_textures import read_texture
 from renderer.scene.images import ModelImages
 from renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
 from renderer.scene.model import Color, Material
 from renderer.scene.texture import WHITE, Texture, placed_alike
 
-EXTENSION = "KHR_materials_"
-WORDS = {"clearcoat": "clear coat", "emissive_strength": "emission"}
+WORDS = {
+    "clearcoat": "clear coat",
+    "emissive_strength": "emission",
+    "unlit": "unlit colours, which are shaded",
+}
 
 
 def read_materials(
@@ -46,7 +49,7 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
     if any(given.emissive_factor):  # it multiplies the texture
         yield "emission"
     for name in given.extensions:
-        word = name.removeprefix(EXTENSION)
+        word = name.removeprefix(MATERIALS)
         yield WORDS.get(word, word.replace("_", " ")[:40])
 
 

@@ -25,8 +25,8 @@ class PlacedNode:
 
 
 def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
-    """Yield the nodes of the scene that have a mesh or a camera, depth first, in the file's order.
-    Raises LucidaError if they are not a tree.
+    """Yield the nodes of the scene that have a mesh, a camera or a light, depth first, in the
+    file's order. Raises LucidaError if they are not a tree.
     """
     if tree.scenes:
         roots = entry_at(tree.scenes, tree.scene, "scene").nodes
@@ -45,13 +45,13 @@ def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
             )
         seen.add(number)
         with np.errstate(all="ignore"):
-            matrix = parent @ _node_matrix(node)
-        if node.mesh is not None or node.camera is not None:
+            matrix = parent @ node_matrix(node)
+        if (node.mesh, node.camera, node.extensions.light) != (None, None, None):
             yield PlacedNode(node, matrix, field)
         stack += [(child, matrix) for child in reversed(node.children)]
 
 
-def _node_matrix(node: Node) -> NDArray[np.float64]:
+def node_matrix(node: Node) -> NDArray[np.float64]:
     """Return parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
     if node.matrix is not None:
         matrix = np.array(node.matrix).reshape(4, 4).T

@@ -154,11 +154,16 @@ def _checked_transform(value: ArrayLike) -> NDArray[np.float64]:
     transform = _array("transform", value, np.float64, (4, 4))
     if not ((np.abs(transform) <= LARGEST).all() and (transform[3] == (0, 0, 0, 1)).all()):
         raise LucidaError("transform", "is too large, or not affine", "scale it down")
-    linear = transform[:3, :3]
-    lengths = np.linalg.norm(linear, axis=0)
-    if not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9):
+    if is_flat(transform[:3, :3]):
         raise LucidaError("transform", "is not invertible", "give scales other than 0")
     return transform
+
+
+def is_flat(linear: NDArray[np.float64]) -> bool:
+    """Return True if a matrix (3, 3) flattens what it is applied to."""
+    most = float(np.abs(linear).max()) or 1.0  # so that no square leaves float64
+    lengths = most * np.linalg.norm(linear / most, axis=0)
+    return not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9)
 
 
 Shape = Sphere | Mesh

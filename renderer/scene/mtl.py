@@ -25,6 +25,11 @@ _OPTIONS = {
 }  # fmt: skip
 
 
+# What changes nothing, or little, in a picture; and values that change nothing.
+_HARMLESS = ("", "ka", "ni", "illum", "tf", "sharpness", "map_ka")
+_DEFAULTS = {"d": 1.0, "tr": 0.0, "ke": 0.0}
+
+
 @dataclass(frozen=True)
 class ImageMap:
     """map_Kd of a material. name: of the image. is_clamped: -clamp on."""
@@ -37,11 +42,12 @@ class ImageMap:
 
 @dataclass
 class MtlMaterial:
-    """fields: Kd, Ks and Ns as they stand. folder: the file's."""
+    """fields: Kd, Ks and Ns as they stand. folder: the file's. ignored: keywords not shown."""
 
     folder: Path
     fields: dict[str, list[float]] = field(default_factory=dict)
     image: ImageMap | None = None
+    ignored: list[str] = field(default_factory=list)
 
     def material(self, images: ModelImages) -> Material | None:
         """Return the material, clamped to what one may have, with its texture, whose image is read
@@ -50,6 +56,8 @@ class MtlMaterial:
         Kd multiplies the image. If there is none, or it is black, as many programs write it with an
         image, the image is shown unchanged.
         """
+        if self.ignored:
+            images.note(f"not shown: {', '.join(self.ignored)}", "materials")
         material = _plain(self.fields) if self.fields else None
         if (given := self.image) is None:
             return material
@@ -83,6 +91,10 @@ def read_mtl(path: Path) -> dict[str, MtlMaterial]:
             material.image = _image_map(words) or material.image
         elif keyword in ("kd", "ks", "ns") and words and all(map(is_number, words)):
             material.fields[keyword] = [float(word) for word in words]  # not a spectrum's file
+        elif keyword not in _HARMLESS and keyword[0] != "#":
+            default = _DEFAULTS.get(keyword)
+            if any(not is_number(word) or float(word) != default for word in words):
+                material.ignored.append(keyword[:20])
     return found
 
 

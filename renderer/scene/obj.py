@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import re
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -25,6 +27,7 @@ from renderer.scene.texts import read_text_bytes
 _CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")
 _VALUES = {"v": "a vertex", "vn": "a normal"}
 Floats = NDArray[np.float64]
+Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
 
 
 def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
@@ -46,14 +49,20 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
-    places, owner = triangulated(vertices[:, :3], columns[0], counts)
+    places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
     textured = [is_mapped or bool(material and material.texture) for _, _, material in named]
     coordinates = _coordinates(lines) if any(textured) else np.zeros((0, 0))
+    if corners[1] is not None and any(textured):
+        has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
+        named = list(_by_coordinates(named, has_uv, images))
+    if lines.has_curves:
+        images.note("not shown: lines, points and curves", "shapes")
     parts = []
-    for (name, which, material), is_textured in zip(named, textured, strict=True):
-        mine = corners if which is None else [a if a is None else a[which] for a in corners]
+    for name, which, material in named:
+        mine = [a if a is None else a[which] for a in corners]
+        is_textured = is_mapped or (material is not None and material.texture is not None)
         uvs = coordinates if is_textured else np.zeros((0, 0))
         source, faces, uv, normal = _merged(mine, len(uvs), len(normals))
         parts.append(
@@ -68,6 +77,24 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
             )
         )
     return parts
+
+
+def _by_coordinates(
+    named: list[Named], has_uv: NDArray[np.bool_], images: ModelImages
+) -> Iterator[Named]:
+    """Yield the parts, those apart that have no coordinates for their texture: in its material's
+    plain colour.
+    """
+    for name, which, material in named:
+        numbers = np.arange(len(has_uv))[which]
+        bare = numbers[~has_uv[numbers]]
+        if material is None or material.texture is None or not 0 < len(bare) < len(numbers):
+            yield name, which, material
+            continue
+        problem = f"{len(bare)} triangles of {shown(name)} have no texture coordinates"
+        images.note(f"{problem}; the plain colour is shown")
+        yield name, numbers[has_uv[numbers]], material
+        yield f"{name}_plain", bare, replace(material, texture=None)
 
 
 def _coordinates(lines: Lines) -> Floats:
@@ -149,9 +176,9 @@ def _merged(
 
 def _named_parts(
     path: Path, lines: Lines, triangle_lines: Ints, images: ModelImages
-) -> list[tuple[str, Ints | None, Material | None]]:
-    """Return for each object and material a name, its triangles, None for all, and the material if
-    the file has it.
+) -> list[Named]:
+    """Return for each object and material a name, its triangles, and the material if the file has
+    it.
     """
     keys: dict[tuple[str, str], int] = {("", ""): 0}
     at, states = [-1], [0]
@@ -167,12 +194,14 @@ def _named_parts(
     part = np.array(states)[np.searchsorted(np.array(at), triangle_lines) - 1]
     order = np.argsort(part, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(part[order])) + 1)
+    if len(groups) > OBJECTS:
+        images.note(f"more than {OBJECTS} objects are shown as one, in one colour", "shapes")
     if len(keys) == 1 or len(groups) > OBJECTS or not len(order):
-        return [(path.stem, None, None)]
+        return [(path.stem, slice(None), None)]
     groups.sort(key=lambda group: int(group[0]))
     materials = _materials(path.parent, libraries, images)
     all_keys = list(keys)
-    named: list[tuple[str, Ints | None, Material | None]] = []
+    named: list[Named] = []
     taken: dict[str, int] = {}
     for group in groups:
         found, used = all_keys[part[group[0]]]
@@ -183,6 +212,9 @@ def _named_parts(
             name = f"{name}_{taken[name]}"
         taken[name] = 0
         given = materials.get(used)
+        if used and materials and given is None:
+            problem = f"{shown(used)} is not in {', '.join(libraries)}; default colours are shown"
+            images.note(problem, "materials")
         named.append((name, group, None if given is None else given.material(images)))
     return named
 

@@ -20,7 +20,7 @@ from renderer.scene.repairs import Repair, note_repair
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
 LARGEST_UV = 1e6  # times an image: float32 knows no place in it beyond that
-FAR = 64.0  # times its own size: farther from the file's origin than that, a mesh gets its own
+FAR = 16.0  # times its own size: farther from the file's origin than that, a mesh gets its own
 
 
 @dataclass(frozen=True, eq=False)

@@ -106,7 +106,9 @@ class _Rewriting:
         below = self._below((name,))
         if old is not None and not below:
             with self._body(()) as body:
-                _change_list(body[name], old, new)
+                if "#" in body[name].as_string() and list(old) != list(new):
+                    raise LookupError("comments between tables that come or go")
+                _change(body, name, list(old.values()), list(new.values()))
             return
         place = self.sections.index(below[0]) if below else len(self.sections)
         for number, (key, table) in enumerate((old or {}).items()):
@@ -171,18 +173,6 @@ def _sections(text: str) -> Iterator[_Section]:
 def _is_quiet(line: str) -> bool:
     """Return True for a line that is blank or a comment."""
     return not line.strip() or line.lstrip().startswith("#")
-
-
-def _change_list(array: Any, old: dict[int, Tables], new: dict[int, Tables]) -> None:
-    """Change the tables of an array of tomlkit, by their keys."""
-    for number, key in reversed(list(enumerate(old))):
-        if key not in new:
-            del array[number]
-    for number, (key, table) in enumerate(new.items()):
-        if key not in old:
-            array.insert(number, _item(table))
-        elif old[key] != table:
-            _change(array, number, old[key], table)
 
 
 def _change(container: Any, key: Any, was: Any, now: Any) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from renderer.errors import one_line
 from renderer.images.display import from_srgb
-from renderer.scene.flat import flatten
+from renderer.scene.framing import median_distance
 from renderer.scene.model import Color, Material, PointLight, Scene
 
 MOST_REFLECTED = 0.9  # of the light at normal incidence
@@ -75,18 +75,12 @@ def light_strengths(scene: Scene, left: LeftOut) -> list[Color]:
     It is the irradiance of a directional light, and the intensity of a point light. For a point
     light, the brightness is equal at the centre of an object at the median distance.
     """
-    flat = flatten(scene)
-    middles = np.ones((len(scene.objects), 4))
-    middles[:, :3] = flat.object_bounds.mean(axis=1)
-    places = np.einsum("nij,nj->ni", flat.world_from_object, middles)[:, :3]
-    places = places[[not entry.hidden for entry in scene.objects]]
     strengths = []
     for number, light in enumerate(scene.lights):
         factor = math.pi
         if isinstance(light, PointLight):
-            distances = np.linalg.norm(places - np.asarray(light.position), axis=1)
-            away = float(np.median(distances)) if len(distances) else 1.0
-            factor *= away**2 or 1.0
+            away = median_distance(scene.objects, light.position)
+            factor *= away**2
             left.add(
                 f"light {number}",
                 "its light falls off with the square of the distance there; it is as bright as "

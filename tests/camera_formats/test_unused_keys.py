@@ -162,6 +162,33 @@ def test_poses_under_the_programs_own_keys_are_read(text: str, count: int) -> No
         )
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.json", '{"K": [500, 500, 320, 240], "K": [400, 400, 320, 240]}'),
+        ("a.yaml", "K: [500, 500, 320, 240]\nK: [400, 400, 320, 240]\n"),
+        ("a.xml", "<opencv_storage><K>5 5 3 2</K><K>4 4 3 2</K></opencv_storage>"),
+    ],
+)
+def test_a_key_that_is_given_twice_is_an_error(name: str, text: str) -> None:
+    with pytest.raises(LucidaError, match="K: is given twice in one table"):
+        read_cameras(Given(name, text.encode(), Path(name)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"K": [500, 500, 320, 240], "size": [640, 480], "model": "fisheye"}',
+        "K = [500, 500, 320, 240]\nsize = 640, 480\ncamera_model = 'fisheye'\n",
+        "<opencv_storage><cam><size>640 480</size><camera_model>fisheye</camera_model>"
+        "<K>500 500 320 240</K></cam></opencv_storage>",
+    ],
+)
+def test_a_model_of_a_lens_is_read_in_any_notation(text: str) -> None:
+    lens = pasted(text).cameras[0].camera.lens
+    assert lens is not None and lens.model == "fisheye"
+
+
 def test_another_document_of_yaml_is_an_error() -> None:
     with pytest.raises(LucidaError, match="holds 2 documents"):
         read(f"{EUROC}\n---\n{EUROC}")

@@ -70,7 +70,10 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"asset": None}, "object missing required field asset"),
     ({"asset": {"version": "1.0"}, "meshes": {"a": {"primitives": []}}}, "is glTF 1.0; export it"),
     ({"asset": {"version": "2.0"}, "meshes": {"a": 1}}, "meshes: expected array, got object"),
-    ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "is compressed with KHR"),
+    (
+        {"extensionsRequired": ["KHR_draco_mesh_compression"]},
+        "extensionsRequired: KHR_draco_mesh_compression is not read",
+    ),
     ({"meshes.0.primitives.0.indices": 9}, "accessors: names entry 9"),
     ({"meshes.0.primitives.0.material": 9}, "meshes[0].primitives[0].material: names entry 9"),
     ({"meshes.0.primitives.0.attributes.POSITION": None}, "meshes[0].primitives[0]: has no POS"),

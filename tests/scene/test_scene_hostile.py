@@ -226,7 +226,6 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
         ),
         (stl(2000, 1999), "declares 2000 triangles, 100,084 bytes, and has 100,034 bytes"),
         (stl(2, 1), "declares 2 triangles"),
-        (stl(1, 2), "declares 1 triangles"),
         (stl(0, 0), "holds no triangle"),
         (stl(1, 1, float("nan")), "vertices: 1 of 3 are NaN"),
         (stl(1, 1)[:60], "is too short to be STL"),
@@ -241,7 +240,7 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
         ("solid\nendsolid\n" * 10_001, "has 10001 solids; stay within 10000"),
         ("solid endsolid solid\n", "holds no triangle"),
     ],
-    ids=range(14),
+    ids=range(13),
 )
 def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.stl", content)).startswith(message)
