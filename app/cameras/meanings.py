@@ -156,4 +156,5 @@ def _aim(camera: Camera, center: Floats) -> float:
 
 def _place(camera: Camera) -> str:
     ahead = -np.asarray(camera.w) / np.linalg.norm(camera.w)
-    return f"eye {listed(np.round(camera.eye, 3))}, looks along {listed(np.round(ahead, 3))}"
+    eye, ahead = (np.round(one, 3) + 0.0 for one in (camera.eye, ahead))  # 0.0, not -0.0
+    return f"eye {listed(eye)}, looks along {listed(ahead)}"

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
+from app.state.options import Notation
+
 Kind = Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
 
 
@@ -35,11 +37,13 @@ class Call:
     function: its name.
     arguments: names, for messages, and values, in their order.
     vectorised: lists are passed as NumPy arrays, and the answer consists of arrays.
+    notation: of the names in messages.
     """
 
     function: str
     arguments: tuple[tuple[str, Any], ...]
     vectorised: bool = False
+    notation: Notation = "code"
 
 
 @dataclass(frozen=True)

@@ -125,7 +125,7 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
     given, problems = kind.given(task, cases, run.values)
     if problems:
         number = min(problems)
-        call = told_call(Call(task.function, cases[number].arguments))
+        call = told_call(Call(task.function, cases[number].arguments, notation=task.notation))
         failure = Failure("answer", f"{call} {problems[number]}", call=number)
         return failed(task, failure, len(cases), run.output)
     wrong = kind.wrong(task, cases, given)

@@ -43,9 +43,9 @@ def asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
     return _changed(arguments, tasks), limits
 
 
-def named(tasks: list[CheckTask], name: str) -> CheckTask:
+def named(tasks: list[CheckTask], name: str, field: str = "--task") -> CheckTask:
     """Return the task with a name, also with _ for -, or with a function's name. Raises
-    LucidaError.
+    LucidaError. field: the argument that has the name.
     """
     from renderer.scene.reading import suggestion
 
@@ -55,7 +55,7 @@ def named(tasks: list[CheckTask], name: str) -> CheckTask:
     found += [task for task in tasks if task.function == name]
     if not found:
         names = [task.name for task in tasks]
-        raise LucidaError("--task", f"{name[:40]!r} is unknown", suggestion(name, names))
+        raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
     return found[0]
 
 

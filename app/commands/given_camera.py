@@ -94,7 +94,7 @@ def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> Non
 
     if told := lens_text(cameras, ignored=True):
         print(f"lucida: {one_line(told)}", file=sys.stderr)
-    own = cameras[0].size
+    own = cameras[0].size if cameras else None
     if size is None or own is None or abs(size[0] - size[1] * own[0] / own[1]) <= 1:
         return
     shapes = f"{size[0]}x{size[1]} has another shape than the camera's own {own[0]}x{own[1]}"

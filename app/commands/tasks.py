@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.task is not None:
-        tasks = [named(tasks, arguments.task)]
+        tasks = [named(tasks, arguments.task, "NAME")]
     if arguments.json:
         data = {"tasks": [as_data(task) for task in tasks], "courses": course_names()}
         print(json.dumps(data, indent=2))

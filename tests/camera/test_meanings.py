@@ -63,6 +63,11 @@ def test_one_meaning_is_the_camera_itself(matrix, words, camera, is_transposed) 
     assert np.asarray(best.w) @ best.eye > 0  # it looks at the scene
 
 
+def test_no_place_is_minus_zero() -> None:
+    for one in meanings(matrix_in(str(np.eye(4).tolist())), NOW, (0, 0, -5)):
+        assert "-0," not in one.words and "-0)" not in one.words
+
+
 def test_r_and_t_are_a_pose() -> None:
     pose = CAMERA.camera_from_world
     matrix = matrix_in(f"R = {pose[:3, :3].tolist()}\nt = {pose[:3, 3].tolist()}")

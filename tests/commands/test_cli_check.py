@@ -63,7 +63,7 @@ def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     status, out, _ = check(RAISES)
     assert status == 2
     assert out.startswith("failed  memory-offset") and "ZeroDivisionError" in out
-    assert "memory_offset(i=0, j=0, width=8)" in out
+    assert "memory_offset(i=0, j=0, W=8)" in out
 
 
 def test_an_answer_that_changes_when_it_is_asked_again(check):
@@ -258,6 +258,7 @@ def test_the_list_of_tasks(capsys, tmp_path):
     assert main(["tasks", "--tasks", str(tmp_path / "hw.toml")]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 2
     assert main(["tasks", "rays"]) == 2
+    assert capsys.readouterr().err.startswith("lucida: NAME: 'rays' is unknown; ")
 
 
 def test_lecture_parts_are_steps_of_the_lecture():

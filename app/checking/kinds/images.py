@@ -33,7 +33,10 @@ class ImageKind(CheckKind):
     """A function from an image to an image. Python code receives NumPy arrays."""
 
     def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
-        return [Call(task.function, case.arguments, vectorised=True) for case in cases]
+        return [
+            Call(task.function, case.arguments, vectorised=True, notation=task.notation)
+            for case in cases
+        ]
 
     def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
         found: list[Floats | None] = []

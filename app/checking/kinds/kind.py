@@ -51,7 +51,7 @@ class CheckKind(ABC):
 
     def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         """Return the calls whose values answer the cases."""
-        return [Call(task.function, case.arguments) for case in cases]
+        return [Call(task.function, case.arguments, notation=task.notation) for case in cases]
 
     def read(self, task: CheckTask, value: Any) -> Any:
         """Return one answer as numbers; None if it is malformed. The default reads a vector for

@@ -46,7 +46,7 @@ class RenderKind(ImageKind):
     answer = "height x width x 3 numbers from 0 to 1"
 
     def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
-        return [Call(task.function, case.arguments) for case in cases]
+        return [Call(task.function, case.arguments, notation=task.notation) for case in cases]
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)

@@ -67,7 +67,7 @@ class ViewingRayKind(CheckKind):
         if not task.vectorised:
             return super().calls(task, cases)
         return [
-            Call(task.function, _vectorised(task, cases[first:last]), vectorised=True)
+            Call(task.function, _vectorised(task, cases[first:last]), True, task.notation)
             for first, last in _images(cases)
         ]
 

@@ -180,8 +180,11 @@ class StudentFile:
         step = error.__traceback__
         while step is not None and not step.tb_frame.f_code.co_filename.startswith(self._folder):
             step = step.tb_next
-        told = traceback.format_exception(type(error), error, step, limit=-_LAST_FRAMES)
-        lines = self._short("".join(told), 'File "').splitlines()
+        told = traceback.TracebackException(type(error), error, step, limit=-_LAST_FRAMES)
+        own = [frame.f_globals is globals() for frame, _ in traceback.walk_tb(step)]
+        while told.stack and own.pop():  # __getattr__ and __getitem__ below
+            told.stack.pop()
+        lines = self._short("".join(told.format()), 'File "').splitlines()
         return [line[:_LONGEST_LINE] for line in lines]
 
     def _short(self, text, before=""):
@@ -196,7 +199,8 @@ class Values(types.SimpleNamespace, Mapping):
     def __getattr__(self, name):
         if _LETTERS.get(name) in self.__dict__:
             return self.__dict__[_LETTERS[name]]
-        has = ", ".join(self.__dict__)
+        letters = {word: letter for letter, word in _LETTERS.items()}
+        has = ", ".join(f"{letters[one]} or {one}" if one in letters else one for one in self)
         raise AttributeError(f"{type(self).__name__} has no {name!r}; it has: {has}")
 
     def __getitem__(self, name):

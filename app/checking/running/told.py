@@ -7,6 +7,7 @@ import signal
 from app.checking.calls import Call, Kind, Limits
 from app.checking.kinds.values import text_of
 from app.checking.running.program import ProgramOverError
+from app.explaining.symbols import arguments
 from renderer.errors import one_line, shortened
 
 _LONGEST_VALUE = 80
@@ -14,7 +15,10 @@ _LONGEST_VALUE = 80
 
 def told_call(call: Call) -> str:
     """Return the call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
-    given = (f"{name}={shortened(text_of(v), _LONGEST_VALUE)}" for name, v in call.arguments)
+    given = (
+        f"{name}={shortened(arguments(text_of(value), call.notation), _LONGEST_VALUE)}"
+        for name, value in ((arguments(n, call.notation), v) for n, v in call.arguments)
+    )
     return one_line(f"{call.function}({', '.join(given)})")
 
 

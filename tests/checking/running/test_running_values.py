@@ -7,7 +7,7 @@ import textwrap
 
 from students import CAMERA, called
 
-from app.checking.calls import Failure
+from app.checking.calls import Call, Failure
 
 RAY = {"origin": [0.0, 0.0, 5.0], "direction": [0.5, 0.25, -1.0]}
 
@@ -102,7 +102,15 @@ def test_the_letters_of_the_book_name_the_same_fields(answer):
     asked = "def f(camera):\n    return [camera.e, camera.d] == [camera.eye, camera.distance]\n"
     assert answer(asked, camera=CAMERA)
     failure = answer("def f(camera):\n    return camera.e\n", camera={"distance": 2})
-    assert "Camera has no 'e'; it has: distance" in failure.text
+    assert "Camera has no 'e'; it has: d or distance" in failure.text
+    assert failure.traceback[-2].strip() in ("return camera.e", "^^^^^^^^")  # none of our lines
+
+
+def test_a_failure_names_the_arguments_in_the_tasks_notation(student):
+    one = student("def f(W, camera):\n    return camera.x\n")
+    call = Call("f", (("width", 4), ("camera", CAMERA)), notation="book")
+    text = one.call([call]).values[0].text
+    assert "called as f(W=4, camera={e: " in text and "distance:" not in text
 
 
 def test_a_call_does_not_change_what_the_next_is_given(student):
