@@ -162,8 +162,7 @@ class Camera:
             if not 0 < fov < 180:
                 raise LucidaError("fov_y_deg", f"{fov:g} is not between 0 and 180", "give e.g. 40")
             distance = 0.5 / math.tan(math.radians(fov) / 2)
-        if not number("aspect", aspect) > 0:
-            raise LucidaError("aspect", f"{aspect:g} is not above 0", "give width / height")
+        aspect = positive("aspect", aspect, "width / height")
         return cls(
             three(position),
             three(u),
@@ -407,7 +406,7 @@ class Camera:
         u /= np.linalg.norm(u)
         return replace(self, u=three(u), v=three(v), w=three(w))
 
-    def fitted(self, size: Size) -> Camera:
+    def fitted(self, size: tuple[float, float]) -> Camera:
         """Return this camera with its viewport enlarged about its centre, in one direction, to the
         image's aspect ratio. Nothing inside the old viewport is lost.
 
@@ -416,12 +415,11 @@ class Camera:
         left, right, bottom, top = self.viewport
         half_width, half_height = (right - left) / 2, (top - bottom) / 2
         try:
-            aspect = size[0] / size[1]
-        except (TypeError, LookupError, ZeroDivisionError):
-            aspect = 0.0
-        if not 0 < aspect < math.inf:
+            width, height = (positive("size", side, 720) for side in size)
+        except (TypeError, ValueError):  # LucidaError is a ValueError
             problem = f"{size!r} is not a width and a height"
-            raise LucidaError("size", problem, "give e.g. (1280, 720)")
+            raise LucidaError("size", problem, "give e.g. (1280, 720)") from None
+        aspect = width / height
         x, y = (left + right) / 2, (bottom + top) / 2
         dx, dy = max(half_width, half_height * aspect), max(half_height, half_width / aspect)
         viewport = (x - dx, x + dx, y - dy, y + dy)

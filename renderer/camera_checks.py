@@ -47,7 +47,13 @@ def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
 
 
 def number(name: str, value: object) -> float:
+    """Return a finite number of Python's or NumPy's as a float. A text that looks like one is not.
+
+    Raises LucidaError naming it.
+    """
     try:
+        if isinstance(value, str | bytes | bool | np.bool_):
+            raise TypeError
         number = float(value)  # type: ignore[arg-type]
     except OverflowError:  # an int with hundreds of digits
         raise LucidaError(name, f"{value} is too large", f"stay within {LARGEST:g}") from None

@@ -78,8 +78,10 @@ def one_line(text: str) -> str:
 
 
 def visible(text: str) -> str:
-    """Return the text with control characters escaped, except for line breaks and tabs."""
-    return "".join(c if c.isprintable() or c in "\n\t" else _escaped(c) for c in text)
+    """Return the text with control characters escaped, except for line breaks and tabs, and the
+    joiners that Persian words and emoji need.
+    """
+    return "".join(c if c.isprintable() or c in "\n\t\u200c\u200d" else _escaped(c) for c in text)
 
 
 def shortened(text: str, most: int) -> str:

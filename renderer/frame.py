@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera_checks import number
 from renderer.errors import LucidaError
 
 CHANNELS = ("color", "depth", "normal", "id", "primitive")
@@ -94,9 +95,13 @@ def check_size(size: Iterable[int], rows: tuple[int, int] | None = None) -> tupl
     stay within LARGEST_PIXELS.
     """
     try:
-        width, height = (int(side) for side in size)
-    except (TypeError, ValueError, OverflowError):
-        raise LucidaError("size", f"{size!r} is not two numbers", "give e.g. (1280, 720)") from None
+        sides = [number("size", side) for side in size]
+        width, height = map(int, sides)
+        if [width, height] != sides:
+            raise ValueError
+    except (TypeError, ValueError):  # LucidaError is a ValueError
+        problem = f"{size!r} is not two whole numbers"
+        raise LucidaError("size", problem, "give e.g. (1280, 720)") from None
     if min(width, height) < 1:
         raise LucidaError("size", f"{width}x{height} has no pixels", "give at least 1x1")
     if rows is not None and not 0 <= rows[0] < rows[1] <= height:

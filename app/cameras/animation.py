@@ -78,7 +78,7 @@ class Passage:
     ) -> None:
         self.start, self.end = start, end
         # Views that differ in fitting pass as they are drawn.
-        self._fit = start.fit and end.fit
+        self._fit, self._given = start.fit and end.fit, end.given
         same = start.fit == end.fit
         first, last = (v.camera if same else v.for_size(size) for v in (start, end))
         self._cameras, self._lenses = (first.pinhole, last.pinhole), (first.lens, last.lens)
@@ -107,7 +107,7 @@ class Passage:
             camera = replace(camera, lens=lens)
         except (LucidaError, OverflowError, FloatingPointError):  # beyond the legal range
             return self.start if part < 0.5 else self.end
-        return View(camera, self._fit)
+        return View(camera, self._fit, None if self._fit else self._given)
 
     def _between(self, s: float) -> Camera:
         assert self._focus is not None

@@ -72,7 +72,7 @@ class Run:
 
 
 class Student(Protocol):
-    """The interface of whatever answers calls: a Python file, a program, a file of rays.
+    """The interface of whatever answers calls: a Python file or a program.
 
     survived: True if something that it started may still be running after `close`.
     """
@@ -88,6 +88,9 @@ class Student(Protocol):
         """Run all calls in order, and block until they are done. May be called again; the time
         limit applies to each run.
         """
+
+    def restart(self) -> None:
+        """Make the next run begin in a new process, which remembers no call."""
 
     def stop(self) -> None:
         """Stop the current run, from any thread: `call` returns soon, with a failure."""

@@ -102,6 +102,16 @@ def check_size(task: CheckTask, field: str) -> None:
         raise LucidaError(field, f"makes more than {MOST_CALLS} rays", "give smaller images")
 
 
+def is_orthonormal(camera: Camera) -> bool:
+    return bool(np.allclose(camera.basis.T @ camera.basis, np.eye(3), atol=1e-9))
+
+
+def is_symmetric(camera: Camera) -> bool:
+    """Return True if the viewport has 0 in its middle."""
+    left, right, bottom, top = camera.viewport
+    return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
+
+
 def check_views(task: CheckTask) -> None:
     """Raise LucidaError if the task's words cannot describe one of its views."""
     rigid = task.conventions.needs_rigid
@@ -112,10 +122,8 @@ def check_views(task: CheckTask) -> None:
         camera = view.for_size((width, height))
         left, right, bottom, top = camera.viewport
         wide, high = right - left, top - bottom
-        orthonormal = np.allclose(camera.basis.T @ camera.basis, np.eye(3), atol=1e-9)
-        symmetric = abs(left + right) + abs(bottom + top) <= 1e-9 * (wide + high)
         fits = abs(wide * height - high * width) <= 1e-9 * wide * height
-        if not orthonormal or (rigid and not (symmetric and fits)):
+        if not is_orthonormal(camera) or (rigid and not (is_symmetric(camera) and fits)):
             raise LucidaError(
                 f"views[{number}]",
                 "cannot be told by an angle of view, a target, a view direction or K, R, t",

@@ -90,18 +90,20 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
 
 
 def _asked_again(student: Student, result: TaskResult) -> TaskResult:
-    """Call the first wrong case again. If its answer has changed, add a sentence on that to the
-    result.
+    """Call the first wrong case again, twice, in a program that remembers no other call. If an
+    answer has changed, add a sentence on that to the result.
     """
     task, first = result.task, result.first
     assert first is not None
     kind = KINDS[task.kind]
-    run = student.call(kind.calls(task, [first.case]))
+    student.restart()
+    cases = [first.case, first.case]
+    run = student.call(kind.calls(task, cases))
     if run.failure is not None or any(isinstance(value, Failure) for value in run.values):
         return result
-    given, problems = kind.given(task, [first.case], run.values)
+    given, problems = kind.given(task, cases, run.values)
     if problems or np.array_equal(
-        np.asarray(given[0], float), np.asarray(first.answer, float), equal_nan=True
+        np.asarray(given, float), np.asarray([first.answer] * 2, float), equal_nan=True
     ):
         return result
     from app.checking.mistakes.diagnosis import Diagnosis

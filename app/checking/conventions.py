@@ -201,6 +201,10 @@ CAMERA_WORDS: Mapping[str, str] = {
 # Only an orthonormal camera with a symmetric viewport has these values.
 RIGID_WORDS = frozenset({"target", "up", "forward", *_ANGLES})
 
+# Transposed for row vectors.
+MATRICES = {"camera_to_world", "world_to_camera", "rotation", "K", "R"}
+MATRICES |= {"cam_from_world", "world_from_cam"}
+
 CAMERA = "camera"  # the word for an object with the declared fields
 
 
@@ -255,46 +259,38 @@ def pixel_words(i: Whole, j: Whole, size: Size, base: int, from_top: bool) -> di
 def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
     """Return the value of each camera word, and of CAMERA, as JSON values."""
     camera = shot.camera
-    values = camera_words(camera, shot.size, conventions.axes)
-    values["rotation"] = values["camera_to_world"][:3, :3]
-    values["top_left"] = values["bottom_left"] + values["vertical"]
-    for name in ("camera_to_world", "world_to_camera", "rotation"):
-        values[name] = values[name].T if conventions.row_vectors else values[name]
-    values = {
-        name: value.tolist() if isinstance(value, np.ndarray) else value
-        for name, value in values.items()
-    }
-    values |= {"target": [*shot.target], "up": [*shot.up], "viewport": [*camera.viewport]}
-    values |= {"projection": camera.projection, "size": [*shot.size]}
+    words = camera_words(camera, shot.size, conventions.axes)
+    words["rotation"] = words["camera_to_world"][:3, :3]
+    words["top_left"] = words["bottom_left"] + words["vertical"]
     if conventions.vision:
-        values |= _vision_values(shot, conventions, values)
+        words |= _vision_words(shot, conventions.first_center, words)
+    if conventions.row_vectors:
+        words |= {name: words[name].T for name in MATRICES & words.keys()}
+    words |= {"target": shot.target, "up": shot.up, "viewport": camera.viewport}
+    words |= {"projection": camera.projection, "size": shot.size}
+    values = {name: np.asarray(value).tolist() for name, value in words.items()}
     values[CAMERA] = {name: values[word] for name, word in conventions.camera}
     return values
 
 
-def _vision_values(
-    shot: Shot, conventions: Conventions, values: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return the values of VISION_WORDS, of an orthonormal camera. values: of the other words."""
+def _vision_words(shot: Shot, first_center: float, words: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of VISION_WORDS, of an orthonormal camera. words: the other ones."""
     camera, (width, height) = shot.camera, shot.size
     left, right, bottom, top = camera.viewport
     across, down = width / (right - left), height / (top - bottom)  # pixels a world unit
-    fx, cx = camera.distance * across, -left * across + conventions.first_center - 0.5
-    fy, cy = camera.distance * down, top * down + conventions.first_center - 0.5
-    k = np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
-    pose = np.array(values["world_to_camera"])
-    pose = pose.T if conventions.row_vectors else pose
+    origin, pose = first_center - 0.5, words["world_to_camera"]
+    k = np.array(
+        [
+            [camera.distance * across, 0.0, origin - left * across],
+            [0.0, camera.distance * down, origin + top * down],
+            [0.0, 0.0, 1.0],
+        ]
+    )
     return {
-        "K": (k.T if conventions.row_vectors else k).tolist(),
-        "fx": fx,
-        "fy": fy,
-        "cx": cx,
-        "cy": cy,
-        "R": (pose[:3, :3].T if conventions.row_vectors else pose[:3, :3]).tolist(),
-        "t": pose[:3, 3].tolist(),
-        "cam_from_world": values["world_to_camera"],
-        "world_from_cam": values["camera_to_world"],
-    }
+        "K": k, "fx": k[0, 0], "fy": k[1, 1], "cx": k[0, 2], "cy": k[1, 2],
+        "R": pose[:3, :3], "t": pose[:3, 3],
+        "cam_from_world": pose, "world_from_cam": words["camera_to_world"],
+    }  # fmt: skip
 
 
 def argument_lists(

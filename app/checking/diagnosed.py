@@ -107,9 +107,6 @@ def _some(wrong: Flags) -> NDArray[np.intp]:
     """Return the numbers of at most MOST cases, spread evenly over the wrong and over the other
     cases. The first of each is included.
     """
-    parts = []
-    for flags in (wrong, ~wrong):
-        numbers = np.flatnonzero(flags)
-        step = max(len(numbers) * 2 // MOST, 1)
-        parts.append(numbers[::step])
-    return np.sort(np.concatenate(parts))
+    parts = (np.flatnonzero(flags) for flags in (wrong, ~wrong))
+    chosen = [part[:: 2 * len(part) // MOST or 1] for part in parts]
+    return np.sort(np.concatenate(chosen))

@@ -137,11 +137,13 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
 
 def _photographed(arguments: argparse.Namespace) -> list[Key]:
     """Return a key for each camera of a data set, a second apart."""
-    from app.commands.given_camera import source_of
+    from app.cameras.taken import is_fitted
+    from app.commands.given_camera import say_notes, source_of
     from app.films.paths import Key
     from renderer.camera_formats import Options, read_cameras
     from renderer.scene.model import View
 
     options = Options(ignore_distortion=arguments.ignore_distortion)
     found = read_cameras(source_of(arguments.photographs), options=options)
-    return [Key(View(posed.camera, posed.fit), 1.0, "constant") for posed in found.cameras]
+    say_notes(found, arguments.photographs)
+    return [Key(View(posed.camera, is_fitted(posed)), 1.0, "constant") for posed in found.cameras]

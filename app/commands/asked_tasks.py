@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from renderer.errors import LucidaError
@@ -13,7 +12,6 @@ if TYPE_CHECKING:
     from app.checking.calls import Limits, Student
     from app.checking.tasks import CheckTask
 
-RAYS = (".csv", ".npy")
 WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 
 SIZE = (64, 48)  # of --view's image at most; its aspect ratio is the camera's own
@@ -122,11 +120,9 @@ def possible(
     arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
 ) -> list[CheckTask]:
     """Return the tasks to try: all that a lecturer or the user has named; of the built-in ones,
-    those whose functions exist; for a file of rays, those that ask for rays.
+    those whose functions exist.
     """
     functions = student.functions()
-    if arguments.file is not None and Path(arguments.file).suffix.lower() in RAYS:
-        return _of_rays(tasks)
     if functions is None or arguments.tasks is not None or arguments.task is not None:
         return tasks
     found = [task for task in tasks if task.function in functions]
@@ -146,21 +142,3 @@ def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
         if close := close_matches(function.replace("_", ""), plain, 0.8):
             return f"is {function} to be {plain[close[0]]}?"
     return f"define one of {', '.join(names)}"
-
-
-def _of_rays(tasks: list[CheckTask]) -> list[CheckTask]:
-    """Return the tasks that a file of rays can answer, with the arguments i and j. Raises
-    LucidaError if there are none.
-    """
-    found = [
-        replace(
-            task,
-            conventions=replace(task.conventions, arguments=(("i", "i"), ("j", "j"))),
-            vectorised=False,
-        )
-        for task in tasks
-        if task.kind == "viewing-ray"
-    ]
-    if not found:
-        raise LucidaError("FILE", "holds rays", "give a task of kind viewing-ray")
-    return found

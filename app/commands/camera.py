@@ -14,7 +14,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
-from app.commands.given_camera import add_distortion_option, say_changes, source_of, with_remedy
+from app.commands.given_camera import (
+    add_distortion_option,
+    say_changes,
+    say_notes,
+    source_of,
+    with_remedy,
+)
 from renderer.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
@@ -44,8 +50,7 @@ examples:
   lucida camera transforms.json#12                  one of its cameras, with all numbers
   lucida camera transforms.json --frame 12 -o corner.toml
   lucida camera sparse/0 --to nerf -o transforms.json
-  lucida camera corner.toml --to opencv --size 1280x720
-  lucida camera sparse/0 --undistort flat           photographs and cameras without lens"""
+  lucida camera corner.toml --to opencv --size 1280x720"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -83,12 +88,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "(OpenCV), or corners, with centres at .5 (default: each format's own)",
     )
     add_distortion_option(parser)
-    parser.add_argument(
-        "--undistort",
-        metavar="OUT",
-        help="write the cameras without their lenses, and their photographs as\n"
-        "pinholes would have taken them, into this new folder",
-    )
     parser.add_argument("--json", action="store_true", help="print what it is as one JSON object")
 
 
@@ -115,16 +114,6 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.size is not None:
         found = replace(found, cameras=tuple(_sized(arguments, c) for c in found.cameras))
         chosen = None if chosen is None else _sized(arguments, chosen)
-    if arguments.undistort is not None:
-        from app.commands.undistorting import undistort
-
-        with common.progress_bar("undistort") as progress:
-            out = Path(arguments.undistort)
-            done = undistort(source, found, own, out, options, progress)
-        print(done[0])
-        for line in done[1:]:
-            print(f"lucida: {line}", file=sys.stderr)
-        return 0
     if target is None:
         print(_described(arguments, found, chosen))
         return 0
@@ -136,6 +125,7 @@ def run(arguments: argparse.Namespace) -> int:
         save_files(Path(arguments.output), files)
         told = common.counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
+    say_notes(found, file)
     say_changes(own, arguments.size)
     return 0
 
@@ -167,13 +157,6 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     from renderer.camera_formats.formats import FORMATS
 
     output = arguments.output
-    if arguments.undistort is not None:
-        others = {"--to": arguments.to, "-o": output, "--json": arguments.json}
-        others["--ignore-distortion"] = arguments.ignore_distortion
-        for option, value in others.items():
-            if value:
-                problem = "is given beside --undistort"
-                raise LucidaError(option, problem, "undistort first, without it")
     if arguments.to is None and output is None:
         return None
     if arguments.json:

@@ -13,16 +13,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
-from app.commands.asked_tasks import RAYS, SIZE, all_tasks, asked_for, named, possible
+from app.commands.asked_tasks import SIZE, all_tasks, asked_for, named, possible
 from app.commands.check_reports import pictures_of, write_json, write_page
 from app.commands.given_camera import add_view_option
 from renderer.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
-    from app.checking.calls import Limits, Student
+    from app.checking.calls import Limits
     from app.checking.checked import TaskResult
     from app.checking.reports.pictured import Pictured
     from app.checking.running.account import Account
+    from app.checking.running.command import CommandStudent
+    from app.checking.running.file import FileStudent
     from app.checking.tasks import CheckTask
 
 NAME = "check"
@@ -31,12 +33,13 @@ PYTHON = (".py", ".pyw", "")
 NOT_ENDED = "The check did not come to its end: nothing has been graded."
 
 DESCRIPTION = """\
-Check what a student wrote: a Python file, a file of rays, or any program; and say what it does
-instead. `lucida tasks` lists what can be asked; docs/checking.md has it all."""
+Check what a student wrote, a Python file or any program, and say what it does instead.
+`lucida tasks` lists what can be asked; docs/checking.md has it all."""
 
 EPILOG = """\
 The code runs in a process of its own, with limits on time and memory. Without --as, a dishonest
-program could read the right answers, change its results, or end the check.
+program could read the right answers, change its results, end the check, or leave a daemon behind
+that it has started by two forks.
 exit status: 0 all correct, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
 
@@ -44,7 +47,7 @@ examples:
   lucida check --starter viewing-ray -o rays.py    a file to begin with
   lucida check rays.py                             all tasks whose functions the file has
   lucida check rays.py --tasks hw2.toml --json results.json
-  lucida check rays.csv --view corner.toml --size 64x48
+  lucida check rays.py --view corner.toml --size 64x48
   lucida check --command "julia rays.jl" --task viewing-ray"""
 
 
@@ -54,7 +57,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "file",
         nargs="?",
         metavar="FILE",
-        help="a Python file; or rays, .csv or .npy: i, j, ox, oy, oz, dx, dy, dz",
+        help="a Python file",
     )
     parser.add_argument(
         "--command", metavar="COMMAND", help="a program: one JSON object a line in, one a line out"
@@ -127,19 +130,19 @@ def run(arguments: argparse.Namespace) -> int:
     results: list[TaskResult] = []
     pictures: dict[str, Pictured] = {}
     from app.checking.checked import check
-    from app.checking.running.program import DISHONEST, ProgramStudent
+    from app.checking.running.program import DISHONEST
 
     try:
         _check_arguments(arguments)
         tasks, limits = asked_for(arguments)
-        student = _student(arguments, limits, tasks)
+        student = _student(arguments, limits)
         # Results to find if the student's program ends this process.
         if arguments.json != "-":
             write_json(arguments, [], tasks, 0.0, NOT_ENDED)
         write_page(arguments, [], tasks, {}, NOT_ENDED)
         try:
             tasks = possible(arguments, student, tasks)
-            if isinstance(student, ProgramStudent) and arguments.user is None:
+            if arguments.user is None:
                 print(f"lucida: {DISHONEST}", file=sys.stderr)
             for result in check(student, tasks):
                 results.append(result)
@@ -193,7 +196,7 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
 
     if (arguments.file is None) == (arguments.command is None):
         problem = "is missing" if arguments.file is None else "is given beside --command"
-        raise LucidaError("FILE", problem, "give a Python file, a file of rays, or --command")
+        raise LucidaError("FILE", problem, "give a Python file, or --command")
     if arguments.file is not None:
         _check_link(Path(arguments.file))
     for path in (arguments.json, arguments.html):
@@ -237,25 +240,18 @@ def _account(arguments: argparse.Namespace) -> Account | None:
     return user
 
 
-def _student(arguments: argparse.Namespace, limits: Limits, tasks: list[CheckTask]) -> Student:
+def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | CommandStudent:
     if arguments.command is not None:
         from app.checking.running.command import CommandStudent
 
         return CommandStudent(arguments.command, limits, _account(arguments))
+    from app.checking.running.file import FileStudent
+
     path = Path(arguments.file)
-    if path.suffix.lower() not in RAYS:
-        from app.checking.running.file import FileStudent
-
-        if path.suffix.lower() not in PYTHON:
-            problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
-            raise LucidaError("", problem, remedy, str(path))
-        return FileStudent(path, limits, arguments.python or "", _account(arguments))
-    from app.checking.running.rays_file import RaysFile
-
-    if arguments.view is None and not any(task.views for task in tasks):
-        raise LucidaError("--view", "is missing", "give the camera that the rays are of")
-    bases = [task.conventions.base for task in tasks]
-    return RaysFile(path, bases[0] if bases else 0)
+    if path.suffix.lower() not in PYTHON:
+        problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
+        raise LucidaError("", problem, remedy, str(path))
+    return FileStudent(path, limits, arguments.python or "", _account(arguments))
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:

@@ -15,7 +15,7 @@ from renderer.errors import LucidaError, one_line
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from renderer.camera_formats import PosedCamera
+    from renderer.camera_formats import CameraSet, PosedCamera
     from renderer.camera_formats.given import Given
 
     Size = tuple[int, int]
@@ -41,7 +41,7 @@ def add_distortion_option(parser: argparse.ArgumentParser) -> None:
 def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     """Return the one camera of --view; None without it. Raises LucidaError.
 
-    If its file has no image size, report the assumed one in a line.
+    Report in a line each what the file does not state or Lucida does not use.
     """
     if arguments.view is None:
         return None
@@ -50,9 +50,14 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     file, which = without_choice(arguments.view)
     options = Options(ignore_distortion=arguments.ignore_distortion)
     found, posed = read_chosen(source_of(file), which, options=options)
-    if found.sizing:
-        print(f"lucida: {one_line(file)}: {one_line(found.sizing)}", file=sys.stderr)
+    say_notes(found, file)
     return posed
+
+
+def say_notes(found: CameraSet, file: str) -> None:
+    """Report on standard error what a file does not state, and what of it is not used."""
+    for note in found.notes:
+        print(f"lucida: {one_line(file)}: {one_line(note)}", file=sys.stderr)
 
 
 def source_of(file: str) -> Given:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from app.cameras.options import with_camera_options
 from app.commands import arguments as common
-from app.commands.given_camera import say_changes, source_of
+from app.commands.given_camera import say_changes, say_notes, source_of
 from app.commands.many import look_of, make_film
 from app.films.encoding import image_writer
 from app.films.film import Film
@@ -67,6 +67,7 @@ def render_all(arguments: argparse.Namespace) -> int:
     options = Options(ignore_distortion=arguments.ignore_distortion)
     found = read_cameras(source_of(arguments.view), options=options)
     scene, _ = common.scene_and_view(arguments, found.cameras[0])
+    say_notes(found, arguments.view)
     say_changes(found.cameras[1:])
     shots = []
     for posed in found.cameras:

@@ -26,8 +26,8 @@ from renderer.compare import LABEL_COLORS, Comparison
 
 DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the signed map
 
-IMAGE_LEAST = 0.6  # the part of the height that stays for the image, unless even that is little
 SMALL_EM = 22.0  # a view that is less high has no line for what the images' own windows have too
+LOW_EM = 30.0  # a view that is less high has no causes, errors and values
 DIGITS = 6  # of a count
 VALUES_COLUMNS = 58  # of a pixel's values
 NEXT = "next"
@@ -114,48 +114,18 @@ def _pairs(state: AppState) -> AppState:
     return state
 
 
-@dataclass(frozen=True)
-class Footer:
-    """The rows below the image for which there is room.
-
-    counts, errors: how many rows they take. height: of everything.
-    """
-
-    counts: int
-    errors: int
-    values: bool
-    height: float
-
-
-def footer_plan(state: AppState, available: float, fonts: theme.Fonts, counted: bool) -> Footer:
-    """Return what has room in a view of that height.
-
-    The headline and the scale always have, then the counts, the errors, the values of a pixel.
-    counted: True if there are causes and errors. It depends only on what the user does, so that
-    nothing jumps.
-    """
-    line, row = imgui.get_text_line_height_with_spacing(), imgui.get_frame_height_with_spacing()
-    height = imgui.get_style().item_spacing.y + line + _scale_height()
-    if not counted:
-        return Footer(0, 0, False, height)
-    room = (1 - IMAGE_LEAST) * available - height
-    counts = lines([_count_width(cause.name) for cause in comparing.offered(state)])
-    counts = counts if counts * row <= room else 0
-    errors = lines(_error_widths(fonts)) if counts else 0
-    errors = errors if (counts + errors) * row <= room else 0
-    wide = _mono_width(fonts, VALUES_COLUMNS) <= imgui.get_content_region_avail().x
-    values = bool(errors) and wide and (counts + errors) * row + 2 * line <= room
-    return Footer(counts, errors, values, height + (counts + errors) * row + values * 2 * line)
-
-
 def footer(
     state: AppState,
     told: CompareReport,
-    plan: Footer,
+    is_short: bool,
     fonts: theme.Fonts,
     draw_map: DrawMap,
 ) -> Wish:
-    """Draw everything below the image. draw_map: draws the colour map between two corners."""
+    """Draw everything below the image, or the headline and the scale alone if it is to be short.
+
+    Its height depends only on what the user does, so that nothing jumps. draw_map: draws the colour
+    map between two corners.
+    """
     imgui.push_font(fonts.bold, 0.0)
     shown = fitting_words(told.headline, imgui.get_content_region_avail().x)
     imgui.text_colored(told.color, shown)
@@ -163,26 +133,12 @@ def footer(
     if shown != told.headline:
         tip(told.headline)
     state = _scale_row(state, draw_map)
-    wish = Wish(state)
-    if plan.counts:
-        wish = _counts(wish, told.comparison, fonts)
-    if plan.errors:
-        wish = _errors(wish, told.comparison, fonts)
-    if plan.values:
+    if is_short:
+        return Wish(state)
+    wish = _errors(_counts(Wish(state), told.comparison, fonts), told.comparison, fonts)
+    if _mono_width(fonts, VALUES_COLUMNS) <= imgui.get_content_region_avail().x:
         _values(state, told, fonts)
     return wish
-
-
-def lines(widths: list[float]) -> int:
-    """Return the number of lines that items of these widths need."""
-    spacing, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
-    count, used = 0, 0.0
-    for width in widths:
-        if count and used + spacing + width <= room:
-            used += spacing + width
-        else:
-            count, used = count + 1, width
-    return count
 
 
 def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
@@ -291,17 +247,17 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     """Draw the buttons that go to pixels, and the errors over the whole image."""
     channel, indexing = wish.state.images.channel, wish.state.options.indexing
     differ = comparison is not None and comparison.agree < comparison.pixels
-    widths = _error_widths(fonts)
     imgui.begin_disabled(not differ)
     if imgui.button(NEXT):
         wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
     imgui.end_disabled()
     tip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
-    follow(widths[1])
+    wide = _mono_width(fonts, len("worst (1000, 1000)")) + 2 * imgui.get_style().frame_padding.x
+    follow(wide)  # at any pixel, so that rows do not change with it
     worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
     imgui.begin_disabled(comparison is None)
     imgui.push_font(fonts.mono, 0.0)
-    if imgui.button(f"worst {indexing.text(worst)}###worst"):
+    if imgui.button(f"worst {indexing.text(worst)}###worst", ImVec2(wide, 0)):
         wish = Wish(wish.state, worst=True)
     imgui.pop_font()
     imgui.end_disabled()
@@ -309,7 +265,7 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
         f"Mark the pixel of the largest error, and magnify there: row and column {indexing.told}. "
         "Shift+M"
     )
-    follow(widths[2])
+    follow(_mono_width(fonts, len("max 100.0/255  RMS  10.000/255  at 0 EV")))
     imgui.push_font(fonts.mono, 0.0)
     text = comparing.error_text(comparison, channel) if comparison is not None else "..."
     text += comparing.measured_at(wish.state.images)
@@ -318,16 +274,6 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     imgui.pop_font()
     tip(COLORS_COMPARED)
     return wish
-
-
-def _error_widths(fonts: theme.Fonts) -> list[float]:
-    """Return the widths of the two buttons and of the errors' usual text."""
-    pad = 2 * imgui.get_style().frame_padding.x
-    return [
-        button_width(NEXT),
-        _mono_width(fonts, len("worst (1000, 1000)")) + pad,
-        _mono_width(fonts, len("max 100.0/255  RMS  10.000/255  at 0 EV")),
-    ]
 
 
 def _mono_width(fonts: theme.Fonts, columns: int) -> float:

@@ -58,6 +58,7 @@ class CompareView(ImageView):
         self._show = Memo(_show)
         self._error: Exception | None = None
         self.against = AgainstPhotograph(linked.photograph)
+        self._footer_px = 0.0  # the height of what is below the image, in the last frame
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
 
@@ -80,15 +81,20 @@ class CompareView(ImageView):
         if host.has_tools:
             host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
-        counted = not comparing.has_photograph(host.state)
-        plan = panel.footer_plan(host.state, available.y, host.fonts, counted)
-        size = ImVec2(available.x, max(1.0, available.y - plan.height))
+        size = ImVec2(available.x, max(1.0, available.y - self._footer_px))
         flat, without = imgui.ChildFlags_.nav_flattened, imgui.WindowFlags_.no_background
         imgui.begin_child("image", size, flat, self.flags | without)
         self._image(host)
         imgui.end_child()
         told = self._told(host)
-        wish = panel.footer(host.state, told, plan, host.fonts, self._color_map)
+        is_short = available.y < panel.LOW_EM * imgui.get_font_size()
+        is_short |= comparing.has_photograph(host.state)  # which has no causes and errors
+        top = imgui.get_cursor_pos_y()
+        wish = panel.footer(host.state, told, is_short, host.fonts, self._color_map)
+        footer_px = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
+        if footer_px != self._footer_px:
+            self._footer_px = footer_px
+            host.animate()
         host.apply(self._granted(wish, told.comparison))
         host.renderers.trace(host.state)
 

@@ -23,6 +23,7 @@ from renderer.images.png import join_pngs
 # Writes a file of these pictures, and yields the finished part.
 Writer = Callable[[Path, Sequence[Path]], Iterator[float]]
 ENDINGS = (".mp4", ".gif", ".webp")
+BT709 = 1  # H.264's number for its primaries, transfer function and matrix
 FASTEST_GIF = 50  # frames a second: its unit is a hundredth of a second
 
 
@@ -92,14 +93,21 @@ def _film(fps: float, size: Size, path: Path, frames: Sequence[Path]) -> Iterato
 
 def _mp4(file: BinaryIO, images: Iterable[Image.Image], size: Size, fps: float) -> Iterator[None]:
     import av
+    from av.video.reformatter import ColorRange, Colorspace
 
     with av.open(file, "w", format="mp4") as container:
         stream = container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1001))
         stream.width, stream.height = size
         stream.pix_fmt = "yuv420p"  # the only one that every player shows
         stream.options = {"crf": "16"}
+        # Without tags, players take small films for BT.601's.
+        stream.color_primaries = stream.color_trc = stream.colorspace = BT709
+        stream.color_range = ColorRange.MPEG
         for image in images:
-            container.mux(stream.encode(av.VideoFrame.from_image(image)))
+            frame = av.VideoFrame.from_image(image).reformat(
+                format=stream.pix_fmt, dst_colorspace=Colorspace.ITU709
+            )
+            container.mux(stream.encode(frame))
             yield
         container.mux(stream.encode())
 

@@ -166,8 +166,8 @@ class Proportion:
             self._cameras[name] = width / em_px  # moved by the user
         least = math.floor(layout.camera_width_px(parent.size.x, em_px))
         wanted = max(min(self._cameras[name] * em_px, 0.5 * parent.size.x), least)
-        is_off = self._anew or now[1] != before[1] or width < least - 1
-        if least >= 1 and is_off and abs(width - wanted) > 1:
+        is_off = self._anew or now[1] != before[1] or width < least
+        if least >= 1 and is_off and abs(width - wanted) >= 1:
             imgui.internal.dock_builder_set_node_size(node.id_, (wanted, node.size.y))
             width = wanted
         self._camera_px = width

@@ -3,10 +3,9 @@
 kinds       bitmap, grayscale, colour, half and single float: bits, bytes, what each is good for
 bitmaps     one bit per pixel: threshold, ordered dither, Floyd-Steinberg
 stored      an image as it is kept in a kind, and what is seen when it is exposed afterwards
-light       three projectors whose light adds; the subpixels of a display; test pictures
+light       three projectors whose light adds; test pictures
 displays    tube, DLP, LCD and LED in time, whose mean over a cycle is the pixel's colour
 memory      the array itself: canvas[i, j], row-major or column-major, memory offsets
 array_code  the same as a program, in Python and Julia
-disk        the sizes of files, and files of what is stored
 pages       which pictures each page shows; view, tools, tables, ...: on the screen
 """

@@ -16,7 +16,6 @@ SYNONYMS = {
     "Image laboratory: Exposure": "float clipped levels high dynamic range hdr",
     "Image laboratory: Projectors": "light adds additive mixing discs red green blue",
     "Image laboratory: Displays": "light screen phase cycle tube dlp lcd led oled",
-    "Image laboratory: Subpixels": "light stripes red green blue lcd",
     "Image laboratory: Array": "memory row-major column-major canvas bytes numpy julia c",
     "Image laboratory: Vector": "svg zoom",
 }

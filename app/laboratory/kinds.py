@@ -12,16 +12,11 @@ LECTURE_SIZE = (1024, 1024)  # the lecture's megapixel
 
 @dataclass(frozen=True)
 class Kind:
-    """name: as files and switches give it. bits: of one pixel.
-
-    levels: what one number can be, in words. use: what the kind is good for.
-    """
+    """name: as switches give it. bits: of one pixel."""
 
     name: str
     title: str
     bits: int
-    levels: str
-    use: str
 
     @property
     def is_float(self) -> bool:
@@ -34,10 +29,10 @@ class Kind:
         return -(-width * self.bits // 8) * height
 
 
-BITMAP = Kind("bitmap", "Bitmap", 1, "0 or 1", "text, line art, masks")
-GRAY = Kind("gray", "Grayscale", 8, "0 to 255", "photographs without colour")
-COLOR = Kind("color", "Colour", 24, "0 to 255, three times", "displays, nearly all pictures")
-HALF = Kind("half", "Half float", 48, "11 bits of precision, up to 65504", "high dynamic range")
-FLOAT = Kind("float", "Single float", 96, "24 bits of precision, up to 3e38", "processing")
+BITMAP = Kind("bitmap", "Bitmap", 1)
+GRAY = Kind("gray", "Grayscale", 8)
+COLOR = Kind("color", "Colour", 24)
+HALF = Kind("half", "Half float", 48)
+FLOAT = Kind("float", "Single float", 96)
 
 KINDS = (BITMAP, GRAY, COLOR, HALF, FLOAT)

@@ -1,4 +1,4 @@
-"""Colours of displays: three projectors whose light adds up, and subpixels side by side.
+"""Colours of displays: three projectors whose light adds up, and test pictures.
 
 Pictures in, pictures out; knows no window.
 """
@@ -42,26 +42,6 @@ def projected(
         top, left = row - min(rows), column - min(columns)
         wall[top : top + height, left : left + width, channel] = linear[..., channel]
     return to_srgb8(wall, exposure_ev)
-
-
-def subpixels(picture: Bytes, side: int, gap: int = 0) -> Bytes:
-    """A picture (H, W, 3) as a display's subpixels: uint8 (H side, W side, 3).
-
-    Each pixel becomes side x side, three upright stripes of red, green and blue, each as bright as
-    its number. side: at least 3. gap: dark pixels right of each stripe and below each row.
-    """
-    column = np.arange(side)
-    stripe = column * 3 // side
-    lit = np.zeros((side, side, 3), np.uint8)
-    lit[:, column, stripe] = 1
-    if gap:
-        ends = [-(-(s + 1) * side // 3) for s in range(3)]  # where each stripe stops
-        for end in ends:
-            lit[:, max(0, end - gap) : end] = 0
-        lit[side - gap :] = 0
-    height, width = picture.shape[:2]
-    tiles = picture[:, None, :, None, :] * lit[None, :, None, :, :]
-    return tiles.reshape(height * side, width * side, 3)
 
 
 def magnified(picture: Bytes, side: int) -> Bytes:

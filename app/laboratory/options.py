@@ -20,11 +20,11 @@ class LaboratoryOptions:
     projectors and displays show, the image or a test picture. display: the selected one. playing:
     run its cycle, which takes cycle_s seconds; phase: the moment, 0 to 1, and while it plays, where
     it began. order: how the array page lays an image into memory, row after row or column after
-    column. table: the sizes of all kinds, below their pictures.
+    column.
     """
 
     page: Literal[
-        "heights", "kinds", "bitmaps", "exposure", "projectors", "displays", "subpixels", "array",
+        "heights", "kinds", "bitmaps", "exposure", "projectors", "displays", "array",
         "vector",
     ] = "kinds"  # fmt: skip
     method: Literal["threshold", "ordered", "floyd-steinberg"] = "floyd-steinberg"
@@ -39,7 +39,6 @@ class LaboratoryOptions:
     phase: Part = 0.0
     cycle_s: Annotated[float, Range(1, 60)] = 8.0
     order: Literal["row", "column"] = "row"
-    table: bool = True
 
 
 OPTIONS = LaboratoryOptions

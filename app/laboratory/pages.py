@@ -27,7 +27,6 @@ Image = NDArray[np.float32]
 
 DOT_PX = 2  # a side of a bitmap's pixel, so that a class sees it
 SMALLEST_CELL = 8
-LEAST_SIDE_OF_GAPS = 6  # of a pixel in stripes: in a smaller one a gap would be all of a stripe
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,21 +187,6 @@ def _projectors(page: PageInput) -> Panels:
     return (_whole("Three projectors: red, green, blue", caption, wall, page.plan),)
 
 
-def _subpixels(page: PageInput) -> Panels:
-    part, (first, left), side = _magnified_part(page, 3)
-    picture = to_srgb8(part, page.shown_ev)
-    gap = max(1, side // 12) if side >= LEAST_SIDE_OF_GAPS else 0
-    many = f"{part.shape[1]} x {part.shape[0]} pixels"
-    stripes = light.subpixels(picture, side, gap)
-    subpixels = Panel("Its subpixels", f"{many}, each of three stripes", stripes)
-    if page.is_test:
-        return (Panel("Test picture", many, light.magnified(picture, side)), subpixels)
-    region = (first, left, *part.shape[:2])
-    whole = to_srgb8(page.color, page.taken_ev)
-    told = "the frame is what is magnified"
-    return (_whole("The image", told, whole, page.plan, region), subpixels)
-
-
 def _displays(page: PageInput) -> Panels:
     name, phase = page.options.display, page.options.phase % 1.0
     display = displays.DISPLAYS[name]
@@ -276,7 +260,6 @@ PAGES: dict[str, Callable[[PageInput], Panels]] = {
     "exposure": _exposure,
     "projectors": _projectors,
     "displays": _displays,
-    "subpixels": _subpixels,
     "array": _array,
 }
 PAGE_TITLES = {
@@ -286,7 +269,6 @@ PAGE_TITLES = {
     "exposure": "Exposure",
     "projectors": "Projectors",
     "displays": "Displays",
-    "subpixels": "Subpixels",
     "array": "Array",
     "vector": "Vector",  # drawn by a view of its own
 }

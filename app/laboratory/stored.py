@@ -1,6 +1,6 @@
 """An image as it is kept in one of the kinds, and what is seen when it is exposed afterwards.
 
-Owns the way there and back. Knows nothing of files (disk.py) or windows. Float kinds keep linear
+Owns the way there and back. Knows nothing of windows. Float kinds keep linear
 light, unexposed; the others keep what a picture taken at some exposure has.
 """
 

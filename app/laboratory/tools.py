@@ -34,7 +34,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
     imgui.push_item_width(min(14 * imgui.get_font_size(), 0.5 * width))
     match changed.page:
         case "kinds":
-            changed = _table(_bitmap(_exposure(changed)))
+            changed = _bitmap(_exposure(changed))
         case "exposure":
             changed = _exposure(changed)
         case "projectors":
@@ -43,7 +43,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
             )
             changed = replace(changed, apart=apart) if moved else changed
             changed = _content(changed, "white discs")
-        case "displays" | "subpixels":
+        case "displays":
             changed = _content(_display(changed), "test picture")
             if changed.content == "image":  # a test picture is as large as there is room
                 follow((14 + 9) * imgui.get_font_size())
@@ -107,15 +107,12 @@ def _radio(name: str, titles: Mapping[str, str], chosen: str) -> str:
 
 def _content(options: LaboratoryOptions, test: str) -> LaboratoryOptions:
     """Draw the choice between the image and a test picture."""
-    if options.page != "subpixels":
-        follow(imgui.calc_text_size(test).x + 1.5 * imgui.get_frame_height())
+    follow(imgui.calc_text_size(test).x + 1.5 * imgui.get_frame_height())
     moved, is_test = checkbox(f"{test}##content", options.content == "test")
     return replace(options, content="test" if is_test else "image") if moved else options
 
 
 def _display(options: LaboratoryOptions) -> LaboratoryOptions:
-    if options.page != "displays":
-        return options
     titles = {name: display.title for name, display in DISPLAYS.items()}
     return replace(options, display=_radio("display", titles, options.display))  # type: ignore[arg-type]
 
@@ -126,13 +123,6 @@ def _exposure(options: LaboratoryOptions) -> LaboratoryOptions:
         "exposure after storage##after", options.after_ev, *limits, "%+.1f EV"
     )
     return replace(options, after_ev=value) if moved else options
-
-
-def _table(options: LaboratoryOptions) -> LaboratoryOptions:
-    follow(imgui.calc_text_size("sizes").x + 1.5 * imgui.get_frame_height())
-    moved, table = checkbox("sizes", options.table)
-    imgui.set_item_tooltip("a table of the kinds' sizes, in memory and as files")
-    return replace(options, table=table) if moved else options
 
 
 def _bitmap(options: LaboratoryOptions) -> LaboratoryOptions:

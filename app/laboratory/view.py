@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import moderngl
 from imgui_bundle import ImVec2, imgui
@@ -17,7 +16,6 @@ from imgui_bundle import ImVec2, imgui
 from app.host.view import DockedView, Host
 from app.images.request import ImageRequest
 from app.images.screen import available_px
-from app.laboratory import disk
 from app.laboratory.array_view import ArrayPage, program_em
 from app.laboratory.displays_view import LANES_EM, DisplaysPage
 from app.laboratory.made_page import MadePage, PageKey, Source, drawn_image, made_page
@@ -25,7 +23,7 @@ from app.laboratory.options import LaboratoryOptions
 from app.laboratory.pages import Image, PagePlan, Panel, plan
 from app.laboratory.pictures import HEADING_EM, draw_panel
 from app.laboratory.schemes import below_wall
-from app.laboratory.tables import luminance_weights, sizes_table, table_px
+from app.laboratory.tables import luminance_weights
 from app.laboratory.tools import toolbar
 from app.laboratory.vector_view import VectorPage
 from app.outside.view import OutsideView
@@ -47,7 +45,7 @@ ROWS_EM = 13.0  # of the pictures with their titles, two rows of them, at the le
 LEAST_EM = {"heights": 8.0, "displays": 8.4, "array": 19.0}  # of pages that are otherwise
 TWO_COLUMNS_EM = 30.0  # of the array page, whose parts stand below one another in less
 PROGRAM_EM = 20.0  # of a part of it, which is without its program in less
-ABOUT_A_PIXEL = ("subpixels", "displays", "array")  # a click on these pages chooses it
+ABOUT_A_PIXEL = ("displays", "array")  # a click on these pages chooses it
 
 
 class LaboratoryView(DockedView):
@@ -60,12 +58,9 @@ class LaboratoryView(DockedView):
         self._vector_seen = False
         self._uploads: Uploads | None = None
         self._work: Background[MadePage] | None = None
-        self._sizing: Background[tuple[tuple[Any, ...], tuple[disk.DiskRow, ...]]] | None = None
         self.source: Source | None = None
         self._asked: PageKey | None = None
         self._made: MadePage | None = None
-        self._sizes_asked: tuple[Any, ...] = ()
-        self._sizes: tuple[disk.DiskRow, ...] = ()
         self._error = ""
         self._seen = False
         self._others = (0, 0)  # the size of the other views' images
@@ -76,7 +71,7 @@ class LaboratoryView(DockedView):
             return True
         if self._vector_seen:
             return self.vector.settled
-        busy = any(work is not None and work.busy for work in (self._work, self._sizing))
+        busy = self._work is not None and self._work.busy
         return not busy and self._made is not None and same(self._made.key, self._asked)
 
     @property
@@ -86,22 +81,15 @@ class LaboratoryView(DockedView):
             return ()
         return self._made.panels if self._made is not None else ()
 
-    @property
-    def sizes(self) -> tuple[disk.DiskRow, ...]:
-        """The files' sizes, as far as they are known."""
-        return self._sizes
-
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._uploads = Uploads(context)
         self._work = Background("lucida-laboratory", host.animate)
-        self._sizing = Background("lucida-sizes", host.animate)
         self.vector.begin(host)
 
     def end(self) -> None:
         self.vector.end()
-        for work in (self._work, self._sizing):
-            if work is not None:
-                work.close()
+        if self._work is not None:
+            self._work.close()
         if self._uploads is not None:
             self._uploads.release()
 
@@ -229,11 +217,6 @@ class LaboratoryView(DockedView):
         if options.page == "kinds":
             extent = ImVec2(made.cell[0] / scale, made.cell[1] / scale + HEADING_EM * em)
             luminance_weights(place(len(self._made.panels)), extent, host.fonts)
-        if options.page == "kinds" and options.table:
-            imgui.set_cursor_screen_pos(ImVec2(corner.x, corner.y + avail.y - below + 0.4 * em))
-            picked = sizes_table(made.image, self._sizes, host.fonts)
-            if picked is not None:
-                self._export(host, picked)
 
     def _array_page(
         self, host: Host, made: MadePage, color: Image, place: Callable[[int], ImVec2]
@@ -298,30 +281,6 @@ class LaboratoryView(DockedView):
         # The other pages' options are none of this one's.
         self._asked = (source, divided, options, taken_ev, pixel)
         self._work.ask(made_page, *self._asked)
-        self._take_sizes()
-        if options.page == "kinds":
-            self._follow_sizes(source, options.method, taken_ev)
-
-    def _take_sizes(self) -> None:
-        """Take the file sizes that the thread found, on any page: the user may have left theirs."""
-        assert self._sizing is not None
-        outcome = self._sizing.poll()
-        if (
-            outcome is not None
-            and outcome.value is not None
-            and same(outcome.value[0], self._sizes_asked)
-        ):
-            self._sizes = outcome.value[1]
-
-    def _follow_sizes(self, source: Source, method: str, taken_ev: float) -> None:
-        """The files' sizes, encoded in a thread of their own; a newer image ends the old one's."""
-        assert self._sizing is not None
-        key = source.color, taken_ev, method
-        if not same(key, self._sizes_asked):
-            self._sizes_asked = key
-            self._sizing.submit(
-                lambda: (key, disk.sizes(*key, lambda: self._sizes_asked is not key))
-            )
 
     def _pixel(self, state: AppState, divided: PagePlan) -> Pixel:
         """The marked pixel in this image, which may have another size than the other views'."""
@@ -350,21 +309,4 @@ class LaboratoryView(DockedView):
             return LANES_EM * imgui.get_font_size()
         if page == "projectors":
             return PROJECTORS_EM * imgui.get_font_size()
-        return table_px() if page == "kinds" and options.table else 0.0
-
-    def _export(self, host: Host, format: disk.DiskFormat) -> None:
-        """Asks where, and writes the image that is shown there, as it is stored."""
-        assert self.source is not None
-        color, options = self.source.color, host.state.of(LaboratoryOptions)
-        taken_ev = host.state.images.exposure_ev
-
-        def store(path: str) -> str:
-            count = disk.export(path, color, format.kind, taken_ev, options.method)
-            return f"Saved {path}, {count} bytes."
-
-        host.files.save_as_dialog(
-            f"Save the image as {format.kind.title.lower()}",
-            f"{format.kind.name}{format.ending}",
-            (f"{format.name} files", format.ending),
-            store,
-        )
+        return 0.0

@@ -95,12 +95,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
         if error.field == "lucida":  # the version: then the text is TOML
             raise located(error, Places(text), source) from None
         raise error.at_its_line(source) from None
-    try:
-        places = Places(text)
-    except RecursionError:
-        raise LucidaError(
-            "", "is nested too deeply", "write it with fewer brackets", source
-        ) from None
+    places = Places(text)
     try:
         return _LectureReader(folder, source, places).lecture(tables)
     except texts.TextError as error:

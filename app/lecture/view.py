@@ -67,6 +67,7 @@ class LectureView(DockedView):
         self.hidden_watch: HiddenWatch | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
+        self._before: AppState | None = None  # what the window showed when the lecture began
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._answered = self._begun = False
         self._arrangement = Arrangement()
@@ -99,7 +100,7 @@ class LectureView(DockedView):
 
     def resume(self, session: LectureSession) -> None:
         """Continue a lecture in the window's current state and views."""
-        self.session = session
+        self.session, self._before = session, None
         self._entered = self._arranged = True
 
     def take_begun(self) -> bool:
@@ -129,11 +130,16 @@ class LectureView(DockedView):
         return answered
 
     def leave(self, window: Host) -> None:
-        """End the lecture. Keep the step's scene and camera, in the default layout and type."""
+        """End the lecture, in the default layout and type. Bring back the scene and the view from
+        before, unless the user has opened another scene since.
+        """
         if self.session is None:
             return
-        self.session, state = None, window.state
+        steps, state = self.session.lecture.steps, window.state
+        self.session = None
         state = replace(state, options=own(state.options), step=None)
+        if self._before is not None and any(step.scene is state.scene for step in steps):
+            state = state.with_scene(self._before.scene, self._before.view)
         window.change(state.with_options(preferences={"presentation": False}))
         layout.switch(layout.LAYOUTS[0].name)
 
@@ -238,6 +244,8 @@ class LectureView(DockedView):
         if self.session is None:
             return
         if not self._entered:  # to be seen from the last row, whichever way it was begun
+            if host.state.step is None:  # otherwise one lecture follows another
+                self._before = host.state
             self.restore(host, presentation=True)
             self._begun = True
         if self.log is not None:

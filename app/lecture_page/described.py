@@ -232,7 +232,6 @@ def _laboratory(step: Step, state: AppState) -> str:
         "displays": f"How a display makes colours: {DISPLAYS[options.display]}, magnified, at "
         f"{options.phase:g} of its cycle; what the eye sees, the mean over the cycle; and the red, "
         "green and blue light of the marked pixel over the cycle.",
-        "subpixels": "Pixels of the image, magnified to their red, green and blue stripes.",
         "vector": "One diagram as a raster image and as a vector image"
         + (
             f", {options.zoom:g} times as large: the pixels of the first have grown, the lines of "

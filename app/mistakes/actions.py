@@ -1,13 +1,12 @@
 """The mistakes' actions: what is shown, and the quiz's keys.
 
-The answers' keys 1 to 4 and A to D hold while the view has the keyboard and are read by its panel;
-the ones here hold wherever the keyboard is.
+The panel reads the answers' keys, 1 to 4 and A to D, while the view has the keyboard.
 """
 
 from __future__ import annotations
 
 from app.host.action import SHIFT, Action, Key, Window
-from app.mistakes import model, question
+from app.mistakes import question
 from app.mistakes.options import MistakesOptions, Mode
 from app.mistakes.panel import Wish
 from app.mistakes.view import MISTAKES, MistakesView
@@ -26,17 +25,9 @@ def _show(window: Window, mode: Mode) -> None:
     window.change(window.state.with_options(mistakes=changes))
 
 
-def _follow(window: Window, step: int) -> None:
-    state = window.state
-    chosen = state.of(MistakesOptions).chosen
-    now = model.situation_of(state, window.renderers.size)
-    names = model.following(now.program, chosen, step)
-    window.change(state.with_options(mistakes={"chosen": names}))
-
-
-def _is_in(window: Window, quiz: bool) -> bool:
+def _is_quiz_shown(window: Window) -> bool:
     is_quiz = window.state.of(MistakesOptions).mode != "laboratory"
-    return MISTAKES in window.shell.stage.rects and is_quiz == quiz
+    return is_quiz and MISTAKES in window.shell.stage.rects
 
 
 def _mode(mode: Mode, name: str) -> Action:
@@ -48,39 +39,20 @@ def _mode(mode: Mode, name: str) -> Action:
     )
 
 
-def _asking(name: str, wish: Wish | int, keys: str, chord: int, separated: bool) -> Action:
+def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Action:
     return Action(
         MENU,
         f"Mistakes: {name}",
         lambda window: window.view(MistakesView).ask(wish),
         keys,
         (chord,),
-        can=lambda window: _is_in(window, quiz=True),
+        can=_is_quiz_shown,
         separated=separated,
     )
 
 
-_NUMBERS = (Key._1, Key._2, Key._3, Key._4)
-
 WRONG_LINES = (
     *(_mode(mode, name) for mode, name in MODES.items()),
-    Action(
-        MENU,
-        "Mistakes: the next wrong line",
-        lambda window: _follow(window, 1),
-        can=lambda window: _is_in(window, quiz=False),
-        separated=True,
-    ),
-    Action(
-        MENU,
-        "Mistakes: the wrong line before",
-        lambda window: _follow(window, -1),
-        can=lambda window: _is_in(window, quiz=False),
-    ),
-    *(
-        _asking(f"answer {number + 1}", number, f"Shift+{number + 1}", SHIFT | int(key), not number)
-        for number, key in enumerate(_NUMBERS)
-    ),
     _asking("reveal the answer", "reveal", "R", int(Key.r), True),
     _asking("next question", "next", "Shift+R", SHIFT | int(Key.r), False),
 )

@@ -26,10 +26,6 @@ from renderer.pixels import Indexing
 Light = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 
-SEEN = 2  # of 255: what differs by more is marked
-GRAY = 0.4  # of its light: what does not differ
-MARK = (255, 176, 0)  # what differs
-
 
 @dataclass(frozen=True)
 class Situation:
@@ -122,8 +118,9 @@ def unknown(names: Iterable[str]) -> tuple[str, ...]:
     known = {
         mistake.name
         for projection in ("perspective", "parallel")
-        for mistake in ray_program(RayTask(projection)).mistakes
-    } | {mistake.name for mistake in ray_program(RayTask(indexing=Indexing.LECTURE)).mistakes}
+        for indexing in Indexing
+        for mistake in ray_program(RayTask(projection, indexing)).mistakes
+    }
     return tuple(name for name in names if name not in known)
 
 
@@ -150,33 +147,9 @@ def without_line(program: Program, names: Sequence[str], key: str) -> tuple[str,
     return tuple(one.name for one in named(program, names) if key not in one.keys)
 
 
-def following(program: Program, names: Sequence[str], step: int) -> tuple[str, ...]:
-    """The next mistake of the program alone, or the one before."""
-    all_names = [mistake.name for mistake in program.mistakes]
-    now = named(program, names)
-    at = all_names.index(now[0].name) + step if now else (0 if step > 0 else -1)
-    return (all_names[at % len(all_names)],)
-
-
 def folded(code: str, letters: int) -> list[str]:
     """Return the code in rows of so many letters."""
     return [row for line in code.split("\n") for row in broken(line, letters)]
-
-
-def changed_pixels(right: Bytes, wrong: Bytes) -> NDArray[np.bool_]:
-    """(H, W): which pixels of two pictures as shown differ to be marked."""
-    differs: NDArray[np.bool_] = (
-        np.abs(right.astype(np.int16) - wrong.astype(np.int16)).max(axis=2) > SEEN
-    )
-    return differs
-
-
-def difference_picture(right: Bytes, changed: NDArray[np.bool_]) -> Bytes:
-    """Return the differing pixels, bright on the correct picture in dark gray."""
-    gray = (GRAY * right.mean(axis=2)).astype(np.uint8)
-    picture: Bytes = np.repeat(gray[..., None], 3, axis=2)
-    picture[changed] = MARK
-    return picture
 
 
 def shown(light: Light, exposure_ev: float) -> Bytes:

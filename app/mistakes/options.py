@@ -10,8 +10,6 @@ from app.state.bounds import AtMost, OneOf, Range
 Mode = Literal["laboratory", "which-line", "which-picture"]
 Count = Annotated[int, Range(0, 1_000_000)]
 
-COLUMNS = (8, 16, 32, 64, 160, 320)
-
 
 @dataclass(frozen=True)
 class MistakesOptions:
@@ -31,7 +29,7 @@ class MistakesOptions:
     mode: Mode = "laboratory"
     chosen: Annotated[tuple[str, ...], AtMost(2)] = ("rows count upwards",)
     difference: bool = True
-    columns: Annotated[int, OneOf(COLUMNS)] = 160
+    columns: Annotated[int, OneOf((8, 16, 32, 64, 160, 320))] = 160
     asked: str = ""
     seed: Count = 1
     names: Annotated[tuple[str, ...], AtMost(4)] = ()

@@ -5,15 +5,14 @@ panel.py and widgets/picture_grid.py draw the parts.
 
 from __future__ import annotations
 
-import functools
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
 from app.checking.mistakes.program import Mistakes, Program
+from app.checking.reports.picture import changed_pixels, difference_picture
 from app.mistakes import model, panel, question
 from app.mistakes.model import Bytes, Compared, Situation
 from app.mistakes.options import MistakesOptions
@@ -21,22 +20,16 @@ from app.mistakes.question import LETTERS, QuizQuestion
 from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.coded_text import coded_text
-from app.widgets.picture_grid import HEADING_EM, GridPicture, columns_for, picture_grid
+from app.widgets.picture_grid import GridPicture, picture_grid
 from app.widgets.theme import Fonts
 from app.widgets.uploads import Uploads
 from renderer.memo import Memo
 
-WIDE_PART, COLUMN_PART = 0.45, 0.64  # of its width that the text then has, at least and at most
-SAID = {True: ", correct", False: ", your answer", None: ""}
-LOW_PART = 0.78  # at most, where the text would be higher than the page
+WIDE = 1.2  # width / height of a page whose pictures are next to its text
+TEXT_PART = 0.47  # of its width that the text then has
 GAP_EM = 0.8  # between both
-REFERENCE_PART = 0.36  # of the width below the text: the correct picture
-LARGER = 1.15  # times as large must pictures below the text be, not to be beside it
-TITLE_EM = 5.2  # the width of a picture's title, about
 LEAST_PICTURES_EM = 8.0  # the height of pictures below the text, at least
-LINES = 4  # of a program
-LETTER_EM = 0.5  # the width of a letter, about
-ANSWER_MARGIN, CARET_MARGIN = 5, 3  # letters before a choice's code; behind a line's
+ANSWER_MARGIN = 5  # letters before a choice's code
 TITLES = {
     "which-line": "Which line made the second picture?",
     "which-picture": "Which picture does the wrong line make?",
@@ -104,8 +97,7 @@ def laboratory(
     program = now.program.in_notation(page.notation)
     mistakes = model.named(program, options.chosen)
     told = [f"{one.hint} (lecture: {one.part})" for one in mistakes]
-    count = 1 + bool(mistakes) * (1 + options.difference)
-    text = _program_text(page, program, mistakes, told, count)
+    text = _text(page)
     clicked = panel.program_lines(program, mistakes, text.width, page.fonts, page.notation)
     for one in told:
         coded_text(one, text.width, theme.TEXT, page.fonts)
@@ -144,8 +136,8 @@ def _comparison(made: Made, exposure_ev: float) -> Pictures:
     assert made.compared is not None
     both = made.compared
     right, wrong = (model.shown(one, exposure_ev) for one in (both.right, both.wrong))
-    changed = model.changed_pixels(right, wrong)
-    difference = model.difference_picture(right, changed)
+    changed = changed_pixels(right, wrong)
+    difference = difference_picture(right, changed)
     pictures = {"right": right, "wrong": wrong, "difference": difference}
     return pictures, model.told_difference(changed)
 
@@ -164,37 +156,25 @@ def quiz(page: Page, made: Made | None, options: MistakesOptions) -> int | None:
     if not asked.names:
         coded_text(asked.problem, page.room.x, theme.TEXT, page.fonts)
         return None
-    told = (asked.problem,) if asked.problem else ()
-    # First of all, and in place of the question: in a low view the rest may have to be scrolled.
-    first = TITLES[options.mode]
+    # The reason replaces the question: in a low view the rest may have to be scrolled.
+    told = TITLES[options.mode]
     if options.revealed:
-        first = _reason(made.now.program.in_notation(page.notation), asked, options)
+        told = _reason(made.now.program.in_notation(page.notation), asked, options)
     if options.mode == "which-line":
-        return _which_line(page, made, asked, options, (first, *told))
-    return _which_picture(page, made, asked, options, (first, *told))
+        return _which_line(page, made, asked, options, told)
+    return _which_picture(page, made, asked, options, told)
 
 
 def _which_line(
-    page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
+    page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: str
 ) -> int | None:
     program = made.now.program.in_notation(page.notation)
-    lines = [_code(program, name, 999) for name in asked.names]
-    text = _text(
-        page,
-        told,
-        ANSWER_MARGIN + max(len(row) for one in lines for row in one),
-        lambda letters: sum(
-            1 + len(_code(program, name, letters - ANSWER_MARGIN)) for name in asked.names
-        ),
-        2,
-    )
+    text = _text(page)
     letters = panel.letters_in(text.width) - ANSWER_MARGIN
-    choices = [
-        panel.Choice(_code(program, name, letters), _verdict(asked, options, number))
-        for number, name in enumerate(asked.names)
-    ]
+    choices = [_code(program, name, letters) for name in asked.names]
+    verdicts = [_verdict(asked, options, number) for number in range(len(choices))]
     _say(page, told, options, text)
-    clicked = panel.choose_line(choices, text.width, page.fonts)
+    clicked = panel.choose_line(choices, verdicts, text.width, page.fonts)
     page.put(page.uploads, _choices, made, page.exposure_ev)
     wrong = page.uploads.get(f"picture {asked.right_at}")
     shown = [
@@ -206,37 +186,31 @@ def _which_line(
 
 
 def _which_picture(
-    page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: tuple[str, ...]
+    page: Page, made: Made, asked: QuizQuestion, options: MistakesOptions, told: str
 ) -> int | None:
     program = made.now.program.in_notation(page.notation)
     mistakes = model.named(program, (asked.names[asked.right_at],))
     keys = mistakes[0].keys
     lines = tuple(line for line in program.lines if line.key in keys)
     part = Program(lines, mistakes, program.results)  # the lines that the question is about
-    text = _program_text(page, part, mistakes, told, len(asked.names))
+    text = _text(page)
     _say(page, told, options, text)
     panel.program_lines(part, mistakes, text.width, page.fonts, page.notation, can_change=False)
     page.put(page.uploads, _choices, made, page.exposure_ev)
-    reference = [GridPicture("right", "correct line", page.uploads.get("right"))]
-    room = _pictures_room(
-        page, text, lambda room: picture_grid(reference, made.now.size, room, page.fonts)
-    )
-    shown = []
+    shown = [GridPicture("right", "correct line", page.uploads.get("right"))]
     for number, name in enumerate(asked.names):
         caption = name if options.revealed else ""
         verdict = _verdict(asked, options, number)
         texture = page.uploads.get(f"picture {number}")
-        title, frame = LETTERS[number] + SAID[verdict], panel.verdict_color(verdict)
+        title, frame = LETTERS[number] + panel.SAID[verdict], panel.verdict_color(verdict)
         shown.append(GridPicture(f"picture {number}", title, texture, caption, frame))
-    clicked = picture_grid(shown, made.now.size, room, page.fonts)
-    return clicked.number if clicked is not None else None
+    clicked = picture_grid(shown, made.now.size, _pictures_room(page, text), page.fonts)
+    return clicked.number - 1 if clicked is not None and clicked.number else None
 
 
-def _say(page: Page, told: tuple[str, ...], options: MistakesOptions, text: PageText) -> None:
-    for number, one in enumerate(told):
-        answered = bool(options.answer) and number == 0
-        color = panel.verdict_color(one.startswith("Correct")) if answered else None
-        coded_text(one, text.width, color or theme.TEXT, page.fonts)
+def _say(page: Page, told: str, options: MistakesOptions, text: PageText) -> None:
+    color = panel.verdict_color(told.startswith("Correct")) if options.answer else None
+    coded_text(told, text.width, color or theme.TEXT, page.fonts)
 
 
 def _choices(made: Made, exposure_ev: float) -> Pictures:
@@ -280,73 +254,19 @@ class PageText:
     beside: bool
 
 
-def _text(
-    page: Page, told: Sequence[str], longest: int, rows: Callable[[int], float], pictures: int
-) -> PageText:
-    """Divide the page.
-
-    longest: letters of a line of code, which a column next to pictures has room for. rows: of code
-    that is so many letters wide. pictures: how many have the rest of the page, which is next to the
-    text or below it, wherever they are larger.
-    """
-    room, em = page.room, imgui.get_font_size()
-    corner = imgui.get_cursor_screen_pos()
-
-    def height_of(width: float) -> float:
-        said = sum(math.ceil(LETTER_EM * len(one) * em / width) for one in told)
-        between = LINES * imgui.get_style().item_spacing.y
-        return panel.LINE * em * (rows(panel.letters_in(width)) + said) + between
-
-    def text(beside: bool) -> tuple[PageText, float]:
-        """Return the layout, and the width of a picture."""
-        width = room.x
-        if beside:
-            width = max(_code_width(em, longest), WIDE_PART * room.x)
-            most = (
-                COLUMN_PART if height_of(min(width, COLUMN_PART * room.x)) <= room.y else LOW_PART
-            )
-            width = min(width, most * room.x, room.x - (GAP_EM + TITLE_EM) * em)
-        height = height_of(width)
-        rest = (room.x - width - em, room.y) if beside else (room.x, room.y - height)
-        _, wide = columns_for(pictures, page.aspect, rest, HEADING_EM * em, GAP_EM * em)
-        return PageText(corner, width, beside), wide
-
-    (first, beside_px), (second, below_px) = text(True), text(False)
-    return second if below_px > LARGER * beside_px else first
+def _text(page: Page) -> PageText:
+    """Put the pictures next to the text on a wide page, and below it on any other."""
+    beside = page.room.x > WIDE * page.room.y
+    width = TEXT_PART * page.room.x if beside else page.room.x
+    return PageText(imgui.get_cursor_screen_pos(), width, beside)
 
 
-def _program_text(
-    page: Page, program: Program, mistakes: Mistakes, told: Sequence[str], pictures: int
-) -> PageText:
-    longest = panel.longest_line(program, mistakes) + CARET_MARGIN
-    rows = functools.partial(panel.row_count, program, mistakes)
-    return _text(page, told, longest, rows, pictures)
-
-
-def _pictures_room(
-    page: Page, text: PageText, reference: Callable[[ImVec2], object] | None = None
-) -> ImVec2:
-    """Return the room for the pictures from the cursor on. Call after the text.
-
-    reference: draws what comes before them: below a text that is next to them, else at their left.
-    """
-    here, gap = imgui.get_cursor_screen_pos(), GAP_EM * imgui.get_font_size()
-    left = page.room.y - (here.y - text.corner.y)
+def _pictures_room(page: Page, text: PageText) -> ImVec2:
+    """Return the room for the pictures from the cursor on. Call after the text."""
     if text.beside:
-        if reference is not None:
-            reference(ImVec2(text.width, max(1.0, left)))
+        gap = GAP_EM * imgui.get_font_size()
         imgui.set_cursor_screen_pos(ImVec2(text.corner.x + text.width + gap, text.corner.y))
         return ImVec2(max(1.0, page.room.x - text.width - gap), page.room.y)
+    left = page.room.y - (imgui.get_cursor_screen_pos().y - text.corner.y)
     least = LEAST_PICTURES_EM * imgui.get_font_size()  # which is scrolled to
-    room = ImVec2(page.room.x, max(least, left))
-    if reference is not None:
-        width = REFERENCE_PART * room.x
-        reference(ImVec2(width - gap, room.y))
-        imgui.set_cursor_screen_pos(ImVec2(here.x + width, here.y))
-        room.x -= width
-    return room
-
-
-def _code_width(size: float, longest: int) -> float:
-    """Return the width of so many letters, each half as wide as high."""
-    return size * (0.52 * longest + 2.0)
+    return ImVec2(page.room.x, max(least, left))

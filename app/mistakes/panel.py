@@ -15,16 +15,16 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.explaining import symbols
 from app.mistakes import model
-from app.mistakes.options import COLUMNS, MistakesOptions, Mode
+from app.mistakes.options import MistakesOptions, Mode
 from app.mistakes.question import LETTERS, switched_to
 from app.outside.paint import role_color
 from app.state.options import Notation
 from app.widgets import theme
 from app.widgets.areas import press_area
-from app.widgets.checks import checkbox, radio_button, verdict_sign
+from app.widgets.checks import checkbox, radio_button
 from app.widgets.formula import vector_colors
 from app.widgets.lettering import lettering
-from app.widgets.rows import button_width, follow, tip
+from app.widgets.rows import button_width, follow
 from app.widgets.theme import Fonts
 
 Wish = Literal["", "reveal", "next", "right"]
@@ -37,6 +37,7 @@ MODES: dict[Mode, tuple[str, str]] = {
 LINE = 1.25  # a line's height, in parts of the type's
 INSET = 0.6  # left of the code, likewise
 POPUP_ROWS = 14
+SAID = {True: ", correct", False: ", your answer", None: ""}
 
 
 @dataclass(frozen=True)
@@ -52,20 +53,15 @@ def wrong_color() -> ImVec4:
     return theme.legible(role_color("other"))
 
 
-def controls(
-    options: MistakesOptions, columns: int, is_asked: bool, is_low: bool
-) -> tuple[MistakesOptions, Wish]:
-    """Draw the mode, the pictures' size, and what the mode has.
+def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions, Wish]:
+    """Draw the mode, and the controls of that mode.
 
-    columns: of the pictures as they are. is_asked: there is a question. is_low: there is no room
-    for more than a row.
+    is_asked: there is a question.
     """
     wish: Wish = ""
-    mode = _mode_list(options.mode) if is_low else _modes(options.mode)
+    mode = _modes(options.mode)
     if mode != options.mode:
         options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
-    if not is_low or columns == options.columns:
-        options = _columns(options, columns)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
         _, on = checkbox("difference", options.difference)
@@ -101,35 +97,11 @@ def _modes(now: Mode) -> Mode:
     return now
 
 
-def _mode_list(now: Mode) -> Mode:
-    """Draw the modes as a list. Return the selected one."""
-    names = [name for name, _ in MODES.values()]
-    widest = max(imgui.calc_text_size(name).x for name in names)
-    imgui.set_next_item_width(widest + 2.2 * imgui.get_frame_height())
-    _, number = imgui.combo("##mode", list(MODES).index(now), names)
-    return list(MODES)[number]
-
-
 def _button(label: str, said: str) -> bool:
     follow(button_width(label))
     clicked = bool(imgui.button(label))
     imgui.set_item_tooltip(said)
     return clicked
-
-
-def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
-    width = imgui.calc_text_size("320 pixels").x + 2.2 * imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    imgui.begin_disabled(shown != options.columns)  # the images' own resolution is as coarse
-    if imgui.begin_combo("##columns", f"{shown} pixels"):
-        for columns in COLUMNS:
-            if imgui.selectable(f"{columns} pixels", columns == options.columns)[0]:
-                options = replace(options, columns=columns)
-        imgui.end_combo()
-    imgui.end_disabled()
-    tip("the pictures' width: half a pixel is visible where there are few")
-    return options
 
 
 # The program.
@@ -138,20 +110,6 @@ def _columns(options: MistakesOptions, shown: int) -> MistakesOptions:
 def rows_of(instead: str | None, letters: int) -> list[str]:
     """Return the rows that are shown instead of a line."""
     return [] if instead is None else model.folded(instead, letters)
-
-
-def longest_line(program: Program, mistakes: Mistakes) -> int:
-    """Return the letters of the longest line of program_lines(), before it is broken."""
-    lines = [(line.code, line.instead or "") for line in program.text(mistakes)]
-    return max(len(row) for pair in lines for code in pair for row in code.split("\n"))
-
-
-def row_count(program: Program, mistakes: Mistakes, letters: int) -> int:
-    """Return the number of rows of program_lines(), each so many letters long."""
-    return sum(
-        len(model.folded(line.code, letters)) + len(rows_of(line.instead, letters))
-        for line in program.text(mistakes)
-    )
 
 
 def letters_in(width: float) -> int:
@@ -266,46 +224,21 @@ def _popup(
 # The quiz.
 
 
-@dataclass(frozen=True)
-class Choice:
-    """lines: of code. verdict: after the answer, whether it is the correct one; for that one and
-    for the one that was answered.
-    """
-
-    lines: tuple[str, ...]
-    verdict: bool | None = None
-
-
-def choose_line(choices: Sequence[Choice], width: float, fonts: Fonts) -> int | None:
-    """Draw four lines of code with their letters. Return the clicked one."""
-    size_px = imgui.get_font_size()
+def choose_line(
+    choices: Sequence[tuple[str, ...]], verdicts: Sequence[bool | None], width: float, fonts: Fonts
+) -> int | None:
+    """Draw four choices of code with their letters, and the verdicts. Return the clicked one."""
     clicked = None
-    height, pad = LINE * size_px, INSET * size_px
-    for number, choice in enumerate(choices):
-        corner = imgui.get_cursor_screen_pos()
-        extent = ImVec2(width, height * len(choice.lines) - (LINE - 1) * size_px + 2 * pad)
-        if press_area(f"choice {LETTERS[number]}", extent):
-            clicked = number
-        draw = imgui.get_window_draw_list()
-        far = ImVec2(corner.x + extent.x, corner.y + extent.y)
-        hovered = imgui.is_item_hovered() or imgui.is_item_focused()
-        fill = theme.FRAME_HOVERED if hovered else theme.FRAME
-        draw.add_rect_filled(corner, far, theme.u32(fill), theme.px(4))
-        edge = verdict_color(choice.verdict) or theme.LINE
-        wide = theme.line_px(1 if choice.verdict is None else 3)
-        draw.add_rect(corner, far, theme.u32(edge), theme.px(4), wide)
-        if choice.verdict is not None:
-            verdict_sign(
-                ImVec2(far.x - pad - size_px / 2, corner.y + pad + 0.5 * height), choice.verdict
-            )
-        with lettering(fonts.bold):
-            draw.add_text(
-                ImVec2(corner.x + pad, corner.y + pad), theme.u32(theme.TEXT), LETTERS[number]
-            )
+    imgui.push_style_var(imgui.StyleVar_.button_text_align, ImVec2(0.0, 0.5))
+    for letter, rows, verdict in zip(LETTERS, choices, verdicts, strict=True):
+        text = "\n   ".join(rows)
+        said = f"{SAID[verdict]}\n" if verdict is not None else ""
+        imgui.push_style_color(imgui.Col_.text, verdict_color(verdict) or wrong_color())
         with lettering(fonts.mono):
-            for row, text in enumerate(choice.lines):
-                at = ImVec2(corner.x + 2.4 * pad + size_px, corner.y + pad + row * height)
-                draw.add_text(at, theme.u32(wrong_color()), text)
+            if imgui.button(f"{letter}{said}  {text}###choice {letter}", ImVec2(width, 0.0)):
+                clicked = LETTERS.index(letter)
+        imgui.pop_style_color()
+    imgui.pop_style_var()
     return clicked
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +29,8 @@ TRIED = 24  # mistakes whose pictures are made to find four
 @dataclass(frozen=True, eq=False)
 class QuizQuestion:
     """names: of the four mistakes, in the order of the letters. right_at: which of them it is.
-    right, pictures: linear light (H, W, 3), without a mistake and of each. problem: why the camera
-    cannot tell them apart, or empty; without names there is no question."""
+    right, pictures: linear light (H, W, 3), without a mistake and of each. problem: why there is no
+    question, or empty."""
 
     names: tuple[str, ...]
     right_at: int
@@ -61,7 +60,7 @@ def question(
 
     if len(names) == CHOICES and all(name in by_name for name in names):
         pictures = tuple(picture(by_name[name]) for name in names)
-        return QuizQuestion(names, right_at(options), right, pictures, _alike(right, pictures))
+        return QuizQuestion(names, right_at(options), right, pictures)
     return _drawn(program, options, right, picture)
 
 
@@ -115,27 +114,12 @@ def is_blank(picture: Bytes) -> bool:
 
 
 def _places(picture: Bytes) -> NDArray[np.float64]:
-    """The means of the picture's parts, which are squares, but at its edges."""
-    side = max(1, picture.shape[1] // ACROSS)
-    total: NDArray[np.float64] = picture.astype(np.float64)
-    for axis in (0, 1):
-        starts = np.arange(0, total.shape[axis], side)
-        counts = np.diff(np.append(starts, total.shape[axis]))
-        sums = np.add.reduceat(total, starts, axis=axis)
-        total = sums / counts.reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
-    return total
-
-
-def _alike(right: Light, pictures: tuple[Light, ...]) -> str:
-    """Which of the pictures this camera cannot tell apart, in words; empty where it can."""
-    looks = [shown(light, 0.0) for light in pictures]
-    for (a, one), (b, other) in combinations(enumerate(looks), 2):
-        if not are_apart(one, other):
-            return f"This camera cannot tell {LETTERS[a]} and {LETTERS[b]} apart: move it."
-    same = [n for n, look in enumerate(looks) if not are_apart(look, shown(right, 0.0))]
-    if same:
-        return f"With this camera, {LETTERS[same[0]]} makes the correct picture: move it."
-    return ""
+    """Return the means of the picture's squares; those that its edges cut are left out."""
+    height, width = picture.shape[:2]
+    side = max(1, min(height, width // ACROSS))
+    rows, columns = height // side, width // side
+    whole = picture[: rows * side, : columns * side].reshape(rows, side, columns, side, 3)
+    return np.asarray(whole.mean(axis=(1, 3)))
 
 
 def reason(program: Program, names: tuple[str, ...], at: int, answer: str) -> str:

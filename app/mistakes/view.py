@@ -33,7 +33,6 @@ from renderer.errors import LucidaError, describe
 from renderer.memo import Memo
 
 MISTAKES = "Mistakes"
-LOW_EM = 14.0  # lower views have one row of controls
 LEAST_EM = 9.0  # the page's height, at least: lower ones are scrolled
 
 
@@ -99,10 +98,8 @@ class MistakesView(DockedView):
         now = model.situation_of(host.state, host.renderers.size)
         options = host.state.of(MistakesOptions)
         self.made = self._follow(host, now, options)
-        is_low = imgui.get_content_region_avail().y < LOW_EM * imgui.get_font_size()
-        is_asked = bool(self._names(options, now))
         if host.has_tools:
-            changed, wish = panel.controls(options, now.size[0], is_asked, is_low)
+            changed, wish = panel.controls(options, bool(self._names(options, now)))
             if changed != options:
                 host.change(host.state.with_options(mistakes=asdict(changed)))
             self._grant(host, now, wish)

@@ -18,10 +18,9 @@ from renderer.scene.model import Scene
 OF_SCENE, OF_VIEW = 0.16, 0.3  # a new object's size: of the scene's diagonal, of the view's height
 MOST = 2000  # objects that are looked at
 # Places to try: across the picture and up, from -1 to 1; and distances, relative to the middle.
-SHAPES_AT = ((0, 0), (0.4, 0), (-0.4, 0), (0, 0.4), (0.4, 0.4), (-0.4, 0.4), (0, -0.4), (0.65, 0),
-             (-0.65, 0), (0.65, 0.6), (-0.65, 0.6), (0.65, -0.5), (-0.65, -0.5))  # fmt: skip
-LIGHTS_AT = ((0.4, 0.7), (-0.4, 0.7), (0, 0.75), (0, 0.4), (0, 0))
-DISTANCES = (1.0, 0.85, 0.7, 0.55, 0.4, 0.25, 1.2)
+SHAPES_AT = (0, 0), (0.4, 0), (-0.4, 0), (0, 0.4), (0, -0.4), (0.4, 0.4), (-0.4, 0.4)
+LIGHTS_AT = (0.4, 0.7), (-0.4, 0.7), (0, 0.4)
+DISTANCES = 1.0, 0.85, 0.6, 0.3
 
 
 class NewPlace(NamedTuple):
@@ -39,19 +38,16 @@ def place_for(scene: Scene, focus: Focus, camera: Camera, is_light: bool = False
     if not middle > 0:  # the scene is behind the eye, or has no middle
         middle = focus.reach / camera.distance
     high = (camera.viewport[3] - camera.viewport[2]) * float(np.linalg.norm(camera.v))
-    place = NewPlace(focus.center, 1.0)
-    places = LIGHTS_AT if is_light else SHAPES_AT
-    for part, distance in itertools.product((1.0, 0.5, 0.25), DISTANCES):
-        for across, up in places:
-            ray = camera.ray(-up / 2, across / 2, (1, 1))
-            at = ray.origin + distance * middle * ray.direction
-            size = part * OF_VIEW * high * (1.0 if camera.is_parallel else distance * middle)
-            if len(focus.framed):
-                diagonal = float(np.linalg.norm(np.ptp(focus.framed, axis=0)))
-                size = min(size, part * OF_SCENE * diagonal) or size
-            x, y, z = at.tolist()
-            place = NewPlace((x, y, z), size)
-            away = np.linalg.norm(np.clip(at, boxes[:, 0], boxes[:, 1]) - at, axis=1)
-            if (away > (0.0 if is_light else 0.55 * size)).all():
-                return place
-    return place
+    diagonal = float(np.linalg.norm(np.ptp(focus.framed, axis=0))) if len(focus.framed) else 0.0
+    for distance, (across, up) in itertools.product(
+        DISTANCES, LIGHTS_AT if is_light else SHAPES_AT
+    ):
+        ray = camera.ray(-up / 2, across / 2, (1, 1))
+        at = ray.origin + distance * middle * ray.direction
+        size = OF_VIEW * high * (1.0 if camera.is_parallel else distance * middle)
+        size = min(size, OF_SCENE * diagonal) or size
+        away = np.linalg.norm(np.clip(at, boxes[:, 0], boxes[:, 1]) - at, axis=1)
+        if (away > (0.0 if is_light else 0.55 * size)).all():
+            break
+    x, y, z = at.tolist()
+    return NewPlace((x, y, z), size)

@@ -13,7 +13,6 @@ from app.images.screen import Box, Screen
 from app.images.shown import Picture
 from app.images.textures import PANE
 from app.pair.dark_note import DarkNote, draw_dark_note
-from app.pair.hatching import draw_hatching
 from app.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
 from app.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
 from app.pair.overlay import draw_corner, draw_legend, draw_note
@@ -134,7 +133,6 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if picture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
-        draw_hatching(draw, screen, pane.seen.shown)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
     width, height = pane.seen.size

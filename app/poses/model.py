@@ -22,9 +22,7 @@ from app.state.app_state import AppState
 from app.storage.paths import stored
 from renderer.camera import Camera, Size
 from renderer.camera_formats import CameraSet, PosedCamera, read_cameras
-from renderer.camera_formats.formats import UNKNOWN, recognised
 from renderer.camera_formats.given import Options, given
-from renderer.errors import LucidaError
 from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
 
@@ -148,15 +146,7 @@ class PoseSet:
 
 def load_poses(path: Path, options: Options | None = None) -> CameraSet:
     """Return the contents of a file or a folder. Raises LucidaError."""
-    found = given(path)
-    try:
-        recognised(found)
-    except LucidaError as error:
-        if error.problem != UNKNOWN:  # it is no JSON, or no text
-            raise error if error.source else error.in_file(str(path)) from None
-        remedy = "give a transforms.json, the folder of a COLMAP model, or a file of one camera"
-        raise LucidaError("", "holds no known camera", remedy, str(path)) from None
-    return read_cameras(found, options=options)
+    return read_cameras(given(path), options=options)
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:

@@ -1,4 +1,4 @@
-"""The options of the probe: the pins, and the rays in the outside view."""
+"""The options of the probe: the pins, and the part that is shown."""
 
 from __future__ import annotations
 
@@ -14,13 +14,10 @@ class ProbeOptions:
     """The options of the probe.
 
     pins: pixels to compare.
-    rays: viewing rays in the outside view in addition to the marked pixel's: none, or those of its
-    row or column.
     section: the part of the reading that is shown.
     """
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
-    rays: Literal["pixel", "row", "column"] = "pixel"
     section: Literal["all", "ray", "objects", "hit", "colour"] = "all"
 
 

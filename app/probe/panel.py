@@ -22,12 +22,14 @@ from app.state.options import Notation, Pixel
 from app.widgets import theme
 from app.widgets.checks import checkbox
 from app.widgets.formula import Formula, formula, lit
+from app.widgets.lettering import lettering
 from app.widgets.messages import wrapped
 from app.widgets.rows import button_width, follow, tip
 from app.widgets.theme import Fonts
 from renderer.camera import Size
 from renderer.images.display import encode_srgb
 from renderer.pixels import Indexing
+from renderer.scene.model import Color
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
 SHORT_EM = 24.0  # a ray alone in less width, in which formulas take many rows, is without
@@ -45,9 +47,11 @@ SECTIONS = {
     "hit": "Hit",
     "colour": "Colour",
 }
-RAYS = {"pixel": "this pixel", "row": "its row", "column": "its column"}
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
+
+
+Shown = tuple[tuple[int, int, int], Color]  # a pixel's bytes, and its colour, 0..1
 
 
 @dataclass(frozen=True)
@@ -62,7 +66,7 @@ class Pin:
 
 
 def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
-    """Draw the pixel, its indexing, the rays, the copies. pixel: the marked one, or the one under
+    """Draw the pixel, its indexing, the copies. pixel: the marked one, or the one under
     the mouse.
     """
     indexing = state.options.indexing
@@ -74,7 +78,7 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(one_based=one_based)
-    state = _section_field(_rays_field(state))
+    state = _section_field(state)
     pins = state.of(ProbeOptions).pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -148,23 +152,6 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
         for part, most in zip(chosen, (size[1], size[0]), strict=True)
     )
     return state.with_options(marked=(row, column))
-
-
-def _rays_field(state: AppState) -> AppState:
-    name = f"Rays: {RAYS[state.of(ProbeOptions).rays]}"
-    widest = max(button_width(f"Rays: {text}") for text in RAYS.values())
-    follow(widest)
-    if widest > imgui.get_content_region_avail().x:
-        name, widest = "Rays", 0.0
-    if imgui.button(f"{name}###rays", ImVec2(widest, 0)):
-        imgui.open_popup("rays")
-    imgui.set_item_tooltip("which viewing rays the outside view shows")
-    if imgui.begin_popup("rays"):
-        for key, text in RAYS.items():
-            if imgui.menu_item(f"of {text}", "", key == state.of(ProbeOptions).rays)[0]:
-                state = state.with_options(probe={"rays": key})
-        imgui.end_popup()
-    return state
 
 
 def _section_field(state: AppState) -> AppState:
@@ -349,6 +336,17 @@ def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) ->
 
 
 # Parts.
+
+
+def color_row(shown: Shown | None, fonts: Fonts) -> None:
+    """Draw a pixel's colour as displayed, and its red, green and blue. None: there is no pixel."""
+    side = imgui.get_text_line_height()
+    _swatch(shown[1] if shown is not None else (0, 0, 0), side)
+    with lettering(fonts.mono):
+        for k, name in enumerate("RGB"):
+            text = f"{name} {shown[0][k]:3d}" if shown is not None else f"{name}   -"
+            imgui.same_line()
+            imgui.text_colored(theme.legible(theme.CHANNELS[k]), text)
 
 
 def _swatch(color: Iterable[float], side: float) -> None:

@@ -1,12 +1,11 @@
 """The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
 
-The view computes the readings, the image's histogram, and its lines in the outside view.
+The view computes the readings, and its lines in the outside view.
 probe/panel.py draws a reading, probe/model.py computes it.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,8 +14,6 @@ import numpy as np
 from imgui_bundle import imgui
 
 from app.host.view import DockedView, Host
-from app.images.histogram import Histogram, histogram
-from app.images.progressive_ray import RayImage
 from app.images.request import MIRROR_DEPTH
 from app.outside.diagram import Arrow, Dot, Item, Segments
 from app.outside.extent import end_parameter
@@ -26,13 +23,11 @@ from app.outside.view import OutsideView
 from app.pair.marks import walked
 from app.pair.view import Linked
 from app.probe import panel
-from app.probe.bundles import Bundle, bundle
-from app.probe.histogram import values_and_histogram
 from app.probe.model import Probe
 from app.probe.options import ProbeOptions
 from app.probe.reading import Reading
 from app.state.app_state import AppState
-from app.state.options import ImageOptions, Pixel
+from app.state.options import Pixel
 from app.widgets import formula, theme
 from app.widgets.background import Background
 from app.widgets.messages import wrapped
@@ -59,32 +54,24 @@ class ProbeView(DockedView):
         self._outside = outside
         images.pins = lambda state: state.of(ProbeOptions).pins
         self._making: Background[Probe] | None = None
-        self._bundles: Background[Bundle] | None = None
-        self._counting: Background[Histogram] | None = None
-        self.histogram: Histogram | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
         self._error = ""
         self._seen = False
         self.reading: Reading | None = None  # the one that is shown
         self._readings = Memo(Probe.at)
-        self._bundle: Bundle | None = None
         self._items = Memo(_outside_items)
 
     @property
     def settled(self) -> bool:
-        works = (self._making, self._bundles, self._counting)
-        return not self._seen or not any(work is not None and work.busy for work in works)
+        return not self._seen or self._making is None or not self._making.busy
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._making = Background("lucida-probe", host.animate)
-        self._bundles = Background("lucida-probe-rays", host.animate)
-        self._counting = Background("lucida-histogram", host.animate)
 
     def end(self) -> None:
-        for work in (self._making, self._bundles, self._counting):
-            if work is not None:
-                work.close()
+        if self._making is not None:
+            self._making.close()
         formula.release()
 
     def unseen(self, host: Host) -> None:
@@ -107,13 +94,12 @@ class ProbeView(DockedView):
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
-        is_traced = self._count(host)
         shown = None
         if reading is not None and not reading.is_outside:
             shown = reading.bytes, reading.display
         section = host.state.of(ProbeOptions).section
         if section in ("all", "colour"):
-            values_and_histogram(shown, self.histogram, is_traced, host.fonts)
+            panel.color_row(shown, host.fonts)
         imgui.separator()
         # Formulas keep their rows whether the scrollbar is there or not.
         wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
@@ -148,29 +134,6 @@ class ProbeView(DockedView):
                 self._error = describe(outcome.error)
         self._wanted = state.scene
         self._making.ask(Probe, state.scene)
-
-    def _count(self, host: Host) -> bool:
-        """Count the ray image's histogram in the background, once an image. Return True if one is
-        shown.
-
-        While an image is on its way, the last histogram is shown.
-        """
-        assert self._counting is not None
-        both, images = host.renderers, host.state.images
-        outcome = self._counting.poll()
-        if outcome is not None:
-            self.histogram = outcome.value
-        if not both.is_tracing:
-            self.histogram = None
-            self._counting.forget()
-            return False
-        image = both.shown_ray(host.state)
-        if image is None:  # the last histogram is of another scene
-            self.histogram = None
-            self._counting.forget()
-        elif image.factor == 1:
-            self._counting.ask(_counted, image, images)
-        return True
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
         """Return the marked pixel, else the one under the mouse."""
@@ -224,38 +187,15 @@ class ProbeView(DockedView):
 
     def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
         state, camera = host.state, host.renderers.camera(host.state)
-        rays = self._row_or_column(state, reading, camera, size)
         pins = [self._reading(state, pin, camera, size) for pin in state.of(ProbeOptions).pins]
         pinned = tuple(pin for pin in pins if pin is not None)
         end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
-        self._outside.show(PROBE, self._items(reading, pinned, rays, end, length))
-
-    def _row_or_column(
-        self, state: AppState, reading: Reading | None, camera: Camera, size: Size
-    ) -> Bundle | None:
-        """Return the rays of the row or column, in their last known state."""
-        assert self._bundles is not None
-        outcome = self._bundles.poll()
-        if outcome is not None and outcome.value is not None:
-            self._bundle = outcome.value
-        which, probe = state.of(ProbeOptions).rays, self._probe
-        if which == "pixel" or reading is None or probe is None:
-            self._bundle = None
-            self._bundles.forget()
-            return None
-        place = reading.pixel[0] if which == "row" else reading.pixel[1]
-        self._bundles.ask(bundle, probe, which, place, camera, size)
-        return self._bundle
-
-
-def _counted(image: RayImage, options: ImageOptions) -> Histogram:
-    return histogram(image.frame.channel("color"), options)
+        self._outside.show(PROBE, self._items(reading, pinned, end, length))
 
 
 def _outside_items(
     reading: Reading | None,
     pinned: tuple[Reading, ...],
-    rays: Bundle | None,
     end: float,
     normal: float,
 ) -> tuple[Item, ...]:
@@ -264,11 +204,9 @@ def _outside_items(
     end: ray parameter at which a ray that hits nothing ends. normal: length of the arrow.
     """
     items: list[Item] = []
-    if rays is not None:
-        items.append(_ray_lines("rays", rays.origins, rays.directions, rays.t, end, 0.45))
     for pin in pinned:
-        t = pin.hit.t if pin.hit is not None else math.inf
-        items.append(_ray_lines("pin", [pin.origin], [pin.direction], [t], end, 0.9, dashed=True))
+        t = pin.hit.t if pin.hit is not None else end
+        items.append(_ray(pin, t))
         if pin.hit is not None:
             items.append(Dot("pinned hit", "mark", np.array(pin.hit.point), 3.5))
     if reading is not None and reading.hit is not None:
@@ -276,21 +214,11 @@ def _outside_items(
     return tuple(items)
 
 
-def _ray_lines(
-    name: str,
-    origins: Any,
-    directions: Any,
-    t: Any,
-    end: float,
-    opacity: float,
-    dashed: bool = False,
-) -> Segments:
-    """Return rays up to their hits, or to the scene's end."""
-    origin, direction = np.asarray(origins, float), np.asarray(directions, float)
-    reach = np.asarray(t, float)
-    far = origin + np.where(np.isfinite(reach), reach, end)[:, None] * direction
-    segments = np.stack([origin, far], axis=1)
-    return Segments(name, "ray", segments, 1.2, opacity, hidden=0.2, dashed=dashed, layer=2)
+def _ray(pin: Reading, t: float) -> Segments:
+    """Return the viewing ray of a pin as far as t."""
+    origin = np.array(pin.origin)
+    segment = np.array([[origin, origin + t * np.array(pin.direction)]])
+    return Segments("pin", "ray", segment, 1.2, 0.9, hidden=0.2, dashed=True, layer=2)
 
 
 def _normal(reading: Reading, length: float) -> Sequence[Item]:

@@ -80,10 +80,13 @@ class StepCount:
 class Timeline:
     """Counts in bins of equal width.
 
+    first, last: the times of the first and the last answer.
     right, wrong: answers.
     mistakes: the most frequent ones, and how often each was made.
     """
 
+    first: datetime
+    last: datetime
     starts: tuple[datetime, ...]
     width: timedelta
     right: tuple[int, ...]
@@ -126,8 +129,7 @@ class ClassResults:
         words = f"{counted(self.answers, 'answer')} by {counted(self.students, 'student')}"
         if self.timeline is None:
             return words
-        first, last = self.timeline.starts[0], self.timeline.starts[-1] + self.timeline.width
-        last = last - MINUTE
+        first, last = self.timeline.first, self.timeline.last
         day = "{0.day} {0:%B %Y}".format
         days = day(first) if first.date() == last.date() else f"{day(first)} to {day(last)}"
         return f"{words}, {days}"
@@ -246,6 +248,8 @@ def _timeline(answers: Sequence[ClassAnswer], followed: Sequence[NamedMistake]) 
             if mistake.name in rows:
                 rows[mistake.name][place] += 1
     return Timeline(
+        first,
+        last,
         tuple(begin(width) + place * width for place in range(count)),
         width,
         tuple(right),

@@ -106,7 +106,10 @@ class AppState:
         )
 
     def with_fit(self, fit: bool) -> AppState:
-        return replace(self, view=replace(self.view, fit=fit))
+        """The state with that switch; off, a camera no longer keeps the shape of its own image."""
+        return replace(
+            self, view=replace(self.view, fit=fit, given=self.view.given if fit else None)
+        )
 
     def with_keep_orthonormal(self, keep: bool) -> AppState:
         """The switch; turning it on makes the basis orthonormal at once."""

@@ -42,6 +42,8 @@ REMOVED: dict[str, Removed] = {
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
+    "laboratory.table": Removed("the kinds' sizes are over their pictures", True),
+    "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
     "detective": Removed(
@@ -54,6 +56,7 @@ REMOVED: dict[str, Removed] = {
 # Values by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, Any], Replaced] = {
     ("language", "c"): Replaced("python", "programs are in Python or Julia"),
+    ("laboratory.page", "subpixels"): Replaced("displays", "an LCD's pixel has three stripes"),
     ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
 }
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import math
+import os
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -244,6 +245,37 @@ def begin(preferences: Preferences) -> None:
     _set_style()
 
 
+# The system's fonts for letters that the window's own lack: Chinese, Japanese and Korean; Arabic,
+# combining marks and others. The first of each that exists is used.
+SYSTEM_FONTS = (
+    (
+        "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/noto-cjk/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/google-noto-sans-cjk-fonts/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
+        "/System/Library/Fonts/Supplemental/Arial Unicode.ttf",
+        "C:/Windows/Fonts/msyh.ttc",
+    ),
+    (
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "C:/Windows/Fonts/segoeui.ttf",
+    ),
+)
+
+
+def _load_font(file: str, params: hello_imgui.FontLoadingParams | None = None) -> imgui.ImFont:
+    """Return a font of the window's own, with the system's for the letters that it lacks."""
+    font = hello_imgui.load_font(f"fonts/{file}", TEXT_PX, params)
+    merged = hello_imgui.FontLoadingParams()
+    merged.inside_assets, merged.merge_to_last_font = False, True
+    for files in SYSTEM_FONTS:
+        if found := next(filter(os.path.isfile, files), ""):
+            hello_imgui.load_font(found, TEXT_PX, merged)
+    return font
+
+
 @dataclass
 class Fonts:
     """The window's fonts, once loaded: text, bold for headings, fixed width for numbers."""
@@ -260,12 +292,12 @@ class Fonts:
         """
         atlas = imgui.get_io().fonts
         atlas.tex_min_width = atlas.tex_min_height = ATLAS_PX
-        self.text = hello_imgui.load_font("fonts/Roboto/Roboto-Regular.ttf", TEXT_PX)
-        self.bold = hello_imgui.load_font("fonts/Roboto/Roboto-Bold.ttf", TEXT_PX)
+        self.text = _load_font("Roboto/Roboto-Regular.ttf")
+        self.bold = _load_font("Roboto/Roboto-Bold.ttf")
         raised = hello_imgui.FontLoadingParams()
         raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit lower than Roboto's
         raised.font_config.extra_size_scale = 1.03  # and its capitals would be lower
-        self.mono = hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", TEXT_PX, raised)
+        self.mono = _load_font("Inconsolata-Medium.ttf", raised)
 
 
 @functools.cache

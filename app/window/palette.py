@@ -5,14 +5,13 @@ Owns its look, its keys and what was chosen last. What there is to choose: palet
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 
-from imgui_bundle import ImVec4, imgui
+from imgui_bundle import imgui
 
 from app.widgets import theme
 from app.widgets.messages import box_width, overlay, top_center
-from app.window.palette_search import Entry, Match, found
+from app.window.palette_search import Entry, found
 
 SHOWN_ROWS = 12
 REMEMBERED = 50
@@ -34,7 +33,7 @@ class CommandPalette:
         self.open = not self.open
         self._query, self._chosen, self._appearing = "", 0, True
 
-    def draw(self, entries: Callable[[], list[Entry]], fonts: theme.Fonts) -> None:
+    def draw(self, entries: Callable[[], list[Entry]]) -> None:
         """Draws it where it is open, and does what is chosen."""
         if not self.open:
             return
@@ -48,16 +47,16 @@ class CommandPalette:
                 self.open = False
             matches = self._search(entries())
             chosen = self._keys(matches)
-            clicked = self._list(matches, fonts)
+            clicked = self._list(matches)
         self._appearing = False
-        match = clicked or chosen
-        if match is not None:
+        entry = clicked or chosen
+        if entry is not None:
             self.open = False
-            self.recent = [match.entry.key, *(k for k in self.recent if k != match.entry.key)]
+            self.recent = [entry.key, *(k for k in self.recent if k != entry.key)]
             del self.recent[REMEMBERED:]
-            match.entry.run()
+            entry.run()
 
-    def _search(self, entries: list[Entry]) -> list[Match]:
+    def _search(self, entries: list[Entry]) -> list[Entry]:
         imgui.set_next_item_width(-1)
         hint = "a few letters of a command; arrows select, Enter runs it"
         changed, self._query = imgui.input_text_with_hint("##query", hint, self._query)
@@ -65,7 +64,7 @@ class CommandPalette:
             self._chosen = 0
         return found(self._query, entries, self.recent)
 
-    def _keys(self, matches: list[Match]) -> Match | None:
+    def _keys(self, matches: list[Entry]) -> Entry | None:
         """Move the selection. Return the entry on which Enter was pressed."""
         step = {
             imgui.Key.down_arrow: 1,
@@ -80,11 +79,11 @@ class CommandPalette:
         entered = any(
             imgui.is_key_pressed(key, False) for key in (imgui.Key.enter, imgui.Key.keypad_enter)
         )
-        if entered and matches and matches[self._chosen].entry.enabled:
+        if entered and matches and matches[self._chosen].enabled:
             return matches[self._chosen]
         return None
 
-    def _list(self, matches: list[Match], fonts: theme.Fonts) -> Match | None:
+    def _list(self, matches: list[Entry]) -> Entry | None:
         row = imgui.get_text_line_height_with_spacing()
         room = imgui.get_main_viewport().work_size.y - 7 * imgui.get_font_size()
         rows = max(1, min(SHOWN_ROWS, len(matches), int(room / row)))
@@ -97,13 +96,13 @@ class CommandPalette:
         clipper.include_item_by_index(self._chosen)
         while clipper.step():
             for index in range(clipper.display_start, clipper.display_end):
-                if self._row(matches[index], index, fonts):
+                if self._row(matches[index], index):
                     clicked = matches[index]
         imgui.end_child()
         return clicked
 
-    def _row(self, match: Match, index: int, fonts: theme.Fonts) -> bool:
-        entry, chosen = match.entry, index == self._chosen
+    def _row(self, entry: Entry, index: int) -> bool:
+        chosen = index == self._chosen
         start = imgui.get_cursor_pos()
         flags = 0 if entry.enabled else imgui.SelectableFlags_.disabled
         clicked, _ = imgui.selectable(f"##{index}", chosen, flags)
@@ -111,7 +110,7 @@ class CommandPalette:
             imgui.set_scroll_here_y(0.5)
         imgui.set_cursor_pos(start)
         color = theme.TEXT if entry.enabled else theme.DIM
-        _marked(entry.name, match.letters, color, fonts)
+        imgui.text_colored(color, entry.name)
         if entry.on:
             imgui.same_line()
             imgui.text_colored(theme.GOOD, "on")
@@ -126,15 +125,3 @@ class CommandPalette:
         imgui.same_line(max(right - keys, imgui.get_cursor_pos_x()))
         imgui.text_colored(color, entry.keys)
         return bool(clicked)
-
-
-def _marked(text: str, letters: tuple[int, ...], color: ImVec4, fonts: theme.Fonts) -> None:
-    """A text with some of its letters bold, in the colour of what is chosen."""
-    for bold, run in itertools.groupby(range(len(text)), letters.__contains__):
-        places = list(run)
-        if places[0]:
-            imgui.same_line(0, 0)
-        imgui.push_font(fonts.bold if bold else fonts.text, 0.0)
-        part = text[places[0] : places[-1] + 1]
-        imgui.text_colored(theme.legible(theme.RAY) if bold else color, part)
-        imgui.pop_font()

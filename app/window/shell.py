@@ -63,7 +63,6 @@ class Shell:
         self.exports = Exports()
         self.files = files
         self.help = False
-        self._wanted_keys = ""  # what the shortcut sheet is narrowed to
         self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
@@ -82,7 +81,7 @@ class Shell:
         self.palette.toggle()
 
     def toggle_help(self) -> None:
-        self.help, self._wanted_keys = not self.help, ""
+        self.help = not self.help
 
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
@@ -181,11 +180,11 @@ class Shell:
         ):
             self.escape(window)
         if self.help:
-            self.help, self._wanted_keys = help_sheet(self._fonts, __version__, self._wanted_keys)
+            self.help = help_sheet(self._fonts, __version__)
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)
-        self.palette.draw(lambda: entries(window), self._fonts)
+        self.palette.draw(lambda: entries(window))
         self.toasts.draw()
         self._hide_cursor(typing or self.palette.open or self.files.dialog.is_open)
 

@@ -60,18 +60,8 @@ def _folded(rows: list[Row]) -> list[Row]:
     ]
 
 
-def narrowed(parts: Sequence[Part], query: str) -> list[Part]:
-    """Return the rows that hold all words of a query, in heading, keys or words."""
-    words = query.lower().split()
-    found = [
-        (heading, [row for row in rows if all(w in f"{heading} {row}".lower() for w in words)])
-        for heading, rows in parts
-    ]
-    return [part for part in found if part[1]]
-
-
-def help_sheet(fonts: theme.Fonts, version: str, query: str) -> tuple[bool, str]:
-    """Draw the sheet, narrowed to a query. Return True while it stays open, and the query."""
+def help_sheet(fonts: theme.Fonts, version: str) -> bool:
+    """Draw the sheet. Return True while it stays open."""
     viewport, em = imgui.get_main_viewport(), imgui.get_font_size()
     room = viewport.work_size * 0.97
     count = max(1, min(MOST_COLUMNS, int(room.x / (COLUMN_EM * em))))
@@ -88,32 +78,16 @@ def help_sheet(fonts: theme.Fonts, version: str, query: str) -> tuple[bool, str]
     imgui.pop_style_color()
     if opened:
         imgui.push_style_var(imgui.StyleVar_.cell_padding, (0.2 * em, 0.03 * em))
-        query = _filter(query)
-        if not query and imgui.is_key_pressed(imgui.Key.escape, False):
-            still_open = False  # the filter has the key otherwise
         wrapped(f"lucida {version}: one camera, two renderers", theme.DIM)
-        columns = in_columns(narrowed(sections(), query), count)
-        if not columns:
-            wrapped("No key or gesture has these words.", theme.DIM)
-        elif imgui.begin_table("columns", count, imgui.TableFlags_.sizing_stretch_same):
-            for column in columns:
+        if imgui.begin_table("columns", count, imgui.TableFlags_.sizing_stretch_same):
+            for column in in_columns(sections(), count):
                 imgui.table_next_column()
                 for heading, rows in column:
                     _section(heading, rows, fonts)
             imgui.end_table()
         imgui.pop_style_var()
     imgui.end()
-    return bool(still_open), query
-
-
-def _filter(query: str) -> str:
-    """Draw the filter's field, which has the keyboard from the beginning. Return what it holds."""
-    if imgui.is_window_appearing():
-        imgui.set_keyboard_focus_here()
-    width = min(16 * imgui.get_font_size(), imgui.get_content_region_avail().x)
-    imgui.set_next_item_width(width)
-    flags = int(imgui.InputTextFlags_.escape_clears_all)
-    return str(imgui.input_text_with_hint("##filter", "filter: a key or a word", query, flags)[1])
+    return bool(still_open)
 
 
 def in_columns(parts: Sequence[Part], columns: int) -> list[list[Part]]:

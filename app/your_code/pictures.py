@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.mistakes.model import changed_pixels, difference_picture, told_difference
+from app.checking.reports.picture import changed_pixels, difference_picture
+from app.mistakes.model import told_difference
 from renderer.images.display import to_srgb8
 
 Bytes = NDArray[np.uint8]

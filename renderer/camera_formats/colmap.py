@@ -14,10 +14,8 @@ from pathlib import Path, PureWindowsPath
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats
 from renderer.camera_formats import colmap_binary, colmap_lenses, colmap_text
 from renderer.camera_formats.colmap_lenses import model_for
 from renderer.camera_formats.distortion import lens_of
@@ -89,12 +87,20 @@ def read(given: Given, options: Options) -> CameraSet:
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
         posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
+    others = [] if folder == given.path else _other_models(folder, kind)
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
         "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
     )
-    return CameraSet("colmap", tuple(posed), taken, *cloud)
+    notes = tuple(f"{other} is another model: give its folder to see it" for other in others)
+    return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
+
+
+def _other_models(folder: Path, kind: str) -> list[Path]:
+    """Return the models next to one: COLMAP numbers those that it could not connect."""
+    beside = sorted(folder.parent.glob("[0-9]*"))
+    return [other for other in beside if other != folder and isfile(other / f"images{kind}")]
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -135,18 +141,6 @@ _POINTS_HEAD = """\
 #   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
 # Number of points: 0
 """
-
-
-def points_text(points: Floats, colors: NDArray[np.uint8]) -> bytes:
-    """Return a points3D.txt: points (n, 3), with their colours, uint8 (n, 3), without tracks."""
-    lines = [
-        f"{number} {' '.join(map(repr, point))} {' '.join(map(str, color))} 0\n"
-        for number, (point, color) in enumerate(
-            zip(points.tolist(), colors.tolist(), strict=True), 1
-        )
-    ]
-    head = _POINTS_HEAD.replace(" 0\n", f" {len(lines)}\n")
-    return "".join([head, *lines]).encode()
 
 
 def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:

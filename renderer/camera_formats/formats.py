@@ -13,6 +13,7 @@ Each raises LucidaError; a camera that the format cannot hold is never written.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -31,12 +32,13 @@ from renderer.scene.reading import suggestion
 class Format:
     """A camera format.
 
-    name: on the command line. what: in words. endings: of the file that is written, "" for a
-    folder; the first is the default.
+    name: on the command line. what: in words. needs: the parts by which a file is recognised.
+    endings: of the file that is written, "" for a folder; the first is the default.
     """
 
     name: str
     what: str
+    needs: str
     endings: tuple[str, ...]
 
     @property
@@ -50,26 +52,38 @@ class Format:
         return models
 
 
+_FRAMES = "frames with a transform_matrix"
+_MATRICES = "a view matrix and a projection matrix of 16 numbers"
+_K = "camera_matrix, K, P, or fx and fy"
+
 # In the order in which recognised() tries them.
 FORMATS = (
-    Format("view", "Lucida's view file", (".toml",)),
-    Format("colmap", "COLMAP's model", ("",)),
-    Format("nerf", "NeRF's and nerfstudio's transforms.json", (".json",)),
-    Format("opengl", "OpenGL's view and projection matrices", (".txt",)),
-    Format("opencv", "OpenCV's K, R and t, or a calibration of its family", (".yml", ".json")),
-    Format("gltf", "cameras of a glTF file", (".gltf",)),
+    Format("view", "Lucida's view file", "a table [camera]", (".toml",)),
+    Format("colmap", "COLMAP's model", "the files cameras and images", ("",)),
+    Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, (".json",)),
+    Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
+    Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml", ".json")),
+    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),
 )
 
-UNKNOWN = "is not a recognised camera format"
+_UNKNOWN = "is not a recognised camera format"
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
 # Formats that are not read, by words of their files.
 _NOT_READ = {
-    "import bpy": "Blender's scripts are",
-    '"PerspectiveCamera"': "three.js's JSON is",
-    "<sensor ": "Metashape's XML is",
-    '"poseId"': "Meshroom's .sfm is",
-    '"img_name"': "Gaussian splatting's cameras.json is",
-    "PinholeCamera": "Open3D's JSON is",
+    r"^import bpy|\bbpy\.data": "Blender's scripts are",
+    r'"PerspectiveCamera"': "three.js's JSON is",
+    r"<sensor ": "Metashape's XML is",
+    r'"poseId"': "Meshroom's .sfm is",
+    r'"img_name"': "Gaussian splatting's cameras.json is",
+    r"PinholeCamera": "Open3D's JSON is",
+    r'"sfm_data_version"': "OpenMVG's sfm_data.json is",
+    r'"camera_path"': "nerfstudio's camera path is",
+    r'"t_00"': "Polycam's JSON is",
+    r'"value0"': "Basalt's calibration is",
+    r'"shots"\s*:': "OpenSfM's reconstruction.json is",
+    r"^# Bundle file": "Bundler's file is",
+    r"^(?:P0|K_00|P_rect_00|S_00):": "KITTI's calibration is",
+    r"^cam0_calib\s*:": "a configuration of VINS, which names its cameras' files, is",
 }
 
 
@@ -105,6 +119,9 @@ def read_cameras(
 
 def recognised(found: Given) -> Format:
     """Return the format that a file looks like. Raises LucidaError."""
+    for mark, what in _NOT_READ.items():
+        if found.is_text and re.search(mark, found.text, re.MULTILINE):
+            raise LucidaError("", f"{_UNKNOWN}: {what} not read", "export glTF or COLMAP there")
     for entry in FORMATS:
         if entry.module.recognises(found):
             return entry
@@ -115,11 +132,8 @@ def recognised(found: Given) -> Format:
     if found.is_folder:
         remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
         raise LucidaError("", "is a folder without cameras", remedy)
-    for mark, what in _NOT_READ.items():
-        if found.is_text and mark in found.text:
-            raise LucidaError("", f"{UNKNOWN}: {what} not read", "export glTF or COLMAP there")
-    names = ", ".join(entry.name for entry in FORMATS)
-    raise LucidaError("", UNKNOWN, f"say which with `lucida camera --from`: {names}")
+    wanted = ", ".join(f"{entry.needs} ({entry.name})" for entry in FORMATS)
+    raise LucidaError("", _UNKNOWN, f"give a file with {wanted}")
 
 
 def written(

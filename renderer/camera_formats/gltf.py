@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -20,7 +20,7 @@ from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 from renderer.errors import LucidaError
 from renderer.scene.gltf_cameras import UNCLIPPED, gltf_camera
-from renderer.scene.gltf_file import parse_gltf
+from renderer.scene.gltf_file import Gltf, parse_gltf
 from renderer.scene.gltf_nodes import placed_nodes
 from renderer.scene.limits import OBJECTS
 
@@ -38,6 +38,7 @@ def recognises(given: Given) -> bool:
 def read(given: Given, options: Options) -> CameraSet:
     tree, _ = parse_gltf(given.data, given.name)
     cameras: list[PosedCamera] = []
+    shown: set[int] = set()
     taken = ["y up, looking along -z", "znear and zfar clip"]
     for placed in placed_nodes(tree):
         if placed.node.camera is None:
@@ -45,6 +46,7 @@ def read(given: Given, options: Options) -> CameraSet:
         if len(cameras) == OBJECTS:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
         found = gltf_camera(tree, placed)
+        shown.add(placed.node.camera)
         called = repr(found.name or len(cameras))
         camera, fit = found.camera, not found.has_aspect
         if fit and options.size is not None:
@@ -56,7 +58,20 @@ def read(given: Given, options: Options) -> CameraSet:
         if found.straightened:
             taken.append(f"the node of {called} is {found.straightened}, its camera is not")
         cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
-    return CameraSet("gltf", tuple(cameras), tuple(taken))
+    notes = tuple(_notes(tree, shown))
+    return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
+
+
+def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
+    """Yield what is in a file and not shown."""
+    if tree.animations:
+        yield "animations are not used: the cameras are where their nodes are at rest"
+    cameras = tree.cameras if isinstance(tree.cameras, list) else []
+    for number, camera in enumerate(cameras):
+        if number not in shown:
+            yield f"cameras[{number}] is not used: no node of the scene holds it"
+        elif extensions := camera.get("extensions"):
+            yield f"cameras[{number}] is shown without {', '.join(extensions)}"
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:

@@ -22,13 +22,14 @@ _TOKEN = re.compile(rf"\s*(?:(?P<number>{_NUMBER})|(?P<sign>[\[\](){{}},;]))", r
 _PLAIN = re.compile(rf"{_NUMBER}(?:(?:[ \t]*[,x][ \t]*|[ \t]+){_NUMBER})*", re.IGNORECASE)
 _END = re.compile(r"(?:\s*,\s*(?:dtype|device)\s*=\s*[\w.'\":]+)*\s*(?:,\s*)?\)")
 _REST = re.compile(r"[ \t]*(?:$|[;,}\n]|#|//|%)", re.MULTILINE)
+_TEXT = re.compile(r"""["']?([A-Za-z][\w-]*)["']?(?=[ \t]*(?:$|[;,}\n]|#|//|%))""", re.MULTILINE)
 _OPENING, _CLOSING = "[({", "])}"
 # As people type them: np.eye(3), numpy.identity(4), np.zeros(3), np.zeros((3, 1)), eye(3).
 _MADE = re.compile(r"(?:\w+\.)?(eye|identity|zeros)\(\s*\(?\s*(\d)\s*(?:,\s*(\d)\s*)?\)?\s*\)")
 
 
 def values_in(text: str) -> dict[str, Any]:
-    """Return the numbers, and lists of numbers, that a text assigns to names.
+    """Return the numbers, lists of numbers, and single words that a text assigns to names.
 
     If a name occurs twice, the last one counts. Raises LucidaError.
     """
@@ -58,6 +59,8 @@ def _value(name: str, text: str, start: int) -> tuple[Any, int]:
     elif plain := _PLAIN.match(text, place):
         numbers = [float(word) for word in re.findall(_NUMBER, plain[0], re.IGNORECASE)]
         value, place = (numbers if len(numbers) > 1 else numbers[0]), plain.end()
+    elif word := _TEXT.match(text, start):
+        return word[1], word.end()
     else:
         return None, start
     for _ in range(calls):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
@@ -33,7 +33,6 @@ from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.nerf_lens import (
     NAMES,
     PANORAMA,
-    check_lens,
     coefficients,
     is_panorama,
     lens_in,
@@ -41,6 +40,7 @@ from renderer.camera_formats.nerf_lens import (
 )
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole, pose_of
+from renderer.camera_formats.unused import entries_of, notes_on
 from renderer.errors import LucidaError
 from renderer.intrinsics import check_for_lens, pixel_offset, viewport_of
 
@@ -51,15 +51,42 @@ LENSES = nerf_lens.LENSES
 # All entries that determine a camera's optics, as opposed to its pose.
 _OPTICAL = {
     *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
-    *("camera_model", "is_fisheye", "rolling_shutter", "from_mitsuba"),
+    *("camera_model", "is_fisheye"),
     *NAMES,
+}
+_USED = {"frames", "transform_matrix", "file_path"}
+_HARMLESS = """
+aabb* renderaabb* *filename* *filepath* *path up camera*id cameralabel colmapimid rotation sharpness
+sharpen* *depth* *mask* *semantic* orientationoverride nextralearnabledims *transparent fixpremult
+wantimportance image*id *bounds near far time timestamp split
+"""
+_APPLIED = "it was applied to the poses, which are shown as they are in the file"
+_OF_PROGRAM = "the program's own units; the poses are shown as they are in the file"
+_MEANINGS = {
+    "applied*": _APPLIED,
+    "scale": _OF_PROGRAM,
+    "offset": _OF_PROGRAM,
+    "fisheyecropradius": "pixels outside of it are masked; the whole image's camera is shown",
+    "?fov": "degrees from edge to edge; fl_x or camera_angle_x is used",
+}
+# instant-ngp's lenses and axes that are not in camera_model; its equirectangular one is Lambert's.
+_REFUSED = {
+    "equirectangular": "is a lens that is not supported",
+    "orthographic": "is a lens that is not supported",
+    "fthetap*": "is an f-theta lens's",
+    "frommitsuba": "turns the axes of the poses",
+    "rollingshutter": "takes the rows of an image from different places",
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
 
 
 def recognises(given: Given) -> bool:
-    return isinstance(given.json, dict) and isinstance(given.json.get("frames"), list)
+    table = given.json
+    frames = table.get("frames") if isinstance(table, dict) else None
+    return isinstance(frames, list) and any(
+        isinstance(part, dict) and "transform_matrix" in part for part in (table, *frames)
+    )
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -74,7 +101,7 @@ def read(given: Given, options: Options) -> CameraSet:
     folder = given.path and given.path.parent
     size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
-    shared = {name: value for name, value in table.items() if _is_optical(name)}
+    shared = {name: value for name, value in table.items() if name in _OPTICAL}
     optics: dict[str, _Optics] = {}  # by all the values that determine them
     disagree = False
     cameras = []
@@ -83,7 +110,7 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
         try:
             pose = _pose({**table, **frame})
-            own = {name: value for name, value in frame.items() if _is_optical(name)}
+            own = {name: value for name, value in frame.items() if name in _OPTICAL}
             key = repr(own) if own else ""
             if key not in optics:
                 optical = {**shared, **own}
@@ -100,10 +127,9 @@ def read(given: Given, options: Options) -> CameraSet:
         told.append("transform_matrix is no rotation, and held as it is")
     if disagree:
         told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
-    if "applied_transform" in table:
-        told.append("applied_transform is not undone: the poses stand as they are in the file")
-    told += [sizing] if sizing else []
-    return CameraSet("nerf", tuple(cameras), tuple(told), sizing=sizing)
+    notes = notes_on(_unused(table, frames), _HARMLESS, _MEANINGS, _REFUSED)
+    notes = (sizing, *notes) if sizing else notes
+    return CameraSet("nerf", tuple(cameras), (*told, *notes), notes=notes)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -122,6 +148,14 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
     table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
     return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
+
+
+def _unused(table: Table, frames: Sequence[Table]) -> Iterator[tuple[str, Any]]:
+    """Yield the values that are not used, of the file and of its frames."""
+    for part in (table, *frames):
+        for name, value in part.items():
+            if name not in _USED | _OPTICAL:
+                yield from entries_of({name: value})
 
 
 def _size_for_all(
@@ -162,10 +196,6 @@ def _image(name: object, folder: Path | None) -> str:
         return ""
     path = (folder or Path()) / PurePosixPath(name.replace("\\", "/"))
     return str(path if _ENDING.search(path.name) else path.with_name(f"{path.name}.png"))
-
-
-def _is_optical(name: str) -> bool:
-    return name in _OPTICAL or name.startswith("ftheta_p")
 
 
 def _pose(table: Table) -> list[Any]:
@@ -213,11 +243,6 @@ def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _
     table: optical entries only, so that frames with equal entries share their optics. size: for
     tables without one. Raises LucidaError.
     """
-    shutter = table.get("rolling_shutter")
-    if isinstance(shutter, list) and any(number_of("rolling_shutter", x) for x in shutter):
-        problem = "the rows of an image are taken from different places"
-        raise LucidaError("rolling_shutter", problem, "give a pose for each image")
-    check_lens(table)
     if "w" in table or "h" in table:
         for name in "wh":
             if name not in table:

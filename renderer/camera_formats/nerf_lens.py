@@ -19,8 +19,6 @@ from renderer.lenses import Lens
 Table = Mapping[str, Any]
 
 _PINHOLES = ("", "PERSPECTIVE", "PINHOLE", "SIMPLE_PINHOLE")
-# instant-ngp's names for projections that Lens does not have; its equirectangular one is Lambert's.
-_OTHER_LENSES = ("equirectangular", "orthographic")
 _BROWN = ("SIMPLE_RADIAL", "RADIAL", "OPENCV")
 _FISHEYES = ("OPENCV_FISHEYE", "FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE")
 # The coefficients of Lens by their names here.
@@ -34,25 +32,11 @@ _WRITTEN = {
     "equirectangular": PANORAMA,
 }
 LENSES = tuple(_WRITTEN)
-NAMES = (*_OPENCV, *_OTHER_LENSES, "latlong")
+NAMES = (*_OPENCV, "latlong")
 
 
 def is_panorama(table: Table) -> bool:
     return table.get("camera_model") == PANORAMA or bool(table.get("latlong"))
-
-
-def check_lens(table: Table) -> None:
-    """Raise LucidaError for instant-ngp's lenses and axes that are not in camera_model."""
-    for name in _OTHER_LENSES:
-        if table.get(name):
-            problem = "is a lens that is not supported"
-            raise LucidaError(name, problem, "give images of a pinhole camera")
-    for name in table:
-        if name.startswith("ftheta_p"):
-            raise LucidaError(name, "is an f-theta lens's", "give images of a pinhole camera")
-    if table.get("from_mitsuba"):
-        problem = "turns the axes of the poses"
-        raise LucidaError("from_mitsuba", problem, "give poses with y up, looking along -z")
 
 
 def lens_in(table: Table, options: Options) -> FileLens:

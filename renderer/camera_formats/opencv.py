@@ -8,9 +8,11 @@ Source: OpenCV's documentation, "Camera calibration and 3D reconstruction".
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats
@@ -27,7 +29,7 @@ from renderer.camera_formats.entries import (
 )
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.literals import NAME
-from renderer.camera_formats.opencv_keys import Keys, are_cameras, cameras_in, plain
+from renderer.camera_formats.opencv_keys import Keys, are_cameras, bare, cameras_in
 from renderer.camera_formats.opencv_lens import lens_in, lens_table
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import rigid
@@ -40,6 +42,7 @@ from renderer.camera_formats.storage import (
     to_json,
     to_yaml,
 )
+from renderer.camera_formats.unused import entries_of, numbers_in
 from renderer.errors import LucidaError
 from renderer.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
 from renderer.lenses import Lens
@@ -49,17 +52,20 @@ _FOCAL = ("fx", "fy", "cx", "cy")
 _NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
 # A matrix without a name in pasted text: its meaning is unknown.
 _NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
-_AGREE = 1e-4  # tolerance between R and rvec, if a file has both
+_AGREE = 1e-4  # tolerance between poses, if a file has several for a camera
+
+_NO_POSE = 1e-9  # a smaller pose is rounding
 
 _Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
-_AT_ORIGIN = [("", np.eye(4))]
+_Entry = tuple[str, Any] | None  # a key of the file, and its value
 
 
 def recognises(given: Given) -> bool:
     if len(given.data) > MOST_BYTES:
         return given.ending in (".yml", ".yaml")  # read() checks the size
     if isinstance(given.json, dict):
-        names = list(given.json)
+        entries = entries_of(given.json)
+        names = [name for name, x in entries if isinstance(x, dict) or numbers_in(x).size]
     elif given.is_text:
         if "<opencv_storage" in given.text or is_ini(given.text):
             return True
@@ -68,7 +74,7 @@ def recognises(given: Given) -> bool:
         names = _NAMED.findall(given.text)
     else:
         return False
-    return are_cameras({plain(name.rpartition(".")[2]) for name in names})
+    return are_cameras({bare(name.rpartition(".")[2]) for name in names})
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -80,40 +86,26 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
     """Return the cameras of a table with any of the names in opencv_keys.py. Raises LucidaError."""
     cameras: list[PosedCamera] = []
     taken: dict[str, None] = {}
-    sizing, pose = "", np.eye(4)
-    found = cameras_in(table)
+    notes: dict[str, None] = {}
+    pose = np.eye(4)
+    found, unused = cameras_in(table)
     for name, keys in found.items():
-        if "from previous" in keys:
-            previous, change = keys["from previous"]
-            pose = affine(previous, change) @ pose
-            keys = keys | {"from world": (previous, pose)}
-        own, told, sizing = _cameras(keys, options, origin, name if len(found) > 1 else "")
-        cameras += own
-        taken |= dict.fromkeys(told)
-    return CameraSet("opencv", tuple(cameras), tuple(taken), sizing=sizing)
-
-
-def _cameras(
-    keys: Keys, options: Options, origin: PixelOrigin, name: str
-) -> tuple[list[PosedCamera], list[str], str]:
-    """Return the cameras of one table, a camera for each of its poses; the conventions; and the
-    origin of the size in words.
-    """
-    K_name, K, projected = _intrinsics(keys)
-    size, sizing = _size(keys, K, options, origin)
-    poses, told = ([projected], f"K, R and t out of {K_name}") if projected else _poses(keys)
-    lens, ignored = lens_in(keys, options)
-    name = name or str(keys.get("name", ("", ""))[1] or "")
-    cameras = []
-    for called, pose in poses:
-        camera = _camera((K_name, K), (called, pose), size, origin, lens)
-        own = name if len(poses) == 1 else called
-        cameras.append(PosedCamera(camera, size, own, ignored=ignored))
-    taken = [told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]]
-    taken += [sizing] if sizing else []
-    if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
-        taken.append("R is no rotation, and held as it is")
-    return cameras, taken, sizing
+        lens, ignored = lens_in(keys, options)
+        intrinsics = _intrinsics(keys)
+        size, sizing = _size(keys, intrinsics[1], options, origin)
+        poses, told = _poses(keys, pose)
+        pose = poses[0][1]
+        name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
+        for called, pose_of_one in poses:
+            camera = _camera(intrinsics, (called, pose_of_one), size, origin, lens)
+            own = name if len(poses) == 1 else called
+            cameras.append(PosedCamera(camera, size, own, ignored=ignored))
+        taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
+        if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
+            taken["R is no rotation, and held as it is"] = None
+        notes |= dict.fromkeys([sizing] if sizing else [])
+    notes |= dict.fromkeys(unused)
+    return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -145,12 +137,12 @@ def _origin_told(given: Given) -> PixelOrigin:
     return "corner" if ORIGIN_TOLD["corner"] in given.text else "center"
 
 
-def _intrinsics(keys: Keys) -> tuple[str, Floats, _Pose | None]:
-    """Return the name of K, K itself, and the pose if both come from a projection matrix."""
+def _intrinsics(keys: Keys) -> tuple[str, Floats]:
+    """Return the name of K, and K itself."""
     if "K" in keys:
         name, value = keys["K"]
         numbers = flat(name, value, 9, 4)
-        return name, _focal(*numbers) if numbers.size == 4 else numbers.reshape(3, 3), None
+        return name, _focal(*numbers) if numbers.size == 4 else numbers.reshape(3, 3)
     if "fx" in keys:
         for part in _FOCAL:
             if part not in keys:
@@ -158,19 +150,23 @@ def _intrinsics(keys: Keys) -> tuple[str, Floats, _Pose | None]:
         K = _focal(*(number_of(*keys[part]) for part in _FOCAL))
         if "skew" in keys:
             K[0, 1] = number_of(*keys["skew"])
-        return keys["fx"][0], K, None
+        return keys["fx"][0], K
     if "P" in keys:
-        name, value = keys["P"]
-        P = flat(name, value, 12).reshape(3, 4)
-        with np.errstate(all="ignore"):
-            try:
-                inverse = np.linalg.inv(P[:, :3])
-            except np.linalg.LinAlgError:
-                raise LucidaError(name, "has no inverse", "give K [R | t]") from None
-            sign = np.sign(np.linalg.det(inverse))  # the sign of P is arbitrary
-            K, R, t = decomposed(sign * inverse, -inverse @ P[:, 3], "corner")
-        return name, K, (name, np.column_stack([R, t]))
+        return keys["P"][0], _projected(*keys["P"])[0]
     raise LucidaError("camera_matrix", "is missing", "give it, K, or fx, fy, cx and cy")
+
+
+def _projected(name: str, value: ArrayLike) -> tuple[Floats, Floats]:
+    """Return K and the pose of a projection matrix."""
+    P = flat(name, value, 12).reshape(3, 4)
+    with np.errstate(all="ignore"):
+        try:
+            inverse = np.linalg.inv(P[:, :3])
+        except np.linalg.LinAlgError:
+            raise LucidaError(name, "has no inverse", "give K [R | t]") from None
+        sign = np.sign(np.linalg.det(inverse))  # the sign of P is arbitrary
+        K, R, t = decomposed(sign * inverse, -inverse @ P[:, 3], "corner")
+    return K, _rigid(R, t)
 
 
 def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
@@ -200,26 +196,73 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
     return size, told
 
 
-def _poses(keys: Keys) -> tuple[list[_Pose], str]:
-    """Return the poses in a file, and their origin in words."""
-    if found := keys.get("from world"):
-        return [(found[0], affine(*found))], f"{found[0]} takes world points to the camera"
-    if found := keys.get("to world"):
-        pose = as_camera_from_world(affine(*found))
-        return [(found[0], pose)], f"{found[0]} takes the camera's points to the world"
+def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str]:
+    """Return the poses of a camera, and their origin in words.
+
+    previous: the pose of the camera before it. Raises LucidaError for two poses that disagree.
+    """
+    for role in ("from previous", "to previous"):
+        if found := keys.get(role):
+            change = affine(*found)
+            if role == "to previous":
+                change = as_camera_from_world(change)
+            return [(found[0], change @ previous)], f"{found[0]} places it at the camera before it"
+    poses = list(_single_poses(keys))
     if found := keys.get("views"):
         numbers = flat(*found)
         if not numbers.size or numbers.size % 6:
             problem = f"has {numbers.size} numbers"
             raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
+        if poses:
+            raise _disagreeing(poses[0][0], found[0])
         rows = numbers.reshape(-1, 6)
-        poses = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
-        return poses, f"{found[0]}: rvec and tvec of each picture of the calibration"
-    moved, turned, vector = keys.get("t"), keys.get("R"), keys.get("rvec")
-    if {"P", "K"} <= keys.keys() and not moved:  # ROS: R rotates into the rectified image
-        return _AT_ORIGIN, "no pose: the camera stands at the origin, not rectified"
-    if not (moved or turned or vector):
-        return _AT_ORIGIN, "no pose: the camera stands at the origin"
+        views = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
+        return views, f"{found[0]}: rvec and tvec of each picture of the calibration"
+    if not poses:
+        return [("", np.eye(4))], "no pose: the camera stands at the origin"
+    first, pose, told = poses[0]
+    for name, other, _ in poses[1:]:
+        if np.abs(other - pose).max() > _AGREE * max(1.0, np.abs(pose).max()):
+            raise _disagreeing(name, first)
+    return [(first, pose)], told
+
+
+def _disagreeing(name: str, other: str) -> LucidaError:
+    return LucidaError(name, f"is another pose than {other}", "give one of the two")
+
+
+def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
+    """Yield the name of each pose that a camera has, camera_from_world, and its origin in words."""
+    if found := keys.get("from world"):
+        yield found[0], affine(*found), f"{found[0]} takes world points to the camera"
+    if found := keys.get("to world"):
+        pose = as_camera_from_world(affine(*found))
+        yield found[0], pose, f"{found[0]} takes the camera's points to the world"
+    if {"R to world", "t to world"} & keys.keys():
+        what = "take the camera's points to the world"
+        name, pose, told = _parts(keys.get("R to world"), None, keys.get("t to world"), what)
+        yield name, as_camera_from_world(pose), told
+    turned, moved, rectified = keys.get("R"), keys.get("t"), keys.get("rectification")
+    has_K, in_pair = not {"K", "fx"}.isdisjoint(keys), np.eye(4)
+    if (found := keys.get("P")) and not (has_K and not numbers_in(found[1]).any()):
+        pose = _projected(*found)[1]
+        if has_K and not moved and np.allclose(pose[:3, :3], np.eye(3), rtol=0, atol=_AGREE):
+            # ROS: R rotates into the rectified image, which P is for.
+            in_pair, rectified, turned = pose, rectified or turned, None
+        else:
+            yield found[0], pose, f"K, R and t out of {found[0]}"
+    if rectified:
+        R = flat(*rectified, 9).reshape(3, 3)
+        in_pair = as_camera_from_world(_rigid(R, np.zeros(3))) @ in_pair
+    if not np.allclose(in_pair, np.eye(4), rtol=0, atol=_NO_POSE):
+        names = " and ".join(entry[0] for entry in (rectified, found) if entry)
+        yield names, in_pair, f"{names}: the world is the frame of the rectified images"
+    if turned or moved or "rvec" in keys:
+        yield _parts(turned, keys.get("rvec"), moved, "take world points to the camera")
+
+
+def _parts(turned: _Entry, vector: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
+    """Return the name, the matrix and the origin in words of a rotation and a translation."""
     R = np.eye(3)
     if turned:
         numbers = flat(*turned, 9, 3)
@@ -232,9 +275,8 @@ def _poses(keys: Keys) -> tuple[list[_Pose], str]:
         R = R if turned else other
     t = flat(*moved, 3) if moved else np.zeros(3)
     used = [entry[0] for entry in (turned or vector, moved) if entry]
-    told, name = " and ".join(used), used[0]
     lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"
-    return [(name, _rigid(R, t))], f"{told} take world points to the camera{lacking}"
+    return used[0], _rigid(R, t), f"{' and '.join(used)} {what}{lacking}"
 
 
 def _rigid(R: Floats, t: Floats) -> Floats:

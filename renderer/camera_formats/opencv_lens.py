@@ -10,7 +10,7 @@ import numpy as np
 from renderer.camera_formats import distortion
 from renderer.camera_formats.entries import flat, number_of
 from renderer.camera_formats.given import Options
-from renderer.camera_formats.opencv_keys import Keys, plain
+from renderer.camera_formats.opencv_keys import Keys, bare
 from renderer.camera_formats.storage import Table
 from renderer.errors import LucidaError
 from renderer.lenses import Lens
@@ -25,12 +25,13 @@ _MODELS = {
     **dict.fromkeys(["kannalabrandt", "kannalabrandt4", "kannalabrandt8"], "fisheye"),
     "fov": "fov",
 }
+_MODEL_ROLES = ("camera model", "lens model", "fisheye")
 _NAMES = {"fisheye": distortion.FISHEYE_NAMES, "fov": ("omega",)}
 
 
 def lens_in(keys: Keys, options: Options) -> distortion.FileLens:
     """Return the lens. Raises LucidaError."""
-    models = [_model(*keys[role]) for role in ("camera model", "lens model") if role in keys]
+    models = [_model(*keys[role]) for role in _MODEL_ROLES if role in keys]
     model = next(filter(None, models), "brown")
     if "mirror" in keys and number_of(*keys["mirror"]):
         name, value = keys["mirror"]
@@ -54,7 +55,7 @@ def _model(name: str, value: object) -> str:
     """Return a model of Lens; "" for a pinhole, perhaps with OpenCV's coefficients."""
     if isinstance(value, float) and value.is_integer():
         value = int(value)  # fisheye_model: 0.
-    if (found := _MODELS.get(plain(str(value)))) is None:
+    if (found := _MODELS.get(bare(str(value)))) is None:
         remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
         raise LucidaError(name, f"{value!r} is a lens that is not supported", remedy)
     return found

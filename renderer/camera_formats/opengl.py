@@ -1,14 +1,14 @@
 """OpenGL's cameras: a view and a projection matrix, for column vectors, row-major or column-major.
 
-The depth range is OpenGL's, -1 to 1. Source: Khronos, "OpenGL 3.3 core", Coordinate
-transformations.
+The range of depths is OpenGL's, -1 to 1, if the projection can have it.
+Source: Khronos, "OpenGL 3.3 core", Coordinate transformations.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from typing import Any, Literal
+from collections.abc import Mapping, Sequence
+from typing import Literal
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from renderer.camera_checks import Floats, Vector, listed
 from renderer.camera_formats.entries import in_image, single
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
+from renderer.camera_formats.unused import notes_on
 from renderer.errors import LucidaError
 from renderer.intrinsics import matrix
 from renderer.scene.reading import check_bytes
@@ -32,36 +33,44 @@ _OURS = ("camera_from_world", "clip_from_camera")
 _VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
 _CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_COMMENT = re.compile(r"(?:#|//)[^\n]*")
+_WORD = re.compile(r"\b[A-Za-z_]\w*")
+# A name, with the length of an array: "view[16] =", "view(" of one of the two, "model:".
+_ASSIGNED = re.compile(
+    rf"""\b(?!(?:elements|data|dtype)\b)(?:({"|".join((*_VIEW, *_CLIP))})\b["']?\s*"""
+    r"""(?:\[\s*\d*\s*\]\s*)?[=:(]|([A-Za-z_]\w*)["']?\s*(?:\[\s*\d*\s*\]\s*)?[=:])"""
+)
+# Other matrices that follow from the two, and the parts of a matrix in JSON.
+_HARMLESS = "*inverse *viewproj* *projview* *mvp vp pv normalmatrix *matrixworld"
+# Depths of the near and the far plane: OpenGL's; the same reversed; and both of other programs.
+_RANGES = ((-1, 1), (1, -1), (1, 0), (0, 1))
+_ENDLESS = 1e-7  # relative to near: float32's rounding of an infinite far
 _ORDERS: tuple[Order, Order] = ("column by column", "row by row")
 _EXACT = 1e-6  # relative to a matrix's largest number: what counts as 0
 
 
 def recognises(given: Given) -> bool:
-    if isinstance(given.json, dict):
-        found = [next((n for n in names if n in given.json), "") for names in (_VIEW, _CLIP)]
-        return all(found) and all(isinstance(given.json[name], list) for name in found)
     return len(given.data) <= MOST_BYTES and given.is_text and has_matrices(given.text)
 
 
 def has_matrices(text: str) -> bool:
     """Return True if a text assigns both matrices, or one that has Lucida's name."""
-    if any(_named(text, (name,)) for name in _OURS):
+    found = _assigned(text)
+    if not found.keys().isdisjoint(_OURS):
         return True
-    found = (_named(text, names) for names in (_VIEW, _CLIP))
-    return all(match and len(_numbers(text, match)) == 16 for match in found)
+    names = (next(filter(found.get, known), "") for known in (_VIEW, _CLIP))
+    return all(len(found.get(name, ())) == 16 for name in names)
 
 
 def read(given: Given, options: Options) -> CameraSet:
     check_bytes(len(given.data), MOST_BYTES, given.name)
-    if given.json is not None:
-        view, clip = _in_table(given.json, _VIEW), _in_table(given.json, _CLIP)
-        fitted = False
-    else:
-        view, clip = _in_text(given.text, _VIEW), _in_text(given.text, _CLIP)
-        fitted = FITTED in given.text or CHOSEN in given.text
-    names = (view[0], clip[0])
-    camera, taken = _camera(names, view[1], clip[1], fitted)
-    return CameraSet("opengl", (PosedCamera(camera, options.size),), taken)
+    found = _assigned(given.text)
+    (view_name, view), (clip_name, clip) = (_matrix(found, known) for known in (_VIEW, _CLIP))
+    names = (view_name, clip_name)
+    camera, taken = _camera(names, view, clip, FITTED in given.text or CHOSEN in given.text)
+    others = ((name, x) for name, x in found.items() if name not in names and len(x) == 16)
+    notes = notes_on(others, _HARMLESS, {})
+    return CameraSet("opengl", (PosedCamera(camera, options.size),), (*taken, *notes), notes=notes)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -97,38 +106,27 @@ def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _named(text: str, names: tuple[str, ...]) -> re.Match[str] | None:
-    """Return the match of the first of the names that is assigned, up to the start of its
-    numbers.
-    """
-    found = (re.search(rf"\b({n})\b\s*(?:\[\s*\d*\s*\]\s*)?[=:(]", text) for n in names)
-    return next((match for match in found if match), None)
+def _assigned(text: str) -> dict[str, list[float]]:
+    """Return up to 16 numbers after each name in JSON, Python, C and the like, before the next."""
+    text = _COMMENT.sub(" ", text)
+    places = list(_ASSIGNED.finditer(text))
+    ends = [*(place.start() for place in places[1:]), len(text)]
+    found: dict[str, list[float]] = {}
+    for place, end in zip(places, ends, strict=False):
+        rest = _WORD.sub(" ", text[place.end() : end].partition(";")[0])
+        numbers = [float(number) for number in _NUMBER.findall(rest)[:16]]
+        found.setdefault(place[1] or place[2], numbers)
+    return found
 
 
-def _numbers(text: str, found: re.Match[str]) -> list[str]:
-    """Return up to 16 numbers after a name, before the next name."""
-    rest = re.split(r"=|;", text[found.end() :], maxsplit=1)[0]
-    rest = re.sub(r"#[^\n]*|//[^\n]*|\b[A-Za-z_]\w*", " ", rest)
-    return _NUMBER.findall(rest)[:16]
-
-
-def _in_text(text: str, names: tuple[str, ...]) -> tuple[str, Floats]:
+def _matrix(found: Mapping[str, list[float]], names: tuple[str, ...]) -> tuple[str, Floats]:
     """Return the name that is present, and its numbers, four per row in the order of the text."""
-    found = _named(text, names)
-    if found is None:
+    name = next((name for name in names if name in found), None)
+    if name is None:
         raise LucidaError(names[0], "is missing", "copy both matrices")
-    name = found[1]
-    numbers = _numbers(text, found)
-    if len(numbers) < 16:
-        raise LucidaError(name, f"has {len(numbers)} numbers", "give 16")
-    return name, matrix(name, [float(number) for number in numbers], (16,)).reshape(4, 4)
-
-
-def _in_table(table: Any, names: tuple[str, ...]) -> tuple[str, Floats]:
-    found = next((name for name in names if name in table), None) if type(table) is dict else None
-    if found is None:
-        raise LucidaError(names[0], "is missing", "give both matrices")
-    return found, matrix(found, table[found], (4, 4), (16,)).reshape(4, 4)
+    if len(found[name]) < 16:
+        raise LucidaError(name, f"has {len(found[name])} numbers", "give 16")
+    return name, matrix(name, found[name], (16,)).reshape(4, 4)
 
 
 @np.errstate(all="ignore")  # Camera's own checks reject what overflows
@@ -163,9 +161,13 @@ def _camera(
     low, high = -half - middle, half - middle
     near = far = None
     if not clip[2, :2].any():
-        near, far = (None, None) if fitted else _clip_planes(clip, parallel)
+        if not fitted:
+            near, far, told = _clip_planes(names[1], clip, parallel)
+            taken += told
     else:
         taken.append("the projection's oblique near plane is left out")
+    if b < 0:
+        taken.append(f"{names[1]} mirrors the image top to bottom, as for Vulkan")
     u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
     viewport = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
     kind = "parallel" if parallel else "perspective"
@@ -198,15 +200,39 @@ def _last(table: Floats, order: Order) -> Floats:
     return table[:, 3] if order == "column by column" else table[3]
 
 
-def _clip_planes(clip: Floats, parallel: bool) -> tuple[float | None, float | None]:
-    if parallel:
-        near, far = (clip[2, 3] + 1) / clip[2, 2], (clip[2, 3] - 1) / clip[2, 2]
-    else:
-        near, far = clip[2, 3] / (clip[2, 2] - 1), clip[2, 3] / (clip[2, 2] + 1)
-    return (
-        float(near) if 0 < near < np.inf else None,
-        float(far) if 0 < far < np.inf else None,
-    )
+def _clip_planes(
+    name: str, clip: Floats, parallel: bool
+) -> tuple[float | None, float | None, list[str]]:
+    """Return near and far, None for one that does not clip, and in words the range of depths.
+
+    The range is the first in _RANGES with near before far. Raises LucidaError if there is none.
+    """
+    scale, shift = clip[2, 2:]
+    planes = []
+    for depths in _RANGES:
+        if parallel:
+            near, far = ((shift - depth) / scale for depth in depths)
+        else:  # inverses, since far may be infinite
+            nearest, farthest = ((depth + scale) / shift for depth in depths)
+            is_endless = abs(farthest) < _ENDLESS * nearest
+            near, far = 1 / nearest, np.inf if is_endless else 1 / farthest
+        if near < far and (parallel or near > 0):
+            planes.append((depths, float(near), float(far)))
+    if not planes:
+        problem = f"its third row {listed(clip[2])} has no near before far"
+        raise LucidaError(name, problem, "give depths from -1 to 1, or from 0 to 1")
+    depths, near, far = planes[0]
+    told = []
+    if name != _OURS[1]:
+        others = "".join(
+            f"; if to {other[0]} and {other[1]}, they are {n:g} and {f:g}"
+            for other, n, f in planes[1:]
+        )
+        sides = f"near = {near:g} and far = {far:g}"
+        told = [f"{name} takes {sides} to depths {depths[0]} and {depths[1]}{others}"]
+    if near <= 0:
+        told.append(f"{name} has near = {near:g}, behind the eye: nothing behind the eye is seen")
+    return near if near > 0 else None, far if 0 < far < np.inf else None, told
 
 
 def _vector(values: Floats) -> Vector:

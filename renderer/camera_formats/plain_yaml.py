@@ -9,6 +9,7 @@ from typing import Any
 
 import yaml
 
+from renderer.camera_formats.given import unique
 from renderer.errors import LucidaError
 
 # OpenCV's own YAML needs no space after a name: "key:2".
@@ -17,12 +18,11 @@ _DIRECTIVE = re.compile(r"\A%YAML[^\n]*\n?")  # OpenCV's "%YAML:1.0" is not a va
 
 
 def from_yaml(text: str) -> Any:
-    """Parse YAML. Of several documents, return the first that is not empty. Raises LucidaError."""
+    """Parse YAML of one document; empty ones are ignored. Raises LucidaError."""
     if _DIRECTIVE.match(text):
         text = _TIGHT.sub(r"\1: ", _DIRECTIVE.sub("\n", text))
     try:
-        documents = yaml.load_all(text, _PlainYaml)
-        return next((document for document in documents if document is not None), None)
+        documents = [part for part in yaml.load_all(text, _PlainYaml) if part is not None]
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
@@ -31,8 +31,14 @@ def from_yaml(text: str) -> Any:
         raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
+    except LucidaError:
+        raise
     except (ValueError, OverflowError):  # an impossible number or date
         raise LucidaError("", "holds a number that cannot be", "correct it") from None
+    if len(documents) > 1:
+        problem = f"holds {len(documents)} documents, separated by ---"
+        raise LucidaError("", problem, "give each camera a file of its own")
+    return documents[0] if documents else None
 
 
 class _PlainYaml(yaml.SafeLoader):
@@ -43,6 +49,10 @@ class _PlainYaml(yaml.SafeLoader):
             mark = self.peek_event().start_mark
             raise yaml.composer.ComposerError(None, None, "holds an alias (*)", mark)
         return super().compose_node(parent, index)
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
+        unique([(key.value, None) for key, _ in node.value if isinstance(key.value, str)])
+        return super().construct_mapping(node, deep)
 
 
 # 1e-05, which YAML 1.1 reads as text.

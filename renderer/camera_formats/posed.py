@@ -37,9 +37,9 @@ class CameraSet:
     """The cameras of a file, in its order.
 
     format: a name of FORMATS. taken: the conventions that were assumed, one phrase each ("integers
-    at the pixels' centres"). sizing: the phrase among them for the origin of the images' size, if
-    the file does not state it. points, point_colors: of a reconstruction, float64 (n, 3), and their
-    colours in sRGB, uint8 (n, 3).
+    at the pixels' centres"). points, point_colors: of a reconstruction, float64 (n, 3), and their
+    colours in sRGB, uint8 (n, 3). notes: the phrases among taken that commands report: on unused
+    keys, and on the origin of the images' size if the file does not state it.
     """
 
     format: str
@@ -47,7 +47,7 @@ class CameraSet:
     taken: tuple[str, ...] = ()
     points: NDArray[np.float64] | None = None
     point_colors: NDArray[np.uint8] | None = None
-    sizing: str = ""
+    notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         points = 0 if self.points is None else len(self.points)

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from renderer.camera_formats.given import Given, from_json
+from renderer.camera_formats.given import Given, from_json, unique
 from renderer.camera_formats.literals import values_in
 from renderer.errors import LucidaError
 from renderer.scene.reading import check_bytes
@@ -28,9 +28,8 @@ _YAML = re.compile(
 )
 _PYTHON = re.compile(r"\s*\{\s*'")  # a printed dictionary
 # ROS's .ini: names and numbers on lines below a name.
-_INI = re.compile(
-    r"^(width|height|camera matrix|distortion)[ \t]*\n((?:[ \t]*\n|[-+\d.eE \t]+\n)+)", re.MULTILINE
-)
+_INI = re.compile(r"^([a-z][a-z ]*)[ \t]*\n((?:[ \t]*\n|[-+\d.eE \t]+(?:\n|\Z))+)", re.MULTILINE)
+_INI_NAMES = {"projection": "projection_matrix"}
 
 
 def table_in(given: Given) -> Table:
@@ -38,8 +37,11 @@ def table_in(given: Given) -> Table:
     check_bytes(len(given.data), MOST_BYTES, given.name)
     text = given.text
     if is_ini(text):
-        table = {name: list(map(_word, words.split())) for name, words in _INI.findall(text)}
-        return {name: value[0] if len(value) == 1 else value for name, value in table.items()}
+        found = _INI.findall(text)
+        table = {_INI_NAMES.get(name, name): _words(words) for name, words in found}
+        if len(table) < len(found):
+            raise LucidaError("", "holds several cameras", "give each camera a file of its own")
+        return table
     if given.ending == ".json" or (text.lstrip()[:1] == "{" and not _PYTHON.match(text)):
         table = from_json(text)
     elif text.lstrip()[:1] == "<":
@@ -89,11 +91,13 @@ def _as_json(value: Any) -> Any:
 
 
 def _value(name: str, value: Any) -> Any:
-    """Return a matrix of sides and data as an array; any other value unchanged.
+    """Return a matrix of sides and data as an array, within tables too; other values unchanged.
 
     The sides are rows and cols, or the sizes of an array that has not two (OpenCV 5).
     """
-    if not (isinstance(value, dict) and "data" in value):
+    if isinstance(value, dict) and "data" not in value:
+        return {str(key): _value(f"{name}.{key}", part) for key, part in value.items()}
+    if not isinstance(value, dict):
         return value
     if value.keys() >= {"rows", "cols"}:
         sides, told = [value["rows"], value["cols"]], "{!r} rows and {!r} columns"
@@ -133,18 +137,21 @@ def _from_xml(text: str) -> Any:
     if root.tag != "opencv_storage":
         problem = f"is XML of another kind: {root.tag}"
         raise LucidaError("", problem, "give OpenCV's <opencv_storage>")
-    return {entry.tag: _of_element(entry) for entry in root}
+    return unique([(entry.tag, _of_element(entry)) for entry in root])
 
 
 def _of_element(element: ElementTree.Element) -> Any:
-    parts = {part.tag: (part.text or "").split() for part in element}
-    if not parts:
-        words = [_word(word) for word in (element.text or "").split()]
-        return words[0] if len(words) == 1 else words
-    return {
-        name: [_word(word) for word in words] if name == "data" else _word(" ".join(words))
-        for name, words in parts.items()
-    }
+    if not len(element):
+        return _words(element.text or "")
+    parts = [(part.tag, _of_element(part)) for part in element]
+    if parts[0][0] == "_":  # a sequence
+        return [value for _, value in parts]
+    return unique(parts)
+
+
+def _words(text: str) -> Any:
+    words = [_word(word) for word in text.split()]
+    return words[0] if len(words) == 1 else words
 
 
 def _word(word: str) -> Any:

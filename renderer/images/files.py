@@ -94,22 +94,12 @@ def write_picture(path: str | Path, shown: Bytes) -> None:
 
 
 def encode_array(array: NDArray, ending: str) -> bytes:
-    """Return the bytes of a file that holds an array, without any display transform or conversion.
+    """Return the bytes of a file that holds a picture, uint8 (height, width) or (height, width, 3).
 
-    .pbm and .png take bool (height, width); .pgm and .png uint8 (height, width); .ppm and .png
-    uint8 (height, width, 3); .pfm float32; .exr float16 or float32 (height, width, 3); .npy any.
-    Raises LucidaError if the format cannot hold the array.
+    ending: one of PICTURES that holds such an array.
     """
-    kind = (array.dtype.name, array.ndim)
-    if ending not in ENDINGS or (ending in HOLDS and kind not in HOLDS[ending]):
-        raise LucidaError(
-            "", f"{ending} cannot hold {kind[0]} of {kind[1]} dimensions", "choose another format"
-        )
     content = io.BytesIO()
-    if ending in DATA:
-        DATA[ending](content, array, "color")
-    else:
-        PICTURES[ending](content, array)
+    PICTURES[ending](content, array)
     return content.getvalue()
 
 
@@ -122,7 +112,7 @@ def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
 
 def _write_pbm(file: BinaryIO, gray: Bytes) -> None:
     """Write P4: one bit per pixel, 1 (black) if the gray is below half."""
-    white = gray if gray.dtype == np.bool_ else gray >= HALF
+    white = gray >= HALF
     file.write(b"P4\n%d %d\n" % (white.shape[1], white.shape[0]))
     file.write(np.packbits(~white, axis=1).data)
 
@@ -191,13 +181,3 @@ DATA: dict[str, Callable[[BinaryIO, NDArray, str], None]] = {
     ".npy": _write_npy,
 }
 ENDINGS = (*PICTURES, *DATA)
-
-# The arrays that encode_array() accepts: dtype and number of dimensions.
-HOLDS = {
-    ".png": {("bool", 2), ("uint8", 2), ("uint8", 3)},
-    ".ppm": {("uint8", 3)},
-    ".pgm": {("uint8", 2)},
-    ".pbm": {("bool", 2)},
-    ".pfm": {("float32", 2), ("float32", 3)},
-    ".exr": {("float16", 3), ("float32", 3)},
-}

@@ -15,7 +15,6 @@ from renderer.scene import framing, shapes
 from renderer.scene.cancelling import check_cancelled
 from renderer.scene.limits import (
     LIGHTS,
-    MADE_TRIANGLES,
     OBJECTS,
     TOML_BYTES,
     TRIANGLES,
@@ -184,25 +183,17 @@ class _Builder:
         models = (entry.file for entry in fields if isinstance(entry, ModelTable))
         check_inside(self._folder / file for file in models)
         # Counted before they are built: a few lines can make more than memory holds.
-        made = sum(map(made_triangles, fields))
-        _check_made(made)
-        stored = objects = 0
-        seen: set[str] = set()
+        triangles = sum(map(made_triangles, fields))
+        check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
+        objects = 0
         entries: list[FileEntry] = []
         for number, entry in enumerate(fields):
             check_cancelled()
             with under(f"objects[{number}]"):
                 material = self._material_of(entry.material)
                 if isinstance(entry, ModelTable):
-                    path = self._parts.path(entry.file)
-                    count = triangles_of(self._parts.model(entry.file, material).objects)
-                    if path in seen:
-                        made += count
-                    else:
-                        stored += count
-                    seen.add(path)
-            _check_made(made)
-            check_count(stored + made, TRIANGLES, "triangles", "objects", SPLIT)
+                    triangles += triangles_of(self._parts.model(entry.file, material).objects)
+            check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
             with under(f"objects[{number}]"):
                 was = known[number]
                 if was is None or was.material != material:
@@ -232,6 +223,8 @@ class _Builder:
             model = self._parts.model(fields.file, material)
             path, single_sided = self._parts.path(fields.file), fields.single_sided
             made, views, notes = model.objects, model.views, model.notes
+            if model.lights:
+                notes += (f"{path}: lights: not shown; a scene file has its own",)
             if is_textured(material):
                 check_mapped(fields, made)
         else:
@@ -289,15 +282,6 @@ class _Builder:
 
 def _place(table: MeshTable) -> tuple[Any, ...]:
     return table.translate, table.rotate_deg, table.scale
-
-
-def _check_made(triangles: int) -> None:
-    if triangles > MADE_TRIANGLES:
-        raise LucidaError(
-            "objects",
-            f"make {triangles} triangles of shapes and copies of models",
-            f"stay within {MADE_TRIANGLES}: fewer segments, sides or copies",
-        )
 
 
 def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:

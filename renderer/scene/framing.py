@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ LIGHTS = (
     DirectionalLight((0.5, -0.8, -0.6), (0.78, 0.77, 0.74)),  # the key, from the upper left
     DirectionalLight((-0.9, -0.1, -0.3), (0.2, 0.22, 0.26)),  # the fill, from the right
 )
+
+Floats = Sequence[float] | NDArray[np.float64]
 
 DIRECTION = (0.5, 0.35, 1.0)  # from the scene's centre to the eye: its front, from the right
 FOV_Y_DEG = 35.0
@@ -52,6 +54,16 @@ def framing_view(objects: Sequence[SceneObject]) -> View:
     needed = points @ w + MARGIN * across / math.tan(math.radians(FOV_Y_DEG) / 2)
     eye = center + max(float(needed.max()), 1.5 * radius) * w
     return View(Camera.look_at(eye, center, fov_y_deg=FOV_Y_DEG), fit=True)
+
+
+def median_distance(
+    objects: Iterable[SceneObject], point: Sequence[float] | NDArray[np.float64]
+) -> float:
+    """Return the median distance of the middles of objects from a point; 1 for none."""
+    boxes = (_outline(entry) for entry in objects if not entry.hidden)
+    middles = [(points.min(axis=0) + points.max(axis=0)) / 2 for points in boxes]
+    away = np.linalg.norm(np.subtract(middles, point), axis=-1)
+    return float(np.median(away)) or 1.0 if middles else 1.0
 
 
 def _outline(entry: SceneObject) -> NDArray[np.float64]:

@@ -6,8 +6,7 @@ Source: Khronos, glTF 2.0 Specification.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,51 +16,67 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.cancelling import check_cancelled
-from renderer.scene.gltf_cameras import camera_views
 from renderer.scene.gltf_file import (
+    MATERIALS,
+    READ,
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     TRIANGLE_STRIP,
+    Accessor,
     Gltf,
+    Node,
     OpenGltf,
     Primitive,
     entry_at,
 )
 from renderer.scene.gltf_materials import read_materials
-from renderer.scene.gltf_nodes import PlacedNode, placed_nodes
+from renderer.scene.gltf_nodes import PlacedNode, node_matrix, placed_nodes
 from renderer.scene.gltf_numbers import read_numbers, scaled, triangles_of, whole_numbers
-from renderer.scene.gltf_shared import (
-    TYPES,
-    Key,
-    check_size,
-    compacted,
-    same_primitives,
-)
-from renderer.scene.gltf_textures import coordinates_of, read_coordinates
+from renderer.scene.gltf_textures import read_coordinates
 from renderer.scene.images import ModelImages
-from renderer.scene.limits import OBJECTS
-from renderer.scene.model import Material, NamedView
+from renderer.scene.limits import OBJECTS, TRIANGLES
+from renderer.scene.model import Material
 from renderer.scene.parts import Part, linear_colors
+from renderer.scene.reading import check_count
+
+# The types of accessors that primitives may name.
+TYPES = {
+    "POSITION": ("VEC3",),
+    "NORMAL": ("VEC3",),
+    "COLOR_0": ("VEC3", "VEC4"),
+    "indices": ("SCALAR",),
+}
+INSTANCED = {"TRANSLATION": "VEC3", "ROTATION": "VEC4", "SCALE": "VEC3"}
 
 
 @dataclass(frozen=True, eq=False)
 class Instance:
-    """A primitive of a mesh at a node. matrix: world_from_object. material: its index, or None."""
+    """A primitive of a mesh at a node. matrix: world_from_object. field: of the primitive."""
 
-    primitive: Key
+    primitive: Primitive
+    name: str
+    mesh_name: str
+    matrix: NDArray[np.float64]
+    field: str
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedPart:
+    """What is drawn of an instance. Instances of the same numbers share their part."""
+
+    part: Part
     name: str
     matrix: NDArray[np.float64]
-    material: int | None
+    material: Material | None
 
 
 @dataclass(frozen=True, eq=False)
 class GltfContent:
-    """The instances, the parts and materials that they show, and the views of the cameras."""
+    """The instances; the tree and its placed nodes, for cameras and lights."""
 
-    instances: list[Instance]
-    parts: dict[Key, Part]
-    materials: dict[int, Material]
-    views: tuple[NamedView, ...]
+    parts: list[PlacedPart]
+    tree: Gltf
+    nodes: list[PlacedNode]
 
 
 def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfContent:
@@ -73,37 +88,36 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
     file = OpenGltf(path)
     tree = file.tree
     nodes = list(placed_nodes(tree))
-    instances = _instances(tree, nodes)
+    instances = _instances(file, nodes)
+    check_count(
+        sum(_triangles(tree, entry.primitive) for entry in instances), TRIANGLES, "triangles"
+    )
     if still := list(_not_moved(tree, nodes)):
         images.note(f"not shown: {', '.join(still)}", "shapes")
-    shown = [entry.primitive for entry in instances]
-    same = same_primitives(tree, shown, is_mapped)
-    keys = sorted(set(same.values()))
-    check_size(tree, shown, keys)
-    materials = read_materials(file, {entry.material for entry in instances}, images)
-    shared = Counter(tree.meshes[m].primitives[p].attributes["POSITION"] for m, p in keys)
-    users = [
-        (same[entry.primitive], materials[entry.material])
-        for entry in instances
-        if entry.material is not None
-    ]
-    single_sided = {key for key, material in users if material.single_sided}
-    cut_out = {key for key, material in users if material.cutout is not None}
-    parts = {}
-    for key in keys:
-        check_cancelled()
-        given = tree.meshes[key[0]].primitives[key[1]]
-        fields = _fields(file, given, f"meshes[{key[0]}].primitives[{key[1]}]")
-        colors = fields["vertex_colors"]
-        fields["vertex_colors"] = linear_colors(colors, linear=True)
-        fields["uv"] = _coordinates(file, given, images, is_mapped)
-        if shared[given.attributes["POSITION"]] > 1:
-            fields = compacted(fields)
-        if key in cut_out and _is_clear(colors):
-            images.note("the opacity of vertices cuts no holes", "materials")
-        parts[key] = Part(tree.meshes[key[0]].name, **fields, has_backs=key in single_sided)
-    shown_parts = {key: parts[first] for key, first in same.items()}
-    return GltfContent(instances, shown_parts, materials, camera_views(tree, nodes))
+    if left := [n for n in tree.extensions_used if n not in READ and not n.startswith(MATERIALS)]:
+        images.note(f"not read: {', '.join(left)}", "extensions")
+    materials = read_materials(file, {entry.primitive.material for entry in instances}, images)
+    parts: dict[Hashable, Part] = {}
+    placed = []
+    for entry in instances:
+        given = entry.primitive
+        material = None if given.material is None else materials[given.material]
+        has_backs = material is not None and material.single_sided
+        places = _coordinates_of(tree, given, is_mapped)
+        # A few bytes of JSON can show one buffer a thousand times: it is built once.
+        numbers = given.indices, *map(given.attributes.get, TYPES), places
+        key = given.mode, has_backs, *(_accessor(tree, number) for number in numbers)
+        if key not in parts:
+            check_cancelled()
+            fields = _fields(file, given, entry.field)
+            colors = fields["vertex_colors"]
+            if material is not None and material.cutout is not None and _is_clear(colors):
+                images.note("the opacity of vertices cuts no holes", "materials")
+            fields["vertex_colors"] = linear_colors(colors, linear=True)
+            fields["uv"] = _coordinates(file, places, images)
+            parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
+        placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
+    return GltfContent(placed, tree, nodes)
 
 
 def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
@@ -116,14 +130,15 @@ def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
         yield "animations"
 
 
-def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
+def _instances(file: OpenGltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
     """Return every triangle primitive at every node, depth first, in the file's order."""
-    instances: list[Instance] = []
+    tree, instances = file.tree, list[Instance]()
     for placed in nodes:
         number = placed.node.mesh
         if number is None:
             continue
         mesh = entry_at(tree.meshes, number, f"{placed.field}.mesh")
+        matrices = _matrices(file, placed)
         for k, primitive in enumerate(mesh.primitives):
             where = f"meshes[{number}].primitives[{k}]"
             if primitive.mode not in (TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN):
@@ -133,17 +148,54 @@ def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
             if primitive.material is not None:
                 entry_at(tree.materials, primitive.material, f"{where}.material")
             name = placed.node.name or mesh.name
-            instances.append(Instance((number, k), name, placed.matrix, primitive.material))
+            instances += [
+                Instance(primitive, name, mesh.name, matrix, where) for matrix in matrices
+            ]
         if len(instances) > OBJECTS:
             raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
     return instances
 
 
-def _coordinates(
-    file: OpenGltf, primitive: Primitive, images: ModelImages, is_mapped: bool
-) -> NDArray[Any] | None:
-    """Return the texture coordinates of a primitive's vertices; None if it needs or has none."""
-    number = coordinates_of(file.tree, primitive, is_mapped)
+def _matrices(file: OpenGltf, placed: PlacedNode) -> list[NDArray[np.float64]]:
+    """Return world_from_object of each instance of a node's mesh."""
+    if (given := placed.node.extensions.instancing) is None:
+        return [placed.matrix]
+    found = {}
+    for name, kind in INSTANCED.items():
+        if (number := given.attributes.get(name)) is not None:
+            numbers = read_numbers(file, number, (kind,), f"{placed.field}.{name}")
+            found[name.lower()] = scaled(numbers, file, number).tolist()
+    rows = (dict(zip(found, row, strict=True)) for row in zip(*found.values(), strict=False))
+    return [placed.matrix @ node_matrix(Node(**row)) for row in rows]
+
+
+def _accessor(tree: Gltf, number: int | None) -> Accessor | None:
+    return None if number is None else entry_at(tree.accessors, number, "accessors")
+
+
+def _triangles(tree: Gltf, primitive: Primitive) -> int:
+    """Return the number of triangles of a primitive, which has not been read."""
+    number = primitive.indices
+    corners = _accessor(tree, primitive.attributes["POSITION"] if number is None else number)
+    count = 0 if corners is None else corners.count
+    return count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
+
+
+def _coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
+    """Return the accessor of a primitive's texture coordinates, if its material has an image.
+
+    is_mapped: without an image, the accessor of its first coordinates.
+    """
+    name = "TEXCOORD_0" if is_mapped else ""
+    if primitive.material is not None:
+        pbr = tree.materials[primitive.material].pbr_metallic_roughness
+        if info := pbr.base_color_texture or pbr.metallic_roughness_texture:
+            name = info.attribute
+    return primitive.attributes.get(name)
+
+
+def _coordinates(file: OpenGltf, number: int | None, images: ModelImages) -> NDArray[Any] | None:
+    """Return texture coordinates; None if there are none, or they cannot be read."""
     try:
         return None if number is None else read_coordinates(file, number)
     except LucidaError as error:

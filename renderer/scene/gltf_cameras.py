@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 import numpy as np
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from renderer.camera import Camera
 from renderer.camera_checks import volume
 from renderer.errors import LucidaError, under
-from renderer.scene.gltf_file import Gltf, entry_at, invalid
+from renderer.scene.gltf_file import Gltf, Table, entry_at, invalid
 from renderer.scene.gltf_nodes import PlacedNode
 from renderer.scene.limits import VIEWS
 from renderer.scene.model import NamedView, View
@@ -28,21 +28,24 @@ UNCLIPPED = "lucida_unclipped"
 SKEWED = 1e-5  # a node's axes are skewed if the cosine between them is larger
 
 
-class PerspectiveFields(msgspec.Struct):
-    yfov: float
-    znear: float
-    zfar: float | None = None
-    aspect_ratio: float | None = msgspec.field(default=None, name="aspectRatio")
+Positive = Annotated[float, msgspec.Meta(gt=0)]
 
 
-class OrthographicFields(msgspec.Struct):
-    xmag: float
-    ymag: float
-    znear: float
-    zfar: float
+class PerspectiveFields(Table):
+    yfov: Annotated[float, msgspec.Meta(gt=0, lt=math.pi)]  # radians
+    znear: Positive
+    zfar: Positive | None = None
+    aspect_ratio: Positive | None = None
 
 
-class GltfCamera(msgspec.Struct):
+class OrthographicFields(Table):
+    xmag: Positive
+    ymag: Positive
+    znear: Annotated[float, msgspec.Meta(ge=0)]
+    zfar: Positive
+
+
+class GltfCamera(Table):
     type: str
     name: str = ""
     perspective: PerspectiveFields | None = None
@@ -82,12 +85,10 @@ def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ..
 
 def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
     """Return the camera of a node that has one. Raises LucidaError naming the field."""
-    number, cameras = placed.node.camera, tree.cameras
-    if not isinstance(number, int) or isinstance(number, bool) or number < 0:
-        problem = f"{number!r}"[:40] + " is not a camera's number"
-        raise LucidaError(f"{placed.field}.camera", problem, "export it again")
+    number = placed.node.camera
+    assert number is not None
+    given = entry_at(tree.cameras, number, f"{placed.field}.camera")
     field = f"cameras[{number}]"
-    given = entry_at(cameras if isinstance(cameras, list) else [], number, f"{placed.field}.camera")
     try:
         fields = msgspec.convert(given, GltfCamera)
     except msgspec.ValidationError as error:
@@ -103,37 +104,24 @@ def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
 def _lens(fields: GltfCamera) -> tuple[dict[str, Any], bool]:
     """Return the camera's fields except its pose, and True if the aspect ratio is the file's."""
     if fields.type == "perspective" and (seen := fields.perspective) is not None:
-        if not 0 < seen.yfov < math.pi:
-            problem = f"{seen.yfov:g} is not between 0 and pi"
-            raise LucidaError("perspective.yfov", problem, "give radians")
-        aspect = _positive("perspective.aspectRatio", seen.aspect_ratio)
-        half = (aspect or 1.0) / 2
+        half = (seen.aspect_ratio or 1.0) / 2
         lens: dict[str, Any] = {
             "distance": 0.5 / math.tan(seen.yfov / 2),
             "viewport": (-half, half, -0.5, 0.5),
-            "near": _positive("perspective.znear", seen.znear),
-            "far": _positive("perspective.zfar", seen.zfar),
+            "near": seen.znear,
+            "far": seen.zfar,
         }
-        return lens, aspect is not None
+        return lens, seen.aspect_ratio is not None
     if fields.type == "orthographic" and (box := fields.orthographic) is not None:
-        x, y = _positive("orthographic.xmag", box.xmag), _positive("orthographic.ymag", box.ymag)
-        assert x is not None and y is not None
         lens = {
-            "viewport": (-x, x, -y, y),
+            "viewport": (-box.xmag, box.xmag, -box.ymag, box.ymag),
             "projection": "parallel",
-            # 0 is the eye's own plane, where rays begin.
-            "near": _positive("orthographic.znear", box.znear or None),
-            "far": _positive("orthographic.zfar", box.zfar),
+            "near": box.znear or None,  # 0 is the eye's own plane, where rays begin
+            "far": box.zfar,
         }
         return lens, True
     problem = f"{fields.type[:20]!r} is neither perspective nor orthographic, or its numbers lack"
     raise LucidaError("type", problem, "export it again")
-
-
-def _positive(field: str, value: float | None) -> float | None:
-    if value is not None and not value > 0:
-        raise LucidaError(field, f"{value:g} is not above 0", "export it again")
-    return value
 
 
 def _unclipped(camera: Camera, extras: Any) -> Camera:

@@ -14,45 +14,68 @@ from typing import Annotated, Any
 
 import msgspec
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
+from renderer.scene.images import inner_path, shown
 from renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
-from renderer.scene.reading import check_bytes, read_file, size_text, size_texts
+from renderer.scene.reading import check_bytes, damaged, read_file, size_text
 
 Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
 
 TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN = 4, 5, 6
-COMPRESSED = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
+LIGHTS, INSTANCING = "KHR_lights_punctual", "EXT_mesh_gpu_instancing"
+READ = (TRANSFORM, WEBP, LIGHTS, INSTANCING, "KHR_mesh_quantization")
+MATERIALS = "KHR_materials_"  # these change no geometry: gltf_materials.py names what is not shown
 
 
-class Asset(msgspec.Struct, rename="camel"):
+class Table(msgspec.Struct, rename="camel"):
+    """A table of the tree. Fields that it does not name are ignored."""
+
+
+class Value(msgspec.Struct, rename="camel", frozen=True):
+    """A table that is a key, or a default."""
+
+
+class Asset(Table):
     version: str = "2.0"
-    min_version: str | None = None
 
 
-class Buffer(msgspec.Struct, rename="camel"):
+class Buffer(Table):
     byte_length: Count
     uri: str | None = None
 
 
-class BufferView(msgspec.Struct, rename="camel"):
+class BufferView(Table):
     buffer: Index
     byte_length: Count
     byte_offset: Count = 0
     byte_stride: Count | None = None
 
 
-class Accessor(msgspec.Struct, rename="camel"):
+class SparsePart(Value, frozen=True):
+    buffer_view: Index
+    byte_offset: Index = 0
+    component_type: int = 0  # of the indices
+
+
+class Sparse(Value, frozen=True):
+    count: Index
+    indices: SparsePart
+    values: SparsePart
+
+
+class Accessor(Value, frozen=True):
     component_type: int
     count: Count
     type: str
     buffer_view: Index | None = None
     byte_offset: Count = 0
     normalized: bool = False
-    sparse: Any = None
+    sparse: Sparse | None = None
 
 
-class Primitive(msgspec.Struct, rename="camel"):
+class Primitive(Table):
     attributes: dict[str, Index]
     indices: Index | None = None
     material: Index | None = None
@@ -60,20 +83,67 @@ class Primitive(msgspec.Struct, rename="camel"):
     targets: Any = None
 
 
-class GltfMesh(msgspec.Struct, rename="camel"):
+class GltfMesh(Table):
     primitives: list[Primitive]
     name: str = ""
 
 
-class Pbr(msgspec.Struct, rename="camel", frozen=True):
+class TextureTransform(Value, frozen=True):
+    offset: tuple[float, float] = (0.0, 0.0)
+    scale: tuple[float, float] = (1.0, 1.0)
+    rotation: float = 0.0
+    tex_coord: Index | None = None
+
+
+class TextureInfoExtensions(Value, frozen=True):
+    transform: TextureTransform = msgspec.field(default=TextureTransform(), name=TRANSFORM)
+
+
+class TextureInfo(Table):
+    index: Index
+    tex_coord: Index = 0
+    extensions: TextureInfoExtensions = TextureInfoExtensions()
+
+    @property
+    def attribute(self) -> str:
+        """Return the attribute that holds the texture coordinates."""
+        own = self.extensions.transform.tex_coord
+        return f"TEXCOORD_{self.tex_coord if own is None else own}"
+
+
+class Webp(Table):
+    source: Index
+
+
+class TextureExtensions(Value, frozen=True):
+    webp: Webp | None = msgspec.field(default=None, name=WEBP)
+
+
+class GltfTexture(Table):
+    source: Index | None = None
+    sampler: Index | None = None
+    extensions: TextureExtensions = TextureExtensions()
+
+
+class GltfImage(Table):
+    uri: str | None = None
+    buffer_view: Index | None = None
+
+
+class GltfSampler(Table):
+    wrap_s: int = 10497
+    wrap_t: int = 10497
+
+
+class Pbr(Value, frozen=True):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
-    base_color_texture: Any = None  # checked by gltf_textures.py
-    metallic_roughness_texture: Any = None
+    base_color_texture: TextureInfo | None = None
+    metallic_roughness_texture: TextureInfo | None = None
 
 
-class GltfMaterial(msgspec.Struct, rename="camel"):
+class GltfMaterial(Table):
     """Fields of type Any are not read: their presence is reported."""
 
     pbr_metallic_roughness: Pbr = Pbr()
@@ -82,37 +152,66 @@ class GltfMaterial(msgspec.Struct, rename="camel"):
     alpha_cutoff: float = 0.5
     normal_texture: Any = None
     occlusion_texture: Any = None
-    emissive_factor: Any = None
-    extensions: Any = None
+    emissive_factor: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    extensions: dict[str, Any] = {}
 
 
-class Node(msgspec.Struct, rename="camel"):
+class LightIndex(Table):
+    light: Index
+
+
+class Instancing(Table):
+    attributes: dict[str, Index]
+
+
+class NodeExtensions(Table):
+    light: LightIndex | None = msgspec.field(default=None, name=LIGHTS)
+    instancing: Instancing | None = msgspec.field(default=None, name=INSTANCING)
+
+
+class GltfLight(Table):
+    type: str
+    color: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    intensity: float = 1.0
+
+
+class Lights(Table):
+    lights: list[GltfLight] = []
+
+
+class GltfExtensions(Table):
+    punctual: Lights = msgspec.field(default_factory=Lights, name=LIGHTS)
+
+
+class Node(Table):
     name: str = ""
     mesh: Index | None = None
     children: list[Index] = []
-    matrix: list[float] | None = None
+    matrix: Annotated[list[float], msgspec.Meta(min_length=16, max_length=16)] | None = None
     translation: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
     skin: Any = None
-    camera: Any = None  # checked by gltf_cameras.py: no model is refused for its cameras
+    camera: Index | None = None
+    extensions: NodeExtensions = msgspec.field(default_factory=NodeExtensions)
 
 
-class GltfScene(msgspec.Struct, rename="camel"):
+class GltfScene(Table):
     nodes: list[Index] = []
 
 
-class GltfVersion(msgspec.Struct):
+class GltfVersion(Table):
     """Fields of every version. glTF 1.0 has tables for 2.0's lists, and may omit its version."""
 
     asset: Asset
 
 
-class Gltf(msgspec.Struct, rename="camel"):
-    """The parts of a glTF tree that become objects; all others are ignored."""
+class Gltf(GltfVersion):
+    """The parts of a glTF tree that become objects and cameras; all others are ignored."""
 
-    asset: Asset
     extensions_required: list[str] = []
+    extensions_used: list[str] = []
+    extensions: GltfExtensions = msgspec.field(default_factory=GltfExtensions)
     scene: Index = 0
     scenes: list[GltfScene] = []
     nodes: list[Node] = []
@@ -121,10 +220,10 @@ class Gltf(msgspec.Struct, rename="camel"):
     accessors: list[Accessor] = []
     buffer_views: list[BufferView] = []
     buffers: list[Buffer] = []
-    cameras: Any = None
-    textures: Any = None
-    images: Any = None
-    samplers: Any = None
+    cameras: list[Any] = []  # checked by gltf_cameras.py: no model is refused for its cameras
+    textures: list[GltfTexture] = []
+    images: list[GltfImage] = []
+    samplers: list[GltfSampler] = []
     animations: Any = None
 
 
@@ -147,14 +246,10 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
         raise invalid(error) from None
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
         raise damaged(f"is not glTF: {str(error)[:120]}") from None
-    least = tree.asset.min_version
-    if least is not None and least != "2.0":
-        problem = f"says that it needs glTF {least[:20]}"
-        raise LucidaError("asset.minVersion", problem, "export it as glTF 2.0")
     for name in tree.extensions_required:
-        if name in COMPRESSED:
-            remedy = "open it in Blender, say, and export it without compression"
-            raise LucidaError("", f"is compressed with {name}", remedy)
+        if name not in READ and not name.startswith(MATERIALS):
+            remedy = "open it in Blender, say, and export it without"
+            raise LucidaError("extensionsRequired", f"{name[:60]} is not read", remedy)
     return tree, binary
 
 
@@ -190,64 +285,51 @@ class OpenGltf:
         self.tree, self._binary = parse_gltf(read_file(path, BINARY_MODEL_BYTES), str(path))
         self._read: dict[int, bytes] = {}
 
-    def declared(self, number: int | None, field: str) -> BufferView:
-        """Return a buffer view as it is declared. field: what names it. Raises LucidaError."""
+    def view(self, number: int | None, field: str) -> tuple[memoryview, int | None]:
+        """Return the bytes of a buffer view, and its stride. field: what names it. Raises
+        LucidaError.
+        """
         if number is None:
             raise LucidaError(field, "has no bufferView", "export it uncompressed")
         view: BufferView = entry_at(self.tree.buffer_views, number, f"{field}.bufferView")
-        entry_at(self.tree.buffers, view.buffer, f"bufferViews[{number}].buffer")
-        return view
-
-    def view(self, number: int | None, field: str) -> memoryview:
-        """Return the bytes of a buffer view. Raises LucidaError."""
-        view = self.declared(number, field)
         if view.buffer not in self._read:
-            self._read[view.buffer] = self._buffer(view.buffer)
+            self._read[view.buffer] = self._buffer(view.buffer, f"bufferViews[{number}].buffer")
         data = self._read[view.buffer]
         end = view.byte_offset + view.byte_length
         if end > len(data):
             problem = f"ends behind its buffer of {len(data)} bytes"
             raise LucidaError(f"bufferViews[{number}]", problem, "export it again")
-        return memoryview(data)[view.byte_offset : end]
+        return memoryview(data)[view.byte_offset : end], view.byte_stride
 
-    def _buffer(self, number: int) -> bytes:
-        buffer, field = self.tree.buffers[number], f"buffers[{number}]"
+    def _buffer(self, number: int, named_by: str) -> bytes:
+        buffer, field = entry_at(self.tree.buffers, number, named_by), f"buffers[{number}]"
         if buffer.uri is not None:
-            data = self._resource(buffer.uri, f"{field}.uri")
+            data, _ = self.resource(buffer.uri, f"{field}.uri", BINARY_MODEL_BYTES)
         elif number or self._binary is None:
             raise LucidaError(field, "has no uri and no binary chunk", "export it again")
         else:
             data = self._binary
         if len(data) < buffer.byte_length:
-            declared, there = size_texts(buffer.byte_length, len(data))
-            problem = f"declares {declared} and has {there}"
+            problem = f"declares {buffer.byte_length:,} bytes and has {len(data):,}"
             raise LucidaError(field, problem, "it is cut off; export it again")
         return data
 
-    def _resource(self, uri: str, field: str) -> bytes:
-        """Return the bytes of a data URI, or of a file in the model's folder or below it."""
+    def resource(self, uri: str, field: str, most_bytes: int) -> tuple[bytes, Path | None]:
+        """Return the bytes of a data URI, or of a file in the model's folder or below it, and that
+        file. Raises LucidaError.
+        """
         if uri.startswith("data:"):
-            return from_base64(uri.partition(",")[2], field)
-        name, parsed = urllib.parse.unquote(uri), urllib.parse.urlsplit(uri)
-        folder = self.path.parent.resolve()
+            try:
+                return base64.b64decode(uri.partition(",")[2], validate=True), None
+            except (binascii.Error, ValueError):
+                raise LucidaError(field, "is not base64", "export it again") from None
+        name = urllib.parse.unquote(uri)
+        with under(field):
+            path = inner_path(name, self.path.parent)
         try:
-            is_inside = (folder / name).resolve().is_relative_to(folder)
-        except (OSError, ValueError):
-            is_inside = False
-        if parsed.scheme or parsed.netloc or not is_inside:
-            problem = f"{uri[:80]!r} is not in the model's folder"
-            raise LucidaError(field, problem, "put the file beside the model")
-        try:
-            return read_file(self.path.parent / name, BINARY_MODEL_BYTES)
+            return read_file(path, most_bytes), path.absolute()
         except LucidaError as error:
-            raise LucidaError(field, f"{uri[:80]!r} {error.problem}", error.remedy) from None
-
-
-def from_base64(text: str, field: str) -> bytes:
-    try:
-        return base64.b64decode(text, validate=True)
-    except (binascii.Error, ValueError):
-        raise LucidaError(field, "is not base64", "export it again") from None
+            raise LucidaError(field, f"{shown(name)} {error.problem}", error.remedy) from None
 
 
 def entry_at(entries: list[Any], number: int, field: str) -> Any:
@@ -265,8 +347,3 @@ def invalid(error: msgspec.ValidationError) -> LucidaError:
     return LucidaError(
         where.strip("`."), reason[:1].lower() + reason[1:].replace("`", ""), "export it again"
     )
-
-
-def damaged(problem: str) -> LucidaError:
-    """Return the error for a file that is not what its ending or its header says."""
-    return LucidaError("", problem, "it is cut off or of another kind; export it again")

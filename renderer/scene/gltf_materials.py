@@ -10,15 +10,18 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from renderer.scene.gltf_file import GltfMaterial, OpenGltf
+from renderer.scene.gltf_file import MATERIALS, GltfMaterial, OpenGltf
 from renderer.scene.gltf_textures import read_texture
 from renderer.scene.images import ModelImages
 from renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
 from renderer.scene.model import Color, Material
 from renderer.scene.texture import WHITE, Texture, placed_alike
 
-EXTENSION = "KHR_materials_"
-WORDS = {"clearcoat": "clear coat", "emissive_strength": "emission"}
+WORDS = {
+    "clearcoat": "clear coat",
+    "emissive_strength": "emission",
+    "unlit": "unlit colours, which are shaded",
+}
 
 
 def read_materials(
@@ -43,11 +46,10 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
         yield "normal maps"
     if given.occlusion_texture is not None:
         yield "occlusion"
-    factor = given.emissive_factor
-    if isinstance(factor, list) and any(factor):  # it multiplies the texture
+    if any(given.emissive_factor):  # it multiplies the texture
         yield "emission"
-    for name in given.extensions if isinstance(given.extensions, dict) else ():
-        word = name.removeprefix(EXTENSION)
+    for name in given.extensions:
+        word = name.removeprefix(MATERIALS)
         yield WORDS.get(word, word.replace("_", " ")[:40])
 
 
@@ -61,22 +63,22 @@ def _material(file: OpenGltf, given: GltfMaterial, images: ModelImages) -> Mater
         # The factor multiplies the opacity. More than all of it leaves nothing.
         cutout = min(given.alpha_cutoff / max(alpha, 1e-6), 1e6)
     single_sided = not given.double_sided
-    texture, attribute = None, ""
-    if pbr.base_color_texture is not None:
-        has_opacity = cutout is not None
-        read = read_texture(file, pbr.base_color_texture, images, has_opacity)
-        texture, attribute = read or (None, "")
+    texture, metal = None, None
+    if (base_map := pbr.base_color_texture) is not None:
+        texture = read_texture(file, base_map, images, cutout is not None)
     metalness, roughness = _factor(pbr.metallic_factor), _factor(pbr.roughness_factor)
-    metal = None
-    if pbr.metallic_roughness_texture is not None:
-        read = read_texture(file, pbr.metallic_roughness_texture, images)
-        if read is not None:
-            of_metal, its_attribute = read
+    if (metal_map := pbr.metallic_roughness_texture) is not None:
+        of_metal = read_texture(file, metal_map, images)
+        if of_metal is not None:
             metal = Metal(of_metal.texels, metalness, roughness, of_metal.file)
             metalness, roughness = metal.mean
-            if texture is None and pbr.base_color_texture is None:
+            if base_map is None:
                 texture = _white(of_metal)
-            elif its_attribute != attribute or not placed_alike(of_metal, texture or WHITE):
+            elif (
+                texture is None
+                or metal_map.attribute != base_map.attribute
+                or not placed_alike(of_metal, texture)
+            ):
                 images.note("a metal lies otherwise than its base colour; its mean is shown")
                 metal = None
     if metal is None and texture is not None and metalness > 0:

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene.gltf_file import Gltf, Node, entry_at
-from renderer.scene.limits import NODE_DEPTH
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +25,8 @@ class PlacedNode:
 
 
 def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
-    """Yield the nodes of the scene that have a mesh or a camera, depth first, in the file's order.
-    Raises LucidaError if they are not a tree.
+    """Yield the nodes of the scene that have a mesh, a camera or a light, depth first, in the
+    file's order. Raises LucidaError if they are not a tree.
     """
     if tree.scenes:
         roots = entry_at(tree.scenes, tree.scene, "scene").nodes
@@ -35,9 +34,9 @@ def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
         children = {child for node in tree.nodes for child in node.children}
         roots = [number for number in range(len(tree.nodes)) if number not in children]
     seen: set[int] = set()
-    stack = [(number, np.eye(4), 0) for number in reversed(roots)]
+    stack = [(number, np.eye(4)) for number in reversed(roots)]
     while stack:
-        number, parent, depth = stack.pop()
+        number, parent = stack.pop()
         field = f"nodes[{number}]"
         node = entry_at(tree.nodes, number, "nodes")
         if number in seen:
@@ -45,20 +44,16 @@ def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
                 field, "has two parents, or is its own ancestor", "give each node one parent"
             )
         seen.add(number)
-        if depth > NODE_DEPTH:
-            raise LucidaError(field, f"is deeper than {NODE_DEPTH} levels", "flatten the tree")
         with np.errstate(all="ignore"):
-            matrix = parent @ _node_matrix(node, field)
-        if node.mesh is not None or node.camera is not None:
+            matrix = parent @ node_matrix(node)
+        if (node.mesh, node.camera, node.extensions.light) != (None, None, None):
             yield PlacedNode(node, matrix, field)
-        stack += [(child, matrix, depth + 1) for child in reversed(node.children)]
+        stack += [(child, matrix) for child in reversed(node.children)]
 
 
-def _node_matrix(node: Node, field: str) -> NDArray[np.float64]:
+def node_matrix(node: Node) -> NDArray[np.float64]:
     """Return parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
     if node.matrix is not None:
-        if len(node.matrix) != 16:
-            raise LucidaError(f"{field}.matrix", "is not 16 numbers", "export it again")
         matrix = np.array(node.matrix).reshape(4, 4).T
         matrix[3] = 0, 0, 0, 1
         return matrix

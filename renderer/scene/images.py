@@ -101,7 +101,7 @@ def inner_path(name: str, folder: Path) -> Path:
         is_outside = True
     if is_outside:
         raise LucidaError(
-            "", f"{shown(name)} is not in the folder of what names it", "copy the image there"
+            "", f"{shown(name)} is not in the folder of what names it", "copy it there"
         )
     return folder / plain
 

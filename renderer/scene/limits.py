@@ -23,7 +23,4 @@ OBJECTS = 10_000  # of a scene, after the parts of its models are counted apart
 LIGHTS = 64
 VIEWS = 1000  # of a scene, which its models bring
 TRIANGLES = 20_000_000  # of a scene, instances counted as often as they appear
-MADE_TRIANGLES = 5_000_000  # of them, what a few bytes make: shapes, and copies of models' parts
-SHARED_BYTES = 64 << 20  # of a glTF file, that its accessors have in common
 SEGMENTS = 1024  # of a round shape, in one direction
-NODE_DEPTH = 1000  # of a glTF file's tree

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from renderer.errors import LucidaError
+from renderer.scene.files import read_scene_file
 from renderer.scene.model import Origin, Scene
 from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.noting import Noted, noting
@@ -34,13 +35,13 @@ def load_scene(source: str | Path) -> Scene:
     """
     path = path_of(source, "scene")
     if source in SCENE_NAMES:
-        return _from(str(source), _scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
+        return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
     if not str(source):
         raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
     ending = path.suffix.lower()
     if ending in SCENE_ENDINGS:
         with noting() as noted:
-            scene = _scene_file(path) if ending == ".toml" else model_scene(path)
+            scene = read_scene_file(path) if ending == ".toml" else model_scene(path)
         noted = {full_path(file): found for file, found in noted.items()}
         return _from(str(full_path(path)), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
@@ -59,12 +60,6 @@ def load_scene(source: str | Path) -> Scene:
         f"{guess}built-in scenes are {', '.join(BUILTIN_SCENES)}; files end in "
         + " ".join(SCENE_ENDINGS),
     )
-
-
-def _scene_file(path: Path) -> Scene:
-    from renderer.scene.files import read_scene_file  # here: model files need none of it
-
-    return read_scene_file(path)
 
 
 def _from(source: str, scene: Scene, files: Noted) -> Scene:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from renderer.camera_checks import LARGEST
+from renderer.camera_checks import number, numbers
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.metal import Metal, reflectances
@@ -23,13 +22,7 @@ _HEX = re.compile(r"#([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})")
 
 def vector(name: str, value: Iterable[float]) -> tuple[float, float, float]:
     """Return three finite numbers as a tuple. Raises LucidaError that names them."""
-    try:
-        x, y, z = (float(component) for component in value)
-    except (TypeError, ValueError):
-        raise LucidaError(name, f"{value!r} is not 3 numbers", "give e.g. [0, 1, 0]") from None
-    for component in (x, y, z):
-        if not math.isfinite(component) or abs(component) > LARGEST:
-            raise LucidaError(name, f"{component} is not a usable number", "give finite numbers")
+    x, y, z = numbers(name, value, 3)
     return x, y, z
 
 
@@ -44,11 +37,13 @@ def color(name: str, value: Iterable[float]) -> Color:
     return rgb
 
 
-def check_length(field: str, value: float, least: float, remedy: str) -> None:
-    """Raise LucidaError unless a length is from least to LARGEST."""
-    if not least <= value <= LARGEST:
-        wrong = f"is outside {least:g} to {LARGEST:g}" if value > 0 else "is not above 0"
-        raise LucidaError(field, f"{value:g} {wrong}", remedy)
+def length(field: str, value: float, least: float, remedy: str) -> float:
+    """Return a length of at least `least`. Raises LucidaError naming it."""
+    found = number(field, value)
+    if found < least:
+        wrong = f"is below {least:g}" if found > 0 else "is not above 0"
+        raise LucidaError(field, f"{found:g} {wrong}", remedy)
+    return found
 
 
 def parse_color(name: str, value: str | Iterable[float]) -> Color:
@@ -76,7 +71,8 @@ class Checker:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "diffuse", color("diffuse", self.diffuse))
-        check_length("size", self.size, 1e-6, "give a cell's side, e.g. 1")
+        size = length("size", self.size, 1e-6, "give a cell's side, e.g. 1")
+        object.__setattr__(self, "size", size)
 
 
 @dataclass(frozen=True)
@@ -109,6 +105,10 @@ class Material:
     def __post_init__(self) -> None:
         for name in ("diffuse", "specular"):
             object.__setattr__(self, name, color(name, getattr(self, name)))
+        object.__setattr__(self, "single_sided", bool(self.single_sided))
+        for name in ("shininess", "cutout"):
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, number(name, value))
         if not 1 <= self.shininess <= 1000:
             raise LucidaError(
                 "shininess", f"{self.shininess:g} is outside 1 to 1000", "give e.g. 50"

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera_checks import number
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.texture import packed_light
@@ -49,9 +50,10 @@ class Metal:
 
     def __post_init__(self) -> None:
         for name in ("metalness", "roughness"):
-            value = getattr(self, name)
-            if not 0 <= value <= 1:  # False for NaN too
+            value = number(name, getattr(self, name))
+            if not 0 <= value <= 1:
                 raise LucidaError(name, f"{value:g} is outside 0 to 1", "give e.g. 1")
+            object.__setattr__(self, name, value)
 
     @property
     def is_everywhere(self) -> bool:

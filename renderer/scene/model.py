@@ -24,7 +24,7 @@ from renderer.frame import DISPLAY
 from renderer.scene.material import BRIGHTEST as BRIGHTEST
 from renderer.scene.material import Checker as Checker
 from renderer.scene.material import Color as Color
-from renderer.scene.material import Material, check_length, color, vector
+from renderer.scene.material import Material, color, length, vector
 from renderer.scene.material import without_metal as without_metal
 from renderer.scene.noting import Noted
 from renderer.scene.texture import is_final
@@ -94,7 +94,8 @@ class Sphere:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "center", vector("center", self.center))
-        check_length("radius", self.radius, 1e-9, "give e.g. 1.0")
+        radius = length("radius", self.radius, 1e-9, "give e.g. 1.0")
+        object.__setattr__(self, "radius", radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,11 +154,16 @@ def _checked_transform(value: ArrayLike) -> NDArray[np.float64]:
     transform = _array("transform", value, np.float64, (4, 4))
     if not ((np.abs(transform) <= LARGEST).all() and (transform[3] == (0, 0, 0, 1)).all()):
         raise LucidaError("transform", "is too large, or not affine", "scale it down")
-    linear = transform[:3, :3]
-    lengths = np.linalg.norm(linear, axis=0)
-    if not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9):
+    if is_flat(transform[:3, :3]):
         raise LucidaError("transform", "is not invertible", "give scales other than 0")
     return transform
+
+
+def is_flat(linear: NDArray[np.float64]) -> bool:
+    """Return True if a matrix (3, 3) flattens what it is applied to."""
+    most = np.maximum(np.abs(linear).max(axis=0), 1e-300)  # so that no square leaves float64
+    lengths = most * np.linalg.norm(linear / most, axis=0)
+    return not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9)
 
 
 Shape = Sphere | Mesh
@@ -177,6 +183,7 @@ class SceneObject:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", _shown(self.name))
+        object.__setattr__(self, "hidden", bool(self.hidden))
         image = self.material.image
         if image is not None and image.rotate_deg and isinstance(self.shape, Sphere):
             problem = "turns its texture, which a sphere cannot show"
@@ -202,14 +209,27 @@ class View:
         default=None, compare=False, repr=False
     )
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "fit", bool(self.fit))
+
     @property
     def own_size(self) -> tuple[int, int] | None:
         """Return the size of the image that this very camera was given for, if there is one."""
         return self.given[1] if self.given is not None and self.given[0] == self.camera else None
 
     def for_size(self, size: tuple[int, int]) -> Camera:
-        """Return the camera that draws an image of (width, height)."""
-        return self.camera.fitted(size) if self.fit else self.camera
+        """Return the camera that draws an image of (width, height).
+
+        The pixels of a camera that was given for an image of its own keep their shape.
+        """
+        if self.fit:
+            return self.camera.fitted(size)
+        own = None if self.given is None else self.given[1]
+        if self.given is None or own is None or own == size:
+            return self.camera
+        left, right, bottom, top = self.given[0].viewport
+        wide = (right - left) / own[0] * own[1] / (top - bottom)  # a pixel's width over its height
+        return self.camera.fitted((wide * size[0], size[1]))
 
 
 @dataclass(frozen=True)

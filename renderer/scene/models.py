@@ -11,33 +11,42 @@ from pathlib import Path
 import numpy as np
 
 from renderer.errors import LucidaError, under
-from renderer.scene import framing
+from renderer.scene import framing, shapes
 from renderer.scene.cancelling import check_cancelled, during
+from renderer.scene.gltf import PlacedPart, read_gltf
+from renderer.scene.gltf_cameras import camera_views
+from renderer.scene.gltf_lights import scene_lights
 from renderer.scene.images import ModelImages, shown
 from renderer.scene.limits import OBJECTS, TRIANGLES
 from renderer.scene.model import (
+    DirectionalLight,
     Material,
     Mesh,
     NamedView,
+    PointLight,
     Scene,
     SceneObject,
+    is_flat,
     triangles_of,
     without_metal,
 )
+from renderer.scene.obj import read_obj
 from renderer.scene.parts import Part, build_mesh
+from renderer.scene.readers import READERS
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 from renderer.scene.reading import check_count, naming
 
 
 @dataclass(frozen=True, eq=False)
 class ModelFile:
-    """views: the file's own cameras; only glTF has any. notes: what of its textures is not shown, a
+    """views, lights: the file's own; only glTF has any. notes: what of the file is not shown, a
     line each.
     """
 
     objects: tuple[SceneObject, ...]
     views: tuple[NamedView, ...] = ()
     notes: tuple[str, ...] = ()
+    lights: tuple[PointLight | DirectionalLight, ...] = ()
 
 
 Reader = Callable[[Path], ModelFile]
@@ -72,10 +81,14 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
     images = ModelImages()
     views: tuple[NamedView, ...] = ()
+    lights: tuple[PointLight | DirectionalLight, ...] = ()
     with naming(path):
         try:
             if ending in (".glb", ".gltf"):
-                objects, views = _gltf_content(path, images, is_mapped)
+                found = read_gltf(path, images, is_mapped)
+                objects = _gltf_objects(path, found.parts, images)
+                views = camera_views(found.tree, found.nodes)
+                lights = scene_lights(found.tree, found.nodes, objects, images)
             else:
                 objects = _objects(path, ending, images, is_mapped)
         except MemoryError:
@@ -84,7 +97,8 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
             raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
         check_count(len(objects), OBJECTS, "objects")
         check_count(triangles_of(objects), TRIANGLES, "triangles")
-    return ModelFile(tuple(objects), views, tuple(f"{path}: {note}" for note in images.notes))
+    notes = tuple(f"{path}: {note}" for note in images.notes)
+    return ModelFile(tuple(objects), views, notes, lights)
 
 
 _reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
@@ -92,14 +106,14 @@ _reader: ContextVar[Reader] = ContextVar("reader of models", default=read_model)
 
 def model_scene(path: str | Path) -> Scene:
     """Return a scene of one model file, with the default lights and a camera that shows all of it.
-    The file's own cameras are among its views.
+    The file's own cameras are among its views, and its own lights replace the default ones.
     """
     model = load_model(path)
     with naming(path):
         view = framing.framing_view([entry for entry in model.objects if not entry.hidden])
     return Scene(
         model.objects,
-        framing.LIGHTS,
+        model.lights or framing.LIGHTS,
         framing.AMBIENT,
         framing.BACKGROUND,
         view,
@@ -110,15 +124,7 @@ def model_scene(path: str | Path) -> Scene:
 
 
 def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> list[SceneObject]:
-    # Imported here: scenes without models need none of it.
-    if ending == ".obj":
-        from renderer.scene.obj import read_obj
-
-        parts = read_obj(path, images, is_mapped)
-    else:
-        from renderer.scene.readers import READERS
-
-        parts = READERS[ending](path)
+    parts = read_obj(path, images, is_mapped) if ending == ".obj" else READERS[ending](path, images)
     objects = []
     for part in parts:
         check_cancelled()
@@ -130,32 +136,33 @@ def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> l
     return objects
 
 
-def _gltf_content(
-    path: Path, images: ModelImages, is_mapped: bool
-) -> tuple[list[SceneObject], tuple[NamedView, ...]]:
-    from renderer.scene.gltf import read_gltf
-
-    file = read_gltf(path, images, is_mapped)
-    built: dict[int, Mesh | None] = {}  # primitives of the same numbers share their part
-    for part in file.parts.values():
-        check_cancelled()
-        if id(part) not in built:
-            built[id(part)] = build_mesh(part)
-    meshes = {key: built[id(part)] for key, part in file.parts.items()}
+def _gltf_objects(
+    path: Path, instances: list[PlacedPart], images: ModelImages
+) -> list[SceneObject]:
+    built: dict[int, Mesh | None] = {}
     objects = []
-    for instance in file.instances:
-        mesh = meshes[instance.primitive]
-        if mesh is None or _is_flat(instance.matrix):
+    for instance in instances:
+        part, matrix = instance.part, instance.matrix
+        if not matrix[:3, :3].any():  # by which files hide a node
+            continue
+        check_cancelled()
+        if is_flat(matrix[:3, :3]):
+            points = np.asarray(part.vertices, np.float64) @ matrix[:3, :3].T
+            mesh = build_mesh(replace(part, vertices=points, normals=None))
+            matrix = shapes.placement(matrix[:3, 3])
+        else:
+            if id(part) not in built:
+                built[id(part)] = build_mesh(part)
+            mesh = built[id(part)]
+        if mesh is None:
             continue
         name = instance.name or path.stem
-        given = None if instance.material is None else file.materials[instance.material]
-        material = given or _material(file.parts[instance.primitive])
-        material = _shown_on(mesh, material, name, images)
+        material = _shown_on(mesh, instance.material or _material(part), name, images)
         with under(f"node {name!r}"[:80]):
-            placed = mesh.placed(instance.matrix @ mesh.transform)
+            placed = mesh.placed(matrix @ mesh.transform)
         is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
         objects.append(SceneObject(placed, material, name, is_gone))
-    return objects, file.views
+    return objects
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:
@@ -164,11 +171,6 @@ def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) ->
         return material
     images.note(f"{shown(name)} has no texture coordinates; the plain colour is shown")
     return replace(without_metal(material), texture=None)
-
-
-def _is_flat(matrix: np.ndarray) -> bool:
-    """Return True for a scale of 0, by which files hide a node."""
-    return bool((np.abs(matrix[:3, :3]).max(axis=0) == 0).any())
 
 
 def _material(part: Part) -> Material:

@@ -20,6 +20,15 @@ _POWERS = 10.0 ** np.arange(23)  # and these powers of ten
 _NEWLINE, _PLUS, _MINUS, _DOT, _SLASH, _BLANK = 10, 43, 45, 46, 47, 32
 
 
+def is_number(word: str) -> bool:
+    """Return True if float() takes the word."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
 def words(text: bytes) -> tuple[Ints, Ints]:
     """Return where each word begins, and how many words each line has."""
     octets = np.frombuffer(text, np.uint8)
@@ -37,36 +46,31 @@ def floats(text: bytes, begins: Ints) -> NDArray[np.float64]:
     return _parsed(text, np.float64, len(begins)) if fixed is None else fixed
 
 
-def corners(text: bytes, begins: Ints) -> tuple[Ints, Ints | None, Ints | None]:
+def corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
     """Return the first, second and third whole number of words such as 7, 7/8, 7//9 and 7/8/9: 0 if
     a word lacks one, None if all do. Raises ValueError for any other word.
     """
     text = text.replace(b"//", b"/0/")
-    octets = np.frombuffer(text, np.uint8)
-    slashes = np.flatnonzero(octets == _SLASH)
-    if len(slashes):
-        begins, _ = words(text)
-    each = np.diff(np.searchsorted(slashes, np.append(begins, len(text))))
-    most = int(each.max(initial=0))
-    lone = _LONE_SIGN.search(text) if b"-" in text or b"+" in text else None  # 0 to fromstring()
-    apart = octets <= _BLANK
-    if lone or most > 2 or (apart[slashes - 1] | apart[slashes + 1]).any() or (each < most).any():
-        return _mixed_corners(text)
-    numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins) * (most + 1))
-    columns = [*numbers.reshape(-1, most + 1).T, None, None]
+    for blank in (b" ", b"\t", b"\n"):  # 7/ and 7/8/ are 7/0 and 7/8/0
+        text = text.replace(b"/" + blank, b"/0" + blank)
+    if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # 0 to fromstring()
+        raise ValueError("a sign without a number")
+    begins, _ = words(text)
+    slashes = np.flatnonzero(np.frombuffer(text, np.uint8) == _SLASH)
+    more = np.diff(np.searchsorted(slashes, np.append(begins, len(text))))
+    most = int(more.max(initial=0))
+    numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins) + len(slashes))
+    columns: list[Any] = [None, None, None]
+    if most > 2:
+        raise ValueError("too many numbers in a corner")
+    if (more == most).all():
+        columns[: most + 1] = numbers.reshape(-1, most + 1).T
+        return columns[0], columns[1], columns[2]
+    firsts = np.cumsum(more + 1) - more - 1
+    for k in range(most + 1):
+        columns[k] = np.zeros(len(begins), np.int64)
+        columns[k][more >= k] = numbers[firsts[more >= k] + k]
     return columns[0], columns[1], columns[2]
-
-
-def _mixed_corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
-    """Do the same for words that differ in what they have, one by one."""
-    rows = []
-    for word in text.split():
-        first, *others = word.split(b"/")
-        if len(others) > 2 or b"_" in word:
-            raise ValueError("too many numbers in a corner")
-        rows.append([int(first), *(int(k or b"0") for k in (*others, b"", b"")[:2])])
-    columns = [np.ascontiguousarray(column) for column in np.array(rows, np.int64).T]
-    return columns[0], *(c if c.any() else None for c in columns[1:])  # type: ignore[return-value]
 
 
 def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import re
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -12,10 +14,10 @@ from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
 from renderer.scene import numerals
-from renderer.scene.images import ModelImages
+from renderer.scene.images import ModelImages, inner_path, shown
 from renderer.scene.limits import OBJECTS
 from renderer.scene.model import Material
-from renderer.scene.mtl import Library, read_mtl
+from renderer.scene.mtl import MtlMaterial, read_mtl
 from renderer.scene.numerals import Ints
 from renderer.scene.obj_lines import Lines
 from renderer.scene.parts import Part, linear_colors, used_vertices
@@ -25,6 +27,7 @@ from renderer.scene.texts import read_text_bytes
 _CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")
 _VALUES = {"v": "a vertex", "vn": "a normal"}
 Floats = NDArray[np.float64]
+Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
 
 
 def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
@@ -46,14 +49,20 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
-    places, owner = triangulated(vertices[:, :3], columns[0], counts)
+    places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
     textured = [is_mapped or bool(material and material.texture) for _, _, material in named]
     coordinates = _coordinates(lines) if any(textured) else np.zeros((0, 0))
+    if corners[1] is not None and any(textured):
+        has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
+        named = list(_by_coordinates(named, has_uv, images))
+    if lines.has_curves:
+        images.note("not shown: lines, points and curves", "shapes")
     parts = []
-    for (name, which, material), is_textured in zip(named, textured, strict=True):
-        mine = corners if which is None else [a if a is None else a[which] for a in corners]
+    for name, which, material in named:
+        mine = [a if a is None else a[which] for a in corners]
+        is_textured = is_mapped or (material is not None and material.texture is not None)
         uvs = coordinates if is_textured else np.zeros((0, 0))
         source, faces, uv, normal = _merged(mine, len(uvs), len(normals))
         parts.append(
@@ -68,6 +77,24 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
             )
         )
     return parts
+
+
+def _by_coordinates(
+    named: list[Named], has_uv: NDArray[np.bool_], images: ModelImages
+) -> Iterator[Named]:
+    """Yield the parts, those apart that have no coordinates for their texture: in its material's
+    plain colour.
+    """
+    for name, which, material in named:
+        numbers = np.arange(len(has_uv))[which]
+        bare = numbers[~has_uv[numbers]]
+        if material is None or material.texture is None or not 0 < len(bare) < len(numbers):
+            yield name, which, material
+            continue
+        problem = f"{len(bare)} triangles of {shown(name)} have no texture coordinates"
+        images.note(f"{problem}; the plain colour is shown")
+        yield name, numbers[has_uv[numbers]], material
+        yield f"{name}_plain", bare, replace(material, texture=None)
 
 
 def _coordinates(lines: Lines) -> Floats:
@@ -99,9 +126,9 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     Indices count from 0; -1 means none, less an impossible one.
     """
     text = lines.of("f")
-    begins, counts = numerals.words(text)
+    _, counts = numerals.words(text)
     columns = []
-    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text, begins), strict=True):
+    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text), strict=True):
         if column is not None:
             # Negative ones count from the end of what was defined above their line.
             if column.min() < 0:
@@ -149,16 +176,17 @@ def _merged(
 
 def _named_parts(
     path: Path, lines: Lines, triangle_lines: Ints, images: ModelImages
-) -> list[tuple[str, Ints | None, Material | None]]:
-    """Return for each object and material a name, its triangles, None for all, and the material if
-    the file has it.
+) -> list[Named]:
+    """Return for each object and material a name, its triangles, and the material if the file has
+    it.
     """
     keys: dict[tuple[str, str], int] = {("", ""): 0}
     at, states = [-1], [0]
-    found = used = library = ""
+    found = used = ""
+    libraries = []
     for number, keyword, rest in lines.statements():
         if keyword == "mtllib":
-            library = library or rest
+            libraries.append(rest)
             continue
         found, used = (rest, used) if keyword == "o" else (found, " ".join(rest.split()))
         at.append(number)
@@ -166,34 +194,47 @@ def _named_parts(
     part = np.array(states)[np.searchsorted(np.array(at), triangle_lines) - 1]
     order = np.argsort(part, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(part[order])) + 1)
+    if len(groups) > OBJECTS:
+        images.note(f"more than {OBJECTS} objects are shown as one, in one colour", "shapes")
     if len(keys) == 1 or len(groups) > OBJECTS or not len(order):
-        return [(path.stem, None, None)]
+        return [(path.stem, slice(None), None)]
     groups.sort(key=lambda group: int(group[0]))
-    materials = _materials(path.parent, library) if library else Library({}, {}, path.parent)
+    materials = _materials(path.parent, libraries, images)
     all_keys = list(keys)
-    named: list[tuple[str, Ints | None, Material | None]] = []
+    named: list[Named] = []
     taken: dict[str, int] = {}
     for group in groups:
         found, used = all_keys[part[group[0]]]
-        name = "_".join(filter(None, (found, used if len(materials.plain) > 1 else "")))
+        name = "_".join(filter(None, (found, used if len(materials) > 1 else "")))
         name = name or "geometry"
         while name in taken:
             taken[name] += 1
             name = f"{name}_{taken[name]}"
         taken[name] = 0
-        named.append((name, group, materials.material(used, images)))
+        given = materials.get(used)
+        if used and materials and given is None:
+            problem = f"{shown(used)} is not in {', '.join(libraries)}; default colours are shown"
+            images.note(problem, "materials")
+        named.append((name, group, None if given is None else given.material(images)))
     return named
 
 
-def _materials(folder: Path, name: str) -> Library:
-    """Return the materials of an .mtl file in the folder of the .obj file; none if it cannot be
-    read.
+def _materials(folder: Path, libraries: list[str], images: ModelImages) -> dict[str, MtlMaterial]:
+    """Return the materials of the .mtl files in the folder of the .obj file, by name. The first
+    file that has a name defines it. Note the files that cannot be read.
+
+    libraries: what follows each mtllib: a name that may hold blanks, or several.
     """
-    with contextlib.suppress(LucidaError, OSError, ValueError):
-        path = (folder / name).resolve()
-        if path.is_relative_to(folder.resolve()):
-            return read_mtl(path)
-    return Library({}, {}, folder)
+    found: dict[str, MtlMaterial] = {}
+    for line in libraries:
+        several = any((folder / word).is_file() for word in line.split())
+        for name in line.split() if several else [line]:
+            try:
+                found = read_mtl(inner_path(name, folder)) | found
+            except LucidaError as error:
+                problem = f"{shown(name)} {error.problem}; default colours are shown"
+                images.note(problem, "materials")
+    return found
 
 
 def _blame_line(path: Path, lines: Lines) -> NoReturn:
@@ -205,7 +246,7 @@ def _blame_line(path: Path, lines: Lines) -> NoReturn:
         problem = ""
         if keyword in _VALUES:
             above += keyword == "v"
-            if (keyword == "v" and len(words) < 3) or not all(map(_is_number, words)):
+            if (keyword == "v" and len(words) < 3) or not all(map(numerals.is_number, words)):
                 problem = f"is not {_VALUES[keyword]}"
         elif keyword == "f":
             corners = [_CORNER.fullmatch(word) for word in words]
@@ -221,10 +262,3 @@ def _blame_line(path: Path, lines: Lines) -> NoReturn:
             where = f"line {number}"
             raise LucidaError(where, f"{line[:60]!r} {problem}", "repair the line", str(path))
     raise LucidaError("", "cannot be read as OBJ", "export it again, as triangles", str(path))
-
-
-def _is_number(word: str) -> bool:
-    with contextlib.suppress(ValueError):
-        float(word)
-        return True
-    return False

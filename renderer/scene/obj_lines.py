@@ -13,6 +13,7 @@ _COMMENT = re.compile(rb"#[^\n]*")
 _INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
 _BLANKS = np.frombuffer(b" \t", np.uint8)
 _STATEMENTS = ("o", "usemtl", "mtllib")
+_POINTS_AND_LINES = np.frombuffer(b"pl", np.uint8)
 _INITIALS = np.frombuffer(b"oum", np.uint8)
 
 
@@ -35,6 +36,9 @@ class Lines:
             "f": (first == ord("f")) & is_short,
         }
         self._numbers = {kind: np.flatnonzero(mask) for kind, mask in chosen.items()}
+        self.has_curves = bool(
+            (np.isin(first, _POINTS_AND_LINES) & is_short | (first == ord("c"))).any()
+        )
         self._others = np.flatnonzero(np.isin(first, _INITIALS))
         # Keywords become blanks: only numbers are left of these lines.
         for kind, numbers in self._numbers.items():

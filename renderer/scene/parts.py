@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
@@ -20,7 +20,7 @@ from renderer.scene.repairs import Repair, note_repair
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
 LARGEST_UV = 1e6  # times an image: float32 knows no place in it beyond that
-FAR = 64.0  # times its own size: farther from the file's origin than that, a mesh gets its own
+FAR = 16.0  # times its own size: farther from the file's origin than that, a mesh gets its own
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,15 +54,25 @@ def build_mesh(part: Part) -> Mesh | None:
     are float32, and a transform to its place. Raises LucidaError if a face uses a vertex that does
     not exist, or one that is NaN or infinite.
     """
-    vertices = _numbers(part.vertices).reshape(-1, 3)
-    faces = np.asarray(part.faces, np.int64).reshape(-1, 3)
-    vertex_colors = _attribute(part.vertex_colors, len(vertices))
-    face_colors = _attribute(part.face_colors, len(faces))
-    normals = _attribute(part.normals, len(vertices))
-    uv, lost_places = _coordinates(part.uv, len(vertices))
-    if not len(faces) or not len(vertices):
+    faces, count = np.asarray(part.faces, np.int64), len(part.vertices)
+    vertices = _rows(part.vertices, count, 3)
+    if not len(faces) or vertices is None or not count:
         return None
-    check_corners(faces.reshape(-1), len(vertices))
+    check_corners(faces.reshape(-1), count)
+    vertex_colors = _rows(part.vertex_colors, count, 3)
+    face_colors = _rows(part.face_colors, len(faces), 3)
+    normals = _rows(part.normals, count, 3)
+    uv, lost_places = _rows(part.uv, count, 2), 0
+    if count > 3 * len(faces):  # parts may share one list of vertices
+        source, faces = used_vertices(faces)
+        vertices = vertices[source]
+        vertex_colors, normals, uv = (
+            None if rows is None else rows[source] for rows in (vertex_colors, normals, uv)
+        )
+    if uv is not None:
+        usable = np.abs(uv) <= LARGEST_UV  # false for NaN too
+        lost_places = int(np.count_nonzero(~usable.all(axis=1)))
+        uv = np.where(usable, uv, 0.0).astype(np.float32)
     _check_used(vertices, faces)
     origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
@@ -104,58 +114,31 @@ def build_mesh(part: Part) -> Mesh | None:
     return Mesh(positions[source], faces.astype(np.int32), unit, colors, transform, uv)
 
 
-def linear_colors(colors: Any, linear: bool = False) -> NDArray[np.float32] | None:
+def linear_colors(colors: ArrayLike | None, linear: bool = False) -> NDArray[np.float32] | None:
     """Return colours of a file, (n, 3) or (n, 4) of any type, as linear light (n, 3).
 
     Whole numbers count up to their type's largest value, other numbers to 1. linear: the file's
-    colours are linear; otherwise they are sRGB. None if the value is no such array.
+    colours are linear; otherwise they are sRGB.
     """
     if colors is None:
         return None
-    array = np.asarray(colors)
-    if array.ndim != 2 or array.shape[1] not in (3, 4) or array.dtype.kind not in "uif":
-        return None
+    colors = np.asarray(colors)
     with np.errstate(all="ignore"):  # numbers that float32 does not hold
-        rgb = array[:, :3].astype(np.float32)
-    if array.dtype.kind in "ui":
-        rgb /= np.float32(255 if array.dtype.itemsize > 2 else np.iinfo(array.dtype).max)
+        rgb = colors[:, :3].astype(np.float32)
+    if colors.dtype.kind in "ui":
+        rgb /= np.float32(255 if colors.dtype.itemsize > 2 else np.iinfo(colors.dtype).max)
     elif not linear and (rgb > 1.5).any():  # written as 0 to 255 all the same
         rgb /= np.float32(255)
     rgb = np.nan_to_num(rgb, nan=0.0, posinf=BRIGHTEST, neginf=0.0)
     return np.clip(rgb, 0, BRIGHTEST) if linear else from_srgb(rgb)
 
 
-def _numbers(value: Any) -> NDArray[np.float64]:
-    """Return the value as an array, empty if it is none. NaN of any kind stays NaN, without a
-    warning.
-    """
-    try:
-        with np.errstate(invalid="ignore"):  # a signalling NaN
-            return np.asarray(value, np.float64)
-    except (TypeError, ValueError):
-        return np.zeros(0)
-
-
-def _attribute(value: Any, count: int) -> NDArray[Any] | None:
-    """Return rows of three numbers for `count` vertices or faces, or None."""
-    if value is None:
+def _rows(value: Any, count: int, width: int) -> NDArray[Any] | None:
+    """Return numbers (count, width); None if a file has others there, or none."""
+    if value is None or np.shape(value) != (count, width):
         return None
-    array = _numbers(value)
-    return array if array.shape == (count, 3) else None
-
-
-def _coordinates(value: Any, count: int) -> tuple[NDArray[np.float32] | None, int]:
-    """Return texture coordinates for `count` vertices, or None, and the number of unusable ones,
-    which become 0.
-    """
-    if value is None:
-        return None, 0
-    array = _numbers(value)
-    if array.shape != (count, 2):
-        return None, 0
-    usable = np.isfinite(array) & (np.abs(array) <= LARGEST_UV)
-    lost = int(np.count_nonzero(~usable.all(axis=1)))
-    return np.where(usable, array, 0.0).astype(np.float32), lost
+    with np.errstate(invalid="ignore"):  # a signalling NaN
+        return np.asarray(value, np.float64)
 
 
 def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:

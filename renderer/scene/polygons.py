@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import mapbox_earcut
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
+from renderer.scene.images import ModelImages
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -21,13 +24,17 @@ def check_corners(corners: Ints, count: int) -> None:
         raise LucidaError("faces", f"use vertex {wrong} of {count}", "export the model again")
 
 
-def triangulated(points: Floats, corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
+def triangulated(
+    points: Floats, corners: Ints, counts: Ints, images: ModelImages | None = None
+) -> tuple[Ints, Ints]:
     """Return (places, owner): triangles as places in `corners`, (t, 3), and their polygons, (t,).
 
     points: (n, 3). corners: the points of all polygons, one polygon after another. counts: the
     number of corners of each. A polygon becomes a fan around its first corner if none of the fan's
     triangles is turned over; otherwise ears are clipped in the polygon's plane, so that concave
     ones and holes that are joined to the border by an edge are right.
+
+    images: notes polygons that have no area or cross themselves.
     """
     if (counts == 3).all():
         return np.arange(3 * len(counts)).reshape(-1, 3), np.arange(len(counts))
@@ -48,16 +55,24 @@ def triangulated(points: Floats, corners: Ints, counts: Ints) -> tuple[Ints, Int
         area = np.add.reduceat(cross, ends - fan[large], axis=1)  # twice the polygon's
         along = (cross * np.repeat(area, fan[large], axis=1)).sum(axis=0)
         least = np.minimum.reduceat(along, ends - fan[large])
-        turned = least < -TURNED * (area * area).sum(axis=0)
+        squared = (area * area).sum(axis=0)
+        turned = least < -TURNED * squared
+        triangles = np.add.reduceat((cross * cross).sum(axis=0), ends - fan[large])
+        odd = large[squared <= TURNED**2 * triangles].tolist()
     replaced = np.zeros(len(counts), bool)
     found, owners = [], []
     for polygon, normal in zip(large[turned].tolist(), area.T[turned], strict=True):
         span = np.arange(starts[polygon], starts[polygon] + counts[polygon])
-        ears = _ears(points[corners[span]], normal)
+        ears, is_whole = _ears(points[corners[span]], normal)
+        if not is_whole:
+            odd.append(polygon)
         if len(ears):
             replaced[polygon] = True
             found.append(span[ears])
             owners.append(np.full(len(ears), polygon))
+    if odd and images is not None:
+        crossing = f"{len(odd)} polygons have no area or cross themselves"
+        images.note(f"{crossing}, the first is number {min(odd) + 1}", "shapes")
     if not found:
         return places, owner
     kept = ~replaced[owner]
@@ -67,14 +82,20 @@ def triangulated(points: Floats, corners: Ints, counts: Ints) -> tuple[Ints, Int
     return places[order], owner[order]
 
 
-def _ears(points: Floats, normal: Floats) -> Ints:
-    """Return the triangles (t, 3) of one polygon's corners, in its turn."""
+def _ears(points: Floats, normal: Floats) -> tuple[Ints, bool]:
+    """Return the triangles (t, 3) of one polygon's corners, in its turn, and True if they have its
+    area: it does not cross itself.
+
+    normal: twice the polygon's area long.
+    """
     axis = int(np.abs(normal).argmax())
     flat = np.delete(points - points[0], axis, axis=1)
     if not np.isfinite(flat).all():
-        return np.zeros((0, 3), np.int64)
+        return np.zeros((0, 3), np.int64), False
     ends = np.array([len(flat)], np.uint32)
     ears = mapbox_earcut.triangulate_float64(flat, ends).reshape(-1, 3).astype(np.int64)
     a, b, c = points[ears.T]
-    is_back = np.cross(b - a, c - a) @ normal < 0
-    return np.where(is_back[:, None], ears[:, ::-1], ears)
+    areas = np.cross(b - a, c - a)
+    is_back = areas @ normal < 0
+    is_whole = math.isclose(np.abs(areas[:, axis]).sum(), abs(normal[axis]), rel_tol=1e-6)
+    return np.where(is_back[:, None], ears[:, ::-1], ears), is_whole

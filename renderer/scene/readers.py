@@ -13,11 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.errors import LucidaError
+from renderer.scene.gltf_file import TRIANGLE_STRIP
+from renderer.scene.gltf_numbers import triangles_of
+from renderer.scene.images import ModelImages
 from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES, TRIANGLES
 from renderer.scene.numerals import floats, words
 from renderer.scene.parts import Part, linear_colors
 from renderer.scene.polygons import check_corners, triangulated
-from renderer.scene.reading import check_bytes, check_count, read_file, size_texts
+from renderer.scene.reading import check_bytes, check_count, damaged, read_file
 from renderer.scene.texts import read_text_bytes, tidy
 
 _SOLID = re.compile(rb"(?is)\n[ \t]*solid\b([^\n]*)(.*?)endsolid")
@@ -29,11 +32,20 @@ _PLY_TYPES = {
     "float": "f4", "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2",
     "int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8",
 }  # fmt: skip
+_PLY_LISTS = ("vertex_indices", "vertex_index")
+_COLORS = ("red", "green", "blue", "alpha")
+# By element, the properties that are read, and those that change no picture.
+_PLY_READ = {
+    "vertex": ("x", "y", "z", "nx", "ny", "nz", *_COLORS, "confidence", "intensity", "quality"),
+    "face": (*_PLY_LISTS, *_COLORS, "flags", "quality"),
+    "tristrips": _PLY_LISTS,
+}
+_PLY_TEXTURE = re.compile(r"(?m)^comment TextureFile (.*)$")
 Columns = dict[str, NDArray[Any]]
 
 
-def read_ply(path: Path) -> list[Part]:
-    """Return the mesh of a .ply file, text or binary. Edges and textures are not read."""
+def read_ply(path: Path, images: ModelImages) -> list[Part]:
+    """Return the mesh of a .ply file, text or binary. images: notes what is not read."""
     data = read_file(path, BINARY_MODEL_BYTES)
     end = _PLY_END.search(data[: 1 << 16])
     if not data.startswith(b"ply") or not end:
@@ -55,7 +67,14 @@ def read_ply(path: Path) -> list[Part]:
         is_whole = False
     if not is_whole:
         raise damaged("does not hold what its PLY header declares")
-    return [_ply_part(found, path.stem)]
+    not_read = [e.name for e in elements if e.rows and e.name not in _PLY_READ]
+    for element in elements:
+        names = [name for name, _, _ in element.properties]
+        not_read += [n for n in names if n not in _PLY_READ.get(element.name, names)]
+    not_read += _PLY_TEXTURE.findall(header)
+    if not_read:
+        images.note(f"not read: {', '.join(not_read)}", "PLY")
+    return [_ply_part(found, path.stem, images)]
 
 
 class _PlyElement(NamedTuple):
@@ -139,42 +158,61 @@ def _ragged_columns(
     return {name: np.concatenate(pieces) for name, pieces in found.items()}, at
 
 
-def _ply_part(found: dict[str, Columns], name: str) -> Part:
+def _ply_part(found: dict[str, Columns], name: str, images: ModelImages) -> Part:
     vertex, face = found.get("vertex", {}), found.get("face", {})
 
     def rows(columns: Columns, *names: str) -> NDArray[Any] | None:
         there = [columns[name] for name in names if name in columns]
         return np.column_stack(there) if len(there) >= 3 else None
 
+    def lists(columns: Columns) -> tuple[NDArray[Any], NDArray[Any]]:
+        for name in _PLY_LISTS:
+            if f"{name} count" in columns:
+                return columns[name], columns[f"{name} count"]
+        return np.zeros(0), np.zeros(0)
+
     points = rows(vertex, "x", "y", "z")
-    listed = next((n for n in ("vertex_index", "vertex_indices") if f"{n} count" in face), None)
-    if points is None or listed is None:
+    if points is None:
         return Part(name, np.zeros((0, 3)), np.zeros((0, 3), np.int64))
-    faces, owner = _faces(points, face[listed], face[f"{listed} count"])
-    colors = linear_colors(rows(face, "red", "green", "blue", "alpha"))
+    faces, owner = _faces(points, *lists(face), images)
+    colors = linear_colors(rows(face, *_COLORS))
+    if len(strips := _strips(*lists(found.get("tristrips", {})))):
+        check_corners(strips.reshape(-1), len(points))
+        faces, colors = np.concatenate([faces, strips]), None
     return Part(
         name,
         points,
         faces,
         rows(vertex, "nx", "ny", "nz"),
-        linear_colors(rows(vertex, "red", "green", "blue", "alpha")),
+        linear_colors(rows(vertex, *_COLORS)),
         None if colors is None else colors[owner],
     )
 
 
+def _strips(corners: NDArray[Any], counts: NDArray[Any]) -> NDArray[np.int64]:
+    """Return the triangles of strips, which end with their list or at -1."""
+    found = [np.zeros((0, 3), np.int64)]
+    for strip in np.split(corners.astype(np.int64), np.cumsum(counts[:-1]).astype(np.int64)):
+        for piece in np.split(strip, np.flatnonzero(strip == -1)):
+            found.append(triangles_of(piece[piece != -1], TRIANGLE_STRIP))
+    return np.concatenate(found)
+
+
 def _faces(
-    points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]
+    points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any], images: ModelImages
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return triangles of vertices, and the polygon of each."""
     with np.errstate(invalid="ignore"):
         corners = corners.astype(np.int64)
     check_corners(corners, len(points))
-    places, owner = triangulated(points.astype(np.float64), corners, counts.astype(np.int64))
+    places, owner = triangulated(
+        points.astype(np.float64), corners, counts.astype(np.int64), images
+    )
     return corners[places], owner
 
 
-def read_off(path: Path) -> list[Part]:
-    """Return the mesh of an .off file (text; colours are not read)."""
+def read_off(path: Path, images: ModelImages) -> list[Part]:
+    """Return the mesh of an .off file, a text. images: notes what is not read."""
     text = re.sub(rb"#[^\n]*", b"", read_text_bytes(path)).lstrip()
     kind = re.match(rb"(?i)([a-z0-9]*?)off", text)
     if kind is None:
@@ -202,17 +240,26 @@ def read_off(path: Path) -> list[Part]:
         corners = numbers[places + np.arange(len(places))]
     except (ValueError, IndexError, OverflowError):
         raise damaged("does not hold what its OFF header declares") from None
-    return [Part(path.stem, points, _faces(points, corners, counts)[0])]
+    if kind[1] or (rest_of_row > sides + 1).any():
+        images.note("not read: colours, normals and texture coordinates", "OFF")
+    return [Part(path.stem, points, _faces(points, corners, counts, images)[0])]
 
 
-def read_stl(path: Path) -> list[Part]:
-    """Return the solids of an .stl file, text or binary."""
+def read_stl(path: Path, images: ModelImages) -> list[Part]:
+    """Return the solids of an .stl file, text or binary. images: notes what is not read."""
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")
     solids: list[tuple[str, NDArray[Any]]] = []
-    if len(data) >= 84 and len(data) == 84 + 50 * triangles:
+    behind = len(data) - 84 - 50 * triangles
+    if len(data) >= 84 and (behind == 0 or behind > 0 < triangles):
         check_count(triangles, TRIANGLES, "triangles")
         facets = np.frombuffer(data, _FACET, triangles, 84)
+        if behind:
+            images.note(f"not read: {behind} bytes behind the triangles", "STL")
+        if facets["attribute"].any():
+            images.note(
+                "not read: attributes of triangles, which some programs use for colours", "STL"
+            )
         solids.append(("", facets["vertices"].reshape(-1, 3)))
     elif data.lstrip()[:5].lower() == b"solid":
         check_bytes(len(data), TEXT_MODEL_BYTES, "")
@@ -230,8 +277,8 @@ def read_stl(path: Path) -> list[Part]:
     elif len(data) < 84:
         raise damaged("is too short to be STL")
     else:
-        declared, there = size_texts(84 + 50 * triangles, len(data))
-        raise damaged(f"declares {triangles} triangles, {declared}, and has {there}")
+        declared = f"{triangles} triangles, {84 + 50 * triangles:,} bytes"
+        raise damaged(f"declares {declared}, and has {len(data):,} bytes")
     return [
         Part(name or path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))
         for name, points in solids
@@ -239,8 +286,3 @@ def read_stl(path: Path) -> list[Part]:
 
 
 READERS = {".ply": read_ply, ".stl": read_stl, ".off": read_off}
-
-
-def damaged(problem: str) -> LucidaError:
-    """Return the error for a file that is not what its ending or its header says."""
-    return LucidaError("", problem, "it is cut off or of another kind; export it again")

@@ -104,6 +104,11 @@ def _unreadable(path: Path, error: OSError | ValueError) -> LucidaError:
     return LucidaError("", problem, "check its name and rights", str(path))
 
 
+def damaged(problem: str) -> LucidaError:
+    """Return the error for a file that is not what its ending or its header says."""
+    return LucidaError("", problem, "it is cut off or of another kind; export it again")
+
+
 def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
     """Raise LucidaError if a file is too large for its kind."""
     if size_bytes > most_bytes:
@@ -183,12 +188,6 @@ def _neighbours(path: Path) -> str:
         0.75 if ending not in IMAGE_ENDINGS else 0.9,  # wall_normal.png is not wall_color.png
     )
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
-
-
-def size_texts(one_bytes: int, other_bytes: int) -> tuple[str, str]:
-    """Return two different sizes as text; to the byte if they would look alike."""
-    one, other = size_text(one_bytes), size_text(other_bytes)
-    return (one, other) if one != other else (f"{one_bytes:,} bytes", f"{other_bytes:,} bytes")
 
 
 def size_text(size_bytes: int) -> str:

@@ -7,8 +7,8 @@ directly above a header belong to it; all others stay where they are.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import re
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -19,15 +19,13 @@ from tomlkit.items import Item
 
 from renderer.errors import LucidaError
 from renderer.scene.model import Keys
+from renderer.scene.places import Path, Places
 from renderer.scene.tables import parse_toml
 from renderer.scene.toml_writing import entries, key_text, value_text
 
 LISTS = ("objects", "lights")
 MARK = "\ufeff"
 Tables = dict[str, Any]
-Path = tuple[str | int, ...]
-
-_HEADER = re.compile(r"[ \t]*\[.*\][ \t]*(?:#.*)?")
 
 
 class CommentsLostError(LucidaError):
@@ -108,7 +106,9 @@ class _Rewriting:
         below = self._below((name,))
         if old is not None and not below:
             with self._body(()) as body:
-                _change_list(body[name], old, new)
+                if "#" in body[name].as_string() and list(old) != list(new):
+                    raise LookupError("comments between tables that come or go")
+                _change(body, name, list(old.values()), list(new.values()))
             return
         place = self.sections.index(below[0]) if below else len(self.sections)
         for number, (key, table) in enumerate((old or {}).items()):
@@ -155,62 +155,24 @@ class _Rewriting:
 
 def _sections(text: str) -> Iterator[_Section]:
     """Yield the sections of a text; the first one, with the path (), is above all headers."""
-    path: Path = ()
-    counts = dict.fromkeys(LISTS, 0)
-    lead, lines = "", list[str]()
-    for line in [*text.splitlines(keepends=True), ""]:
-        header = _path(line, lines) if line else ()
-        if header is None:
-            lines.append(line)
-            continue
-        body = next((k for k in range(len(lines), 0, -1) if not _is_quiet(lines[k - 1])), 0)
-        end = len(lines)
-        while line and end > body and lines[end - 1].lstrip().startswith("#"):
+    lines = re.findall(".*\n|.+", text)
+    headers = [(1, ()), *Places(text).headers, (len(lines) + 1, ())]
+    lead, begin = "", 0
+    for (_, path), (after, _) in itertools.pairwise(headers):
+        end = after - 1  # of the section, of its keys
+        while end > begin and after <= len(lines) and lines[end - 1].lstrip().startswith("#"):
             end -= 1
-        rest = "".join(lines[body:end])
+        keys = next((k for k in range(end, begin, -1) if not _is_quiet(lines[k - 1])), begin)
+        body, rest = "".join(lines[begin:keys]), "".join(lines[keys:end])
         if not path and not body:  # keys come after the file's first comment
             lead, rest = rest, ""
-        yield _Section(path, lead, "".join(lines[:body]), rest)
-        if header and header[0] in LISTS:
-            counts[str(header[0])] += line.lstrip().startswith("[[")
-            header = (header[0], counts[str(header[0])] - 1, *header[1:])
-        path, lead, lines = header, "".join(lines[end:]) + line, []
-
-
-def _path(line: str, lines: list[str]) -> Path | None:
-    """Return the path of a header; None for another line. lines: the lines of its section so far,
-    which a line of a longer value does not end.
-    """
-    if not _HEADER.fullmatch(line.rstrip("\r\n")):
-        return None
-    found: list[str] = []
-    try:
-        tomllib.loads("".join(lines))
-        table: Any = tomllib.loads(line)
-    except tomllib.TOMLDecodeError:
-        return None
-    while table:
-        ((key, table),) = table.items()
-        table = table[0] if isinstance(table, list) else table
-        found.append(key)
-    return tuple(found)
+        yield _Section(path, lead, body, rest)
+        lead, begin = "".join(lines[end:after]), after
 
 
 def _is_quiet(line: str) -> bool:
     """Return True for a line that is blank or a comment."""
     return not line.strip() or line.lstrip().startswith("#")
-
-
-def _change_list(array: Any, old: dict[int, Tables], new: dict[int, Tables]) -> None:
-    """Change the tables of an array of tomlkit, by their keys."""
-    for number, key in reversed(list(enumerate(old))):
-        if key not in new:
-            del array[number]
-    for number, (key, table) in enumerate(new.items()):
-        if key not in old:
-            array.insert(number, _item(table))
-        elif old[key] != table:
-            _change(array, number, old[key], table)
 
 
 def _change(container: Any, key: Any, was: Any, now: Any) -> None:

@@ -7,8 +7,9 @@ model file alone, or made in Python, from its parts.
 from __future__ import annotations
 
 import contextlib
+import copy
 import os
-from collections.abc import Callable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -90,7 +91,7 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
     origin = scene.origin
     if origin is not None and origin.tables is not None:
         tables = {"name": scene.name, **relocated(origin.tables, origin.folder, folder)}
-        _check_images(tables)
+        _check_images(_file_fields(tables))
     else:
         tables = {
             "name": scene.name,
@@ -152,7 +153,7 @@ def material_table(material: Material, folder: Path) -> dict[str, Any]:
         table["cutout"] = material.cutout
     if material.single_sided:
         table["single_sided"] = True
-    _check_image(table, "")
+    _check_images(_images(table))
     return table
 
 
@@ -163,25 +164,34 @@ def _image_path(field: str, file: Path | None, folder: Path) -> str:
     return path_text(file, folder)
 
 
-def _check_images(tables: dict[str, Any]) -> None:
-    """Check that the images of a scene file's tables are below its folder: a file may name no
-    others.
+def _file_fields(tables: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
+    """Yield for each file that a scene file names its place, the table it is in, and its key
+    there. The place of a model is "".
     """
-    for key, table in tables.get("materials", {}).items():
-        _check_image(table, f"materials.{key}.")
-    for number, entry in enumerate(tables.get("objects", [])):
-        if isinstance(entry, dict):
-            _check_image(entry.get("material"), f"objects[{number}].material.")
+    materials = [(f"materials.{name}", m) for name, m in tables.get("materials", {}).items()]
+    for number, entry in enumerate(tables.get("objects", ())):
+        if "file" in entry:
+            yield "", entry, "file"
+        materials.append((f"objects[{number}].material", entry.get("material")))
+    for where, material in materials:
+        yield from _images(material, f"{where}.")
 
 
-def _check_image(material: Any, where: str) -> None:
+def _images(material: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any], str]]:
     for field in IMAGES if isinstance(material, dict) else ():
-        given = material.get(field)
-        name = given.get("file") if isinstance(given, dict) else given
-        if isinstance(name, str) and Path(name).is_absolute():
+        if isinstance(given := material.get(field), dict) and "file" in given:
+            yield f"{where}{field}", given, "file"
+        elif isinstance(given, str):
+            yield f"{where}{field}", material, field
+
+
+def _check_images(found: Iterable[tuple[str, dict[str, Any], str]]) -> None:
+    """Check that images are below the folder of their scene file, which may name no others."""
+    for field, table, key in found:
+        if field and Path(table[key]).is_absolute():
             raise LucidaError(
-                f"{where}{field}",
-                f"{Path(name).name!r} does not lie in the new file's folder",
+                field,
+                f"{Path(table[key]).name!r} does not lie in the new file's folder",
                 "save the scene where its images are",
             )
 
@@ -196,39 +206,13 @@ def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
 
 def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, Any]:
     """Return a scene file's tables with their paths relative to another folder, or absolute for
-    None. Paths that are the same there stay as they are written.
+    None.
     """
-    return tables if new == old else _renamed(tables, lambda name: path_text(old / name, new))
-
-
-def _renamed(tables: dict[str, Any], named: Callable[[str], str]) -> dict[str, Any]:
-    """Return a scene file's tables with other names for its files."""
-
-    def path(table: Any, field: str) -> Any:
-        if not isinstance(table, dict) or not isinstance(name := table.get(field), str):
-            return table
-        return {**table, field: named(name)}
-
-    def image(table: Any) -> Any:
-        for field in IMAGES:
-            if isinstance(table, dict) and isinstance(given := table.get(field), dict):
-                table = {**table, field: path(given, "file")}
-            else:
-                table = path(table, field)
-        return table
-
-    def objects(table: Any) -> Any:
-        table = path(table, "file")
-        if isinstance(table, dict) and isinstance(given := table.get("material"), dict):
-            moved = image(given)
-            return table if moved is given else {**table, "material": moved}
-        return table
-
-    found = dict(tables)
-    if isinstance(entries := tables.get("objects"), list):
-        found["objects"] = [objects(entry) for entry in entries]
-    if isinstance(materials := tables.get("materials"), dict):
-        found["materials"] = {name: image(table) for name, table in materials.items()}
+    if new == old:
+        return tables
+    found = copy.deepcopy(tables)
+    for _, table, key in _file_fields(found):
+        table[key] = path_text(old / table[key], new)
     return found
 
 

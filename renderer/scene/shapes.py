@@ -13,10 +13,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 from renderer.scene.limits import SEGMENTS
-from renderer.scene.model import Mesh, vector
+from renderer.scene.material import length, vector
+from renderer.scene.model import Mesh
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -228,13 +228,7 @@ def _exact(value: float) -> float:
 
 
 def _length(name: str, value: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
-        raise LucidaError(name, f"{value!r} is not a number", "give a length, e.g. 1.0")
-    if not 1e-9 <= float(value) <= LARGEST:
-        raise LucidaError(
-            name, f"{float(value):g} is outside 1e-9 to {LARGEST:g}", "give a length, e.g. 1.0"
-        )
-    return float(value)
+    return length(name, value, 1e-9, "give a length, e.g. 1.0")
 
 
 def _sides(name: str, value: float | Iterable[float]) -> tuple[float, float, float]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import stat
 import subprocess
 import threading
 from pathlib import Path
@@ -19,13 +18,9 @@ from renderer.scene.models import ModelFile, read_model
 from renderer.scene.noting import note, note_all, noting
 from renderer.scene.packing import read_value, write_value
 
-# From here on a process, which takes some 0.3 s to start, costs less than it brings. Text holds the
-# lock for some 15 ms a MiB, a frame of a window; numbers hardly hold it, and a process only makes
-# it possible to give them up.
-LARGE_TEXT_BYTES = 1 << 20
-LARGE_BINARY_BYTES = 8 << 20
-
-_SNIFFED_BYTES = 4096
+# From here on a process, which takes some 0.3 s to start, costs less than it brings: text holds the
+# lock for some 15 ms a MiB, a frame of a window.
+LARGE_BYTES = 1 << 20
 
 
 class CancelledError(Exception):
@@ -107,17 +102,12 @@ def is_large(path: Path) -> bool:
     elsewhere.
     """
     try:
-        status = path.stat()
-        if not stat.S_ISREG(status.st_mode):  # opening a pipe would wait
-            return False
-        size_bytes = status.st_size
+        size_bytes = path.stat().st_size
         if path.suffix.lower() == ".gltf":  # its numbers are in files next to it
             size_bytes += sum(file.stat().st_size for file in path.parent.glob("*.bin"))
-        with path.open("rb") as file:
-            is_text = b"\0" not in file.read(_SNIFFED_BYTES)
+        return path.is_file() and size_bytes >= LARGE_BYTES
     except (OSError, ValueError):
         return False
-    return size_bytes >= (LARGE_TEXT_BYTES if is_text else LARGE_BINARY_BYTES)
 
 
 def main(path: str) -> None:

@@ -17,19 +17,11 @@ def read_text_bytes(path: Path) -> bytes:
     """Return the tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for noise,
     which would be searched for lines for a long time.
     """
-    data = _as_utf8(read_file(path, TEXT_MODEL_BYTES))
+    data = read_file(path, TEXT_MODEL_BYTES)
     if b"\0" in data:
         problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
         raise LucidaError("", problem, remedy, str(path))
     return tidy(data)
-
-
-def _as_utf8(data: bytes) -> bytes:
-    """Return a text in UTF-16, recognised by its first two bytes, as UTF-8; others as they are."""
-    for mark, encoding in ((codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")):
-        if data.startswith(mark):
-            return data[2:].decode(encoding, "replace").encode()
-    return data
 
 
 def tidy(data: bytes) -> bytes:

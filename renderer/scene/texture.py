@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.camera_checks import number, numbers
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
 from renderer.scene.limits import TEXTURE_SIDE
@@ -71,9 +72,10 @@ class Texture:
                 raise LucidaError("wrap", f"{way!r} is unknown", f"give two of {', '.join(WRAPS)}")
         for name in ("scale", "offset"):
             object.__setattr__(self, name, _pair(name, getattr(self, name)))
-        if not abs(self.rotate_deg) <= LARGEST_SCALE:  # False for NaN too
-            problem = f"{self.rotate_deg:g} is not a usable number"
-            raise LucidaError("rotate_deg", problem, "give degrees, e.g. 90")
+        turn = number("rotate_deg", self.rotate_deg)
+        if abs(turn) > LARGEST_SCALE:
+            raise LucidaError("rotate_deg", f"{turn:g} is too large", "give degrees, e.g. 90")
+        object.__setattr__(self, "rotate_deg", turn)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -140,14 +142,9 @@ def packed_opacity(texels: NDArray[np.uint8], cutout: float) -> NDArray[np.int32
 
 
 def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:
-    try:
-        first, second = (float(number) for number in value)
-    except (TypeError, ValueError):
-        raise LucidaError(name, f"{value!r} is not 2 numbers", "give e.g. [4, 4]") from None
-    for number in (first, second):
-        if not math.isfinite(number) or abs(number) > LARGEST_SCALE:
-            problem = f"{number:g} is not a usable number"
-            raise LucidaError(name, problem, f"stay within {LARGEST_SCALE:g}")
+    first, second = numbers(name, value, 2)
+    if (largest := max(abs(first), abs(second))) > LARGEST_SCALE:
+        raise LucidaError(name, f"{largest:g} is too large", f"stay within {LARGEST_SCALE:g}")
     return first, second
 
 

@@ -61,11 +61,7 @@ def view_from_toml(text: str, source: str = "") -> View:
     """
     with naming(source):
         table: dict[str, Any] = to_struct(parse_toml(text), ViewFile).camera
-        if looks_at(table):
-            return view_from_table(table)
-        fields: CameraFields = to_struct(table, CameraFields, "camera")
-        with under("camera"):
-            return View(_camera(fields), bool(fields.fit))
+        return view_from_table(table, is_fitted=False)
 
 
 def transformed_view(view: View, matrix: Floats) -> View:
@@ -84,16 +80,18 @@ def looks_at(table: dict[str, Any]) -> bool:
     return not LOOK_AT.isdisjoint(table)
 
 
-def view_from_table(table: dict[str, Any]) -> View:
+def view_from_table(table: dict[str, Any], is_fitted: bool = True) -> View:
     """Return the view of a scene file's [camera]: a view file's fields, or eye and target.
 
-    It fits each image's aspect ratio unless it says `fit = false` or has a viewport.
+    It fits each image's aspect ratio unless it says `fit = false` or has a viewport; is_fitted:
+    False for a view file, whose fields say `fit = true` for that.
     """
     with under("camera"):
         if not looks_at(table):
             fields: CameraFields = to_struct(table, CameraFields)
-            fit = "viewport" not in table if fields.fit is None else fields.fit
-            return View(_camera(fields), fit)
+            fit = is_fitted and "viewport" not in table if fields.fit is None else fields.fit
+            plain = {name: getattr(fields, name) for name in _CAMERA}
+            return View(Camera(**plain, lens=_lens(fields.lens)), fit)
         for name in ("u", "v", "w", "viewport"):
             if name in table:
                 problem = "is given beside target, up, fov_y_deg or aspect"
@@ -110,11 +108,6 @@ def view_from_table(table: dict[str, Any]) -> View:
         )
         camera = replace(camera, near=look.near, far=look.far, lens=_lens(look.lens))
         return View(camera, look.fit is not False)
-
-
-def _camera(fields: CameraFields) -> Camera:
-    plain = {name: getattr(fields, name) for name in _CAMERA}
-    return Camera(**plain, lens=_lens(fields.lens))
 
 
 def _lens(table: dict[str, Any] | None) -> Lens | None:

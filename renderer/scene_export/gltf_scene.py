@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -39,8 +40,6 @@ from renderer.scene_export.materials import (
     light_strengths,
     mean_of_pattern,
     microfacets,
-    note_highlights,
-    note_texture,
     reflectance,
 )
 from renderer.scene_export.meshes import Triangles, arrays_of, unit_sphere, wound
@@ -70,7 +69,11 @@ def glb_of(scene: Scene, camera: Camera, size: Size) -> tuple[bytes, tuple[str, 
     if any(scene.ambient):
         left.add("ambient", "glTF has none")
     left.add("background", "glTF has none")
-    note_highlights(scene, left)
+    if any(any(entry.material.specular) for _, entry in scene.visible):
+        left.add(
+            "highlights",
+            "microfacets, as wide and as bright in the middle, stand for (n . h)^shininess",
+        )
     extensions = [name for name, there in ((LIGHTS, lights), (SPECULAR, scene.visible)) if there]
     tree: dict[str, Any] = {
         "asset": {
@@ -100,7 +103,8 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
     table = _material(material, is_mapped, name, left)
     if isinstance(shape, Sphere):
         left.add("spheres", f"glTF has triangles only; {2 * SPHERE_RINGS} x {SPHERE_RINGS} each")
-        note_texture(material, name, left)
+        if material.texture is not None:
+            left.add(f"texture of {name}", "no image was written; the mean of its colours was")
         place = np.diag([shape.radius] * 3 + [1.0])
         place[:3, 3] = shape.center
         primitive = made.primitive(unit_sphere, SPHERE_RINGS)
@@ -177,11 +181,11 @@ def _material(material: Material, is_mapped: bool, name: str, left: LeftOut) -> 
     pbr = {
         "baseColorFactor": [*color, 1.0],
         "metallicFactor": 0.0,
-        "roughnessFactor": 1.0 if found is None else math.sqrt(found.alpha),
+        "roughnessFactor": 1.0 if found is None else math.sqrt(found[0]),
     }
     specular: dict[str, Any] = {"specularFactor": 0.0}
     if found is not None:
-        specular = {"specularColorFactor": [part / DIELECTRIC for part in found.f0]}
+        specular = {"specularColorFactor": [part / DIELECTRIC for part in found[1]]}
     return {
         "pbrMetallicRoughness": pbr,
         **surface,
@@ -201,14 +205,19 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
     ]
     brightest = np.max(colors, axis=0)
     first, other = np.array(colors) / np.where(brightest > 0, brightest, 1)
-    file = io.BytesIO()
-    write_png(file, to_srgb8([[first, other], [other, first]]))
+    texels = to_srgb8([[first, other], [other, first]])
     return {
         "baseColorFactor": [*brightest.tolist(), 1.0],
-        "baseColorTexture": {
-            "index": made.texture(file.getvalue(), NEAREST, NEAREST, *[REPEAT] * 2)
-        },
+        "baseColorTexture": _picture(made, texels, NEAREST, (REPEAT, REPEAT)),
     }
+
+
+def _picture(
+    made: GlbTree, texels: NDArray[np.uint8], filtered: int, wraps: Iterable[int]
+) -> dict[str, int]:
+    file = io.BytesIO()
+    write_png(file, texels)
+    return {"index": made.texture(file.getvalue(), filtered, filtered, *wraps)}
 
 
 def _with_uv(found: Triangles, texture: Texture) -> Triangles:
@@ -224,19 +233,13 @@ def _textured(
 ) -> dict[str, Any]:
     numbers = {name: number for number, name in WRAP_NAMES.items()}
     wraps = [numbers[way] for way in texture.wrap]
-
-    def picture(texels: NDArray[np.uint8]) -> dict[str, int]:
-        file = io.BytesIO()
-        write_png(file, texels)
-        return {"index": made.texture(file.getvalue(), LINEAR, LINEAR, *wraps)}
-
     table: dict[str, Any] = {
         "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
-        "baseColorTexture": picture(texture.texels),
+        "baseColorTexture": _picture(made, texture.texels, LINEAR, wraps),
     }
     if (metal := material.metal) is not None:
         table |= {
-            "metallicRoughnessTexture": picture(metal.texels),
+            "metallicRoughnessTexture": _picture(made, metal.texels, LINEAR, wraps),
             "metallicFactor": metal.metalness,
             "roughnessFactor": metal.roughness,
         }

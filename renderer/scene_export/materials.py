@@ -8,13 +8,12 @@ Source: Karis 2013, "Specular BRDF reference"; Walter et al. 2007, "Microfacet m
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from renderer.errors import one_line
 from renderer.images.display import from_srgb
-from renderer.scene.flat import flatten
+from renderer.scene.framing import median_distance
 from renderer.scene.model import Color, Material, PointLight, Scene
 
 MOST_REFLECTED = 0.9  # of the light at normal incidence
@@ -35,23 +34,15 @@ class LeftOut:
         return tuple(self._lines)
 
 
-@dataclass(frozen=True)
-class Microfacets:
-    """A microfacet lobe. alpha: the roughness, root mean square slope. f0: the reflectance at
-    normal incidence, each 0 to 1.
+def microfacets(material: Material) -> tuple[float, Color] | None:
+    """Return the equivalent of the highlight; None for a material without one: the roughness alpha,
+    the root mean square slope, and the reflectance at normal incidence, each 0 to 1.
     """
-
-    alpha: float
-    f0: Color
-
-
-def microfacets(material: Material) -> Microfacets | None:
-    """Return the equivalent of the highlight; None for a material without one."""
     if not any(material.specular):
         return None
     squared = 2 / (material.shininess + 2)
     red, green, blue = (min(4 * squared * part, MOST_REFLECTED) for part in material.specular)
-    return Microfacets(math.sqrt(squared), (red, green, blue))
+    return math.sqrt(squared), (red, green, blue)
 
 
 def reflectance(color: Color, what: str, left: LeftOut) -> Color:
@@ -77,12 +68,6 @@ def mean_of_pattern(material: Material) -> Color:
     return red, green, blue
 
 
-def note_texture(material: Material, name: str, left: LeftOut) -> None:
-    """Note a texture that is lost on a sphere."""
-    if material.texture is not None:
-        left.add(f"texture of {name}", "no image was written; the mean of its colours was")
-
-
 def light_strengths(scene: Scene, left: LeftOut) -> list[Color]:
     """Return each light's strength in radiometric units, with which a diffuse surface is as bright
     as in Lucida.
@@ -90,18 +75,12 @@ def light_strengths(scene: Scene, left: LeftOut) -> list[Color]:
     It is the irradiance of a directional light, and the intensity of a point light. For a point
     light, the brightness is equal at the centre of an object at the median distance.
     """
-    flat = flatten(scene)
-    middles = np.ones((len(scene.objects), 4))
-    middles[:, :3] = flat.object_bounds.mean(axis=1)
-    places = np.einsum("nij,nj->ni", flat.world_from_object, middles)[:, :3]
-    places = places[[not entry.hidden for entry in scene.objects]]
     strengths = []
     for number, light in enumerate(scene.lights):
         factor = math.pi
         if isinstance(light, PointLight):
-            distances = np.linalg.norm(places - np.asarray(light.position), axis=1)
-            away = float(np.median(distances)) if len(distances) else 1.0
-            factor *= away**2 or 1.0
+            away = median_distance(scene.objects, light.position)
+            factor *= away**2
             left.add(
                 f"light {number}",
                 "its light falls off with the square of the distance there; it is as bright as "
@@ -110,11 +89,3 @@ def light_strengths(scene: Scene, left: LeftOut) -> list[Color]:
         red, green, blue = (factor * part for part in light.color)
         strengths.append((red, green, blue))
     return strengths
-
-
-def note_highlights(scene: Scene, left: LeftOut) -> None:
-    if any(any(entry.material.specular) for _, entry in scene.visible):
-        left.add(
-            "highlights",
-            "microfacets, as wide and as bright in the middle, stand for (n . h)^shininess",
-        )

@@ -35,7 +35,7 @@ def test_either_order_is_found_out(by_rows: bool, projection: str) -> None:
         text = listed(camera.camera_from_world, camera.clip_from_camera(0.5, 20), by_rows)
         found = pasted(text)
         assert found.format == "opengl"
-        assert found.taken == (f"view {order}", f"projection {order}")
+        assert found.taken[:2] == (f"view {order}", f"projection {order}")
         back = found.cameras[0].camera
         assert (back.near, back.far) == pytest.approx((0.5, 20))
         assert_same_pixels(camera, back, size)
@@ -44,7 +44,7 @@ def test_either_order_is_found_out(by_rows: bool, projection: str) -> None:
 def test_each_matrix_may_have_its_own_order() -> None:
     table = {"view_matrix": VIEW.ravel().tolist(), "projectionMatrix": CLIP.T.tolist()}
     found = pasted(json.dumps(table))
-    assert found.taken == ("view_matrix row by row", "projectionMatrix column by column")
+    assert found.taken[:2] == ("view_matrix row by row", "projectionMatrix column by column")
     assert_same_pixels(CAMERA, found.cameras[0].camera, SIZE)
     text = f"view_matrix = {table['view_matrix']}\nprojectionMatrix = {CLIP.T.ravel().tolist()}"
     assert pasted(text).taken == found.taken
@@ -54,7 +54,7 @@ def test_a_view_at_the_origin_without_a_translation_is_column_by_column() -> Non
     view, clip = np.eye(4), np.diag([1.0, 1.0, -1.0, 1.0])
     view[:3, :3] = [[0, 1, 0], [0, 0, 1], [1, 0, 0]]
     found = pasted(listed(view, clip, by_rows=False))
-    assert found.taken == ("view column by column", "projection column by column")
+    assert found.taken[:2] == ("view column by column", "projection column by column")
     assert found.cameras[0].camera.u == (0, 1, 0)
 
 
@@ -89,6 +89,40 @@ def test_of_a_fitted_camera_the_matrices_are_of_its_image() -> None:
     assert_same_pixels(CAMERA.fitted((100, 300)), pasted(text).cameras[0].camera, (100, 300))
 
 
+def third_row(parallel: bool, near_depth: float, far_depth: float, far: float | None) -> list:
+    """Return the third row of a projection with near = 0.1, and these depths of near and far."""
+    depths = np.array([[near_depth], [far_depth]])
+    planes = np.array([0.1, far or 1e15])
+    scale = np.column_stack([-planes, np.ones(2)]) / (1 if parallel else planes[:, None])
+    return [0, 0, *np.linalg.solve(scale, depths).ravel()]
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("far", [100.0, None])
+@pytest.mark.parametrize(("near_depth", "far_depth"), [(-1, 1), (1, 0), (1, -1), (0, 1)])
+def test_each_range_of_depths_is_read_or_named(
+    near_depth: int, far_depth: int, far: float | None, parallel: bool
+) -> None:
+    if parallel and far is None:
+        return
+    clip = CLIP.copy()
+    clip[3] = (0, 0, 0, 1) if parallel else clip[3]
+    clip[2] = third_row(parallel, near_depth, far_depth, far)
+    found = pasted(listed(VIEW, clip, by_rows=True))
+    camera, note = found.cameras[0].camera, found.taken[2]
+    certain = (near_depth, far_depth) in [(-1, 1), (1, -1), *([] if parallel else [(1, 0)])]
+    if certain:
+        assert (camera.near, camera.far) == (pytest.approx(0.1), far and pytest.approx(far))
+    else:  # no matrix tells these two from OpenGL's
+        assert f"to {near_depth} and {far_depth}, they are 0.1 and {far or np.inf:g}" in note
+    assert "to depths" in note
+
+
+def test_a_projection_upside_down_is_told() -> None:
+    clip = CLIP * np.array([[1], [-1], [1], [1]])
+    assert any("as for Vulkan" in phrase for phrase in pasted(listed(VIEW, clip, True)).taken)
+
+
 def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
     tables = {"view": VIEW.tolist(), "projection": CLIP.tolist()}
     tables["projection" if clip else "view"][place[0]][place[1]] = number
@@ -103,9 +137,10 @@ def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
         (changed((0, 0), 1e308), "view: has the number"),
         (changed((3, 2), 1, clip=True), "projection: is no projection"),
         (changed((0, 0), 0, clip=True), "projection: its first two rows"),
+        (changed((2, 3), 0, clip=True), "projection: its third row .* has no near before far"),
         (changed((0, 0), 1e-320, clip=True), "viewport: -?inf is not finite"),
         ("view = 1" + " " * 2_000_000, "is too large"),
-        (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has the shape"),
+        (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has 2 numbers; give 16"),
         (json.dumps({"view": VIEW.tolist()}), "clip_from_camera: is missing"),
         (
             json.dumps({"view": np.diag([1, 1, 0, 1]).tolist(), "projection": CLIP.tolist()}),

@@ -10,7 +10,7 @@ import pytest
 from app.checking.builtin import BUILTIN
 from app.checking.kinds import KINDS
 from app.checking.kinds.hits import MARGIN
-from app.checking.kinds.shapes import sphere_hits, triangle_hits
+from app.checking.kinds.shapes import hits
 
 TASKS = {task.name: task for task in BUILTIN}
 
@@ -55,20 +55,17 @@ def test_float32_is_right_in_two_thousand_cases(name, solve):
     made = cases(name, 2000)
     given = [solve(*(value for _, value in case.arguments)) for case in made]
     assert not differ(name, made, given).any()
-    hits = sum(answer is not None for answer in given)
-    assert 600 < hits < 1700
+    count = sum(answer is not None for answer in given)
+    assert 600 < count < 1700
     nearly = [None if answer is None else answer * 1.02 for answer in given]
-    assert np.count_nonzero(differ(name, made, nearly)) == hits
+    assert np.count_nonzero(differ(name, made, nearly)) == count
 
 
 @pytest.mark.parametrize("name", ["hit-sphere", "hit-triangle"])
 def test_what_is_asked_is_clear(name):
-    shape = {"hit-sphere": ("center", "radius"), "hit-triangle": ("a", "b", "c")}[name]
-    solve = sphere_hits if name == "hit-sphere" else triangle_hits
     for case in cases(name, 300):
-        with np.errstate(all="ignore"):
-            values = [case.values[word] for word in ("origin", "direction", *shape)]
-            assert solve(*values)[1] > MARGIN
+        shape = {**case.values, "type": name.removeprefix("hit-")}
+        assert hits(case.values["origin"], case.values["direction"], shape)[1] > MARGIN
 
 
 def test_a_threshold_that_is_met():

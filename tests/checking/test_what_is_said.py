@@ -91,10 +91,8 @@ def test_each_projection_has_its_own_mistake():
 
 
 FACTS = {
-    "All your rays of an image are the same: they do not depend on i and j.":
+    "All your rays are the same: they do not depend on i and j.":
         lambda o, d, case: ((1, 2, 3), (4, 5, 6)),
-    "Your rays are the same in all rows: they do not depend on i.":
-        lambda o, d, case: ((1, 2, 3), (1, case.pixel[1] ** 2, 2)),
     "162 of 162 rays have NaN or inf: look for a division by 0.":
         lambda o, d, case: ((np.nan, 0, 0), (0, 0, 0)),
 }  # fmt: skip
@@ -114,13 +112,6 @@ def test_where_rays_are_right():
     bent = bent_unless(lambda case: case.size != (3, 4) or case.pixel == (0, 0))
     said = diagnosed(bent, whole_images((3, 3), (3, 4), (4, 3)))
     assert not any("wrong elsewhere" in sentence for sentence in said.sentences)
-
-
-def test_the_first_camera_for_all():
-    cases = whole_images((4, 4))
-    first = cases[0].camera
-    said = diagnosed(lambda o, d, c: first.ray(*c.pixel, c.size), cases)
-    assert "does it keep it from one call to the next?" in " ".join(said.sentences)
 
 
 def test_any_point_of_the_ray():

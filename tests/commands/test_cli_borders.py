@@ -65,7 +65,6 @@ def make(kind: str, path: Path) -> None:
 
 # What is given the special file: a command line with its name, or other files that name it.
 BORDERS = [
-    *[f"check {name} --view view.toml" for name in ("f.csv", "f.npy")],
     "check f.py",
     "check right.py --tasks f.toml",
     "tasks --tasks f.toml",
@@ -117,11 +116,11 @@ def test_a_special_file_is_no_texture(alarm: None, folder: Path, kind: str) -> N
         load_scene("scene.toml")
 
 
-RAYS = "0,0,0,0,5,0,0,-1\n"
+RAYS = "def viewing_ray(i, j, width, height, camera):\n    return camera.eye, (0, 0, -1)\n"
 WRITERS = [
     "check --starter all -o out.py",
-    "check rays.csv --view view.toml --size 1x1 --json out.json",
-    "check rays.csv --view view.toml --size 1x1 --html out.html",
+    "check rays.py --view view.toml --size 1x1 --json out.json",
+    "check rays.py --view view.toml --size 1x1 --html out.html",
     "camera view.toml --size 640x480 --to colmap -o out",
     "camera view.toml --size 640x480 -o out.yml --to opencv",
     "export spheres -o out.glb",
@@ -150,7 +149,7 @@ def test_a_full_disk_leaves_nothing(
     capsys: pytest.CaptureFixture[str], folder: Path, line: str, most: int
 ) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
-    (folder / "rays.csv").write_text(RAYS, "utf-8")
+    (folder / "rays.py").write_text(RAYS, "utf-8")
     before = sorted(folder.rglob("*"))
     with files_up_to(most):
         assert main(line.split()) == 2
@@ -164,8 +163,8 @@ def test_no_earlier_results_stay_if_new_ones_cannot_be_written(
     capsys: pytest.CaptureFixture[str], folder: Path
 ) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
-    (folder / "rays.csv").write_text(RAYS, "utf-8")
-    line = ["check", "rays.csv", "--view", "view.toml", "--size", "1x1", "--json", "out.json"]
+    (folder / "rays.py").write_text(RAYS, "utf-8")
+    line = ["check", "rays.py", "--view", "view.toml", "--size", "1x1", "--json", "out.json"]
     assert main(line) != 2
     assert (folder / "out.json").exists()
     with files_up_to(0):
@@ -221,7 +220,7 @@ text = "{HOSTILE}"
 @pytest.mark.parametrize("line", [
     "tasks --tasks tasks.toml",
     "tasks --tasks tasks.toml \x1b[31mred\x9b2J\u202e",
-    "check rays.csv --tasks tasks.toml --view view.toml --size 1x1",
+    "check rays.py --tasks tasks.toml --view view.toml --size 1x1",
     "check --starter all --tasks tasks.toml",
     "scene scene.toml",
     "pick scene.toml 360 640",
@@ -237,7 +236,7 @@ def test_nothing_that_a_terminal_would_obey_is_printed(
     files = {"tasks": TASKS, "scene": SCENE, "\x1b[31m": LECTURE, "view": VIEW}
     for name, text in files.items():
         (folder / f"{name}.toml").write_text(text, "utf-8")
-    (folder / "rays.csv").write_text(RAYS, "utf-8")
+    (folder / "rays.py").write_text(RAYS, "utf-8")
     pose = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
     frame = {"file_path": "\x1b[31mred\x9b2J\u202e.png", "transform_matrix": pose}
     table = {"w": 64, "h": 48, "fl_x": 50.0, "frames": [frame]}

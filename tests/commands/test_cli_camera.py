@@ -215,7 +215,7 @@ MISTAKES = {
     "none.json": "none.json: does not exist",
     "none.json#1#2": "none.json#1: does not exist",
     "hurd.json": "hurd.json: does not exist in ",
-    "text.txt": "text.txt: is not a recognised camera format; say which with",
+    "text.txt": "text.txt: is not a recognised camera format; give a file with",
     "folder": "folder: is a folder without cameras; give the folder of a COLMAP model",
     "": "is a folder without cameras",
     "herd.json --from nosuch": "--from: 'nosuch' is unknown; give one of",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 
-import numpy as np
 import pytest
 
 from app.checking.builtin import BUILTIN
@@ -185,35 +184,6 @@ def test_a_starter_is_never_written_over_another_file(check, tmp_path):
 CORNER = Camera.look_at((3, 2, 4), (0, 0, 0), distance=1.5)
 
 
-def rays_of(folder, base=0, name="rays.csv", moved=0.0):
-    save_view(folder / "corner.toml", View(CORNER, False))
-    i, j = (part.ravel() for part in np.indices((6, 8)))
-    rays = CORNER.ray(i, j + moved, (8, 6))
-    table = np.column_stack([i + base, j + base, rays.origin, rays.direction])
-    header = "i,j,ox,oy,oz,dx,dy,dz"
-    np.savetxt(folder / name, table, "%.9g", ",", header=header, comments="")
-
-
-def test_a_file_of_rays(check, tmp_path):
-    words = ("rays.csv", "--view", "corner.toml", "--size", "8x6")
-    rays_of(tmp_path)
-    assert check(None, *words) == (0, "correct viewing-ray  3 of 3 points\n", "")
-    rays_of(tmp_path, base=1)
-    assert check(None, *words, "--from", "1")[0] == 0
-    assert check(None, *words)[0] == 2
-    rays_of(tmp_path, moved=0.5)
-    status, out, _ = check(None, *words)
-    assert status == 1 and "48 of 48 cases are wrong" in out
-    status, _, err = check(None, "rays.csv")
-    assert status == 2 and "--view: is missing" in err
-    status, _, err = check(None, *words[:-1], "1280x720")
-    assert status == 2 and "--size: makes more than 500000 rays" in err
-    status, _, err = check("", "--size", "640x480")
-    assert status == 2 and "--size: makes more than 500000 rays" in err
-    status, _, err = check(None, *words, "--task", "basis")
-    assert status == 2 and "--view" in err
-
-
 def test_a_view_alone_for_a_python_file(check, tmp_path):
     save_view(tmp_path / "corner.toml", View(CORNER, False))
     text = """\
@@ -223,6 +193,13 @@ def viewing_ray(i, j, width, height, camera):
 """
     status, out, _ = check(text, "--view", "corner.toml", "--size", "5x4")
     assert status == 1 and "20 of 20 cases are wrong" in out and "parallel" not in out.split()[1]
+    view = ("--view", "corner.toml", "--size")
+    status, _, err = check(text, *view, "1280x720")
+    assert status == 2 and "--size: makes more than 500000 rays" in err
+    status, _, err = check(text, "--size", "640x480")
+    assert status == 2 and "--size: makes more than 500000 rays" in err
+    status, _, err = check(text, *view, "8x6", "--task", "basis")
+    assert status == 2 and "--view" in err
 
 
 def test_a_program(check, tmp_path):

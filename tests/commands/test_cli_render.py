@@ -224,7 +224,7 @@ def test_a_model_is_drawn_without_what_only_other_files_need(tmp_path):
     (tmp_path / "x.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     code = (
         "import sys; from app.cli import main; status = main(sys.argv[1:]);"
-        "names = 'trimesh PIL tqdm msgspec tomllib numba scipy multiprocessing'.split();"
+        "names = 'trimesh PIL tqdm numba scipy multiprocessing'.split();"
         "sys.exit(status or str([name for name in names if name in sys.modules]))"
     )
     command = [sys.executable, "-c", code, "render", "x.obj", "-o", "x.png", "--size", "8x8"]

@@ -16,6 +16,7 @@ from PIL import Image
 from app import __version__
 from app.cli import main
 from app.films import frames, workers
+from app.films.encoding import film_writer
 from app.films.paths import around
 from renderer import LucidaError, load_scene
 from renderer.focus import scene_focus
@@ -49,6 +50,8 @@ def test_films_of_each_kind_show_the_same_frames(animate):
         assert not Path(f"{name}.frames").exists()
         if name == "o.mp4":
             with av.open(name) as container:
+                codec = container.streams.video[0].codec_context
+                assert (codec.color_primaries, codec.color_trc, codec.colorspace) == (1, 1, 1)
                 found = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
                 assert container.streams.video[0].average_rate == 22.5
         else:
@@ -179,3 +182,19 @@ def test_what_else_is_in_a_folder_stays(animate):
     Path("a.gif.frames/000001.png").unlink()
     assert animate("--orbit", "-o", "a.gif", "--frames", "2", *SMALL)[0] == 0
     assert pictures("a.gif.frames") == {"notes.txt": b"mine"}
+
+
+def test_an_mp4_holds_the_colours_of_bt_709(tmp_path):
+    """Decoded by hand: Y from 16 to 235, Cb and Cr within 112 of 128."""
+    colors = [(0, 255, 0), (255, 0, 0), (0, 0, 255), (200, 100, 50)]
+    frames = [tmp_path / f"{number}.png" for number in range(len(colors))]
+    for frame, color in zip(frames, colors, strict=True):
+        Image.new("RGB", (64, 48), color).save(frame)
+    list(film_writer(tmp_path / "a.mp4", (64, 48), 10.0)(tmp_path / "a.mp4", frames))
+    with av.open(str(tmp_path / "a.mp4")) as container:
+        planes = [frame.to_ndarray().astype(float) for frame in container.decode(video=0)]
+    for plane, color in zip(planes, colors, strict=True):
+        y = (plane[:48].mean() - 16) / 219
+        u, v = ((part.mean() - 128) / 224 for part in (plane[48:60], plane[60:]))
+        found = 255 * np.array([y + 1.5748 * v, y - 0.1873 * u - 0.4681 * v, y + 1.8556 * u])
+        assert found == pytest.approx(color, abs=3)

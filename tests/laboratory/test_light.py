@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from app.laboratory import light
 from renderer.images import to_srgb8
@@ -26,31 +25,6 @@ class TestLight:
 
     def test_the_triangle_of_projectors(self):
         assert light.triangle(10) == ((-10, 0), (5, -9), (5, 9))
-
-    def test_subpixels_are_three_stripes(self):
-        picture = np.array([[[10, 20, 30], [40, 50, 60]]], np.uint8)
-        image = light.subpixels(picture, 6)
-        assert image.shape == (6, 12, 3)
-        for row in image:
-            assert row[:, 0].tolist() == [10, 10, 0, 0, 0, 0, 40, 40, 0, 0, 0, 0]
-            assert row[:, 1].tolist() == [0, 0, 20, 20, 0, 0, 0, 0, 50, 50, 0, 0]
-            assert row[:, 2].tolist() == [0, 0, 0, 0, 30, 30, 0, 0, 0, 0, 60, 60]
-        gapped = light.subpixels(picture, 9, gap=1)
-        assert gapped[0, :9, 0].tolist() == [10, 10, 0, 0, 0, 0, 0, 0, 0]
-        assert gapped[0, :9, 2].tolist() == [0, 0, 0, 0, 0, 0, 30, 30, 0]
-        assert not gapped[8].any()
-
-    @pytest.mark.parametrize("side", [6, 7, 8, 10, 11, 13, 36, 45])
-    @pytest.mark.parametrize("gap", [1, 2])
-    def test_every_stripe_ends_in_its_gap_whether_3_divides_the_side_or_not(self, side, gap):
-        image = light.subpixels(np.full((1, 1, 3), 255, np.uint8), side, gap)
-        whole = light.subpixels(np.full((1, 1, 3), 255, np.uint8), side)
-        for channel in range(3):
-            stripe = np.flatnonzero(whole[0, :, channel])
-            lit = np.flatnonzero(image[0, :, channel])
-            assert lit.tolist() == stripe[:-gap].tolist()
-            assert (image[: side - gap, lit, channel] == 255).all()
-        assert not image[side - gap :].any()
 
     def test_magnified_pixels(self):
         picture = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)

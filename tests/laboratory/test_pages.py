@@ -122,11 +122,6 @@ def test_pages_say_it_in_numbers():
     assert "seen in 3 levels" in told("exposure", after_ev=1.0)[1][1]  # 0.5 is white too
     (aligned,), (moved,) = told("projectors"), told("projectors", apart=0.4)
     assert aligned[1].startswith("aligned; ") and moved[1].startswith("apart; ")
-    assert told("subpixels")[1][1] == "1 x 1 pixels, each of three stripes"
-    assert told("subpixels", content="test") == [
-        ("Test picture", "8 x 5 pixels"),
-        ("Its subpixels", "8 x 5 pixels, each of three stripes"),
-    ]
     assert told("array") == [("canvas", "3 rows of 5 pixels, 180 bytes")]
     assert told("displays")[0] == (
         "Tube: this moment",

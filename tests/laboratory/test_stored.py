@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
-import OpenEXR
 import pytest
-from PIL import Image
 
-from app.laboratory import bitmaps, disk, kinds
+from app.laboratory import bitmaps, kinds
 from app.laboratory.stored import clipped, levels, shown, store
-from renderer.errors import LucidaError
 from renderer.images import to_srgb8
 from renderer.images.display import luminance
 from renderer.scene.reading import size_text
@@ -95,44 +90,3 @@ class TestExposureAfterStorage:
             )
             assert abs(taken.astype(int) - expected).max() <= 1
         assert not clipped(color, -2.0).any()
-
-
-class TestDisk:
-    def test_sizes_are_those_of_the_files(self, color, tmp_path):
-        entries = disk.sizes(color, method="ordered")
-        assert [entry.format for entry in entries] == list(disk.FORMATS)
-        for entry in entries:
-            path = tmp_path / f"{entry.format.kind.name}{entry.format.ending}"
-            written = disk.export(path, color, entry.format.kind, method="ordered")
-            assert path.stat().st_size == entry.file_bytes == written
-        sizes = {(e.format.kind.name, e.format.ending): e.file_bytes for e in entries}
-        header = len(b"P4\n37 23\n")
-        assert sizes["bitmap", ".pbm"] == header + 5 * 23
-        assert sizes["gray", ".pgm"] == len(b"P5\n37 23\n255\n") + 37 * 23
-        assert sizes["color", ".ppm"] == len(b"P6\n37 23\n255\n") + 3 * 37 * 23
-        assert sizes["float", ".pfm"] == len(b"PF\n37 23\n-1.0\n") + 12 * 37 * 23
-
-    def test_files_hold_what_is_stored(self, color):
-        for format in disk.FORMATS:
-            kept = store(color, format.kind, method="floyd-steinberg").array
-            content = io.BytesIO(disk.encoded(kept, format))
-            if format.ending == ".pfm":
-                values = np.frombuffer(content.getvalue()[-12 * 37 * 23 :], "<f4")
-                np.testing.assert_array_equal(values.reshape(kept.shape)[::-1], kept)
-            elif format.ending == ".exr":
-                with OpenEXR.File(content) as file:
-                    pixels = file.channels()["RGB"].pixels
-                assert pixels.dtype == kept.dtype
-                np.testing.assert_array_equal(pixels, kept)
-            else:
-                np.testing.assert_array_equal(np.asarray(Image.open(content)), kept)
-
-    def test_a_format_that_cannot_hold_the_kind(self, color, tmp_path):
-        with pytest.raises(LucidaError, match=r"\.ppm cannot hold"):
-            disk.export(tmp_path / "x.ppm", color, kinds.FLOAT)
-        with pytest.raises(LucidaError, match="cannot hold bool"):
-            disk.encoded(store(color, kinds.BITMAP).array, disk.FORMATS[4])
-        assert not list(tmp_path.iterdir())
-
-    def test_cancelling(self, color):
-        assert disk.sizes(color, cancelled=lambda: True) == ()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from app.checking.mistakes.rays import RayTask, ray_program
+from app.checking.reports.picture import MARK, changed_pixels, difference_picture
 from app.images.ray_pictures import RayPainter
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
@@ -48,7 +49,7 @@ def test_the_right_lines_make_the_ray_image(painter, state) -> None:
     both = model.compared(painter, now, ())
     image = painter.tracer.render(now.camera, now.size, ("color",)).channel("color")
     looks = [model.shown(light, 0.0) for light in (both.right, image)]
-    assert model.changed_pixels(*looks).mean() < 0.01
+    assert changed_pixels(*looks).mean() < 0.01
     assert both.wrong is both.right and both.ray is None
 
 
@@ -57,11 +58,11 @@ def test_a_wrong_line_makes_another_picture(painter) -> None:
     mistakes = model.named(now.program, ("rows count upwards",))
     both = model.compared(painter, now, mistakes)
     right, wrong = (model.shown(light, 0.0) for light in (both.right, both.wrong))
-    assert model.changed_pixels(right, wrong[::-1]).mean() < 0.02  # upside down
-    changed = model.changed_pixels(right, wrong)
+    assert changed_pixels(right, wrong[::-1]).mean() < 0.02  # upside down
+    changed = changed_pixels(right, wrong)
     assert changed.mean() > 0.5
-    picture = model.difference_picture(right, changed)
-    assert (picture[changed] == model.MARK).all()
+    picture = difference_picture(right, changed)
+    assert (picture[changed] == MARK).all()
     gray = picture[~changed]
     assert (gray == gray[:, :1]).all() and (gray <= right[~changed].max(axis=1)[:, None]).all()
     assert model.told_difference(changed).endswith("% of the pixels")
@@ -108,18 +109,6 @@ def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
     third = next(one for one in program.mistakes if not one.keys & {"x", "y"})
     names = model.switched(program, (first.name, second.name), third.name)
     assert names == (second.name, third.name)  # the last one stays
-
-
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_the_next_wrong_line_goes_through_all(program) -> None:
-    names, seen = (), []
-    for _ in program.mistakes:
-        names = model.following(program, names, 1)
-        seen += names
-    assert seen == [mistake.name for mistake in program.mistakes]
-    assert model.following(program, names, 1) == (seen[0],)
-    assert model.following(program, (), -1) == (seen[-1],)
-    assert model.following(program, (seen[0],), -1) == (seen[-1],)
 
 
 @pytest.mark.parametrize("program", PROGRAMS)

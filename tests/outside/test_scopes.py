@@ -101,7 +101,8 @@ def test_a_ray_that_nobody_asks_for_any_more_is_not_awaited():
     live = SimpleNamespace(tracer_of=lambda _: None, preparing_s=1.0)  # the ray has to wait
     renderers = SimpleNamespace(live=live, size=(40, 30), depth_at=lambda *_: None)
     state = SimpleNamespace(scene="scene", marked=(3, 4), of=lambda _: OutsideOptions())
-    about = hits, SimpleNamespace(state=state, renderers=renderers, hovered=None), Camera(), (40, 30)
+    window = SimpleNamespace(state=state, renderers=renderers, hovered=None)
+    about = hits, window, Camera(), (40, 30)
     assert ray_ends(*about, ())[0].pixel == (3, 4)
     assert hits.busy
     state.marked = None

@@ -1,4 +1,4 @@
-"""Straight lines through a lens, and the hatching outside of it."""
+"""Straight lines through a lens."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from app.images.placement import Placement
-from app.pair.hatching import hatching
 from app.pair.straight_lines import grid
 from renderer.camera import Camera
 from renderer.lenses import Lens
@@ -43,47 +41,3 @@ def test_a_panorama_s_lines_end_at_its_seam():
     assert longest < SIZE[0] / (2 * math.pi)
     columns = np.concatenate(lines)[:, 1]
     assert columns.min() < 1 and columns.max() > SIZE[0] - 2  # all around
-
-
-@pytest.mark.parametrize(
-    "lens",
-    [
-        Lens("brown", {"k1": -0.5}),
-        Lens("brown", {"k1": -0.4, "p1": 0.05, "p2": -0.02}),
-        Lens("fisheye", {"k1": -0.3}),
-        Lens("fov", {"omega": 1.9}),
-        Lens("thin_prism_fisheye", {"k1": -0.3, "p1": 0.05}),
-        Lens("orthographic"),
-    ],
-    ids=lambda lens: "-".join((lens.model, *lens.coefficients)),
-)
-def test_hatched_is_what_no_ray_reaches(lens):
-    placement = Placement(SIZE, (700, 500), 2.0, (30, 20), (640, 400))
-    lines = hatching(lens, WIDE, 1.0, placement, 7.0)
-    camera = Camera(viewport=WIDE, lens=lens)
-    shown = np.zeros((400, 640), bool)
-    for x1, y1, x2, y2 in lines:
-        share = np.linspace(0, 1, 2 * max(2, math.ceil(abs(x2 - x1))))
-        x, y = x1 + share * (x2 - x1) - 30, y1 + share * (y2 - y1) - 20
-        shown[np.clip(y.astype(int), 0, 399), np.clip(x.astype(int), 0, 639)] = True
-    outside = np.isnan(camera.lens_directions((640, 400))[..., 0])
-    assert 0.05 < outside.mean() < 0.95
-    rows, columns = np.nonzero(shown)
-    assert outside[rows, columns].mean() > 0.97  # but at the border itself
-    share = shown[outside].mean()
-    assert share == pytest.approx(1 / 7, abs=0.05)
-
-
-@pytest.mark.parametrize("lens", [Lens("brown", {"k1": 0.2}), Lens("stereographic")])
-def test_a_lens_that_sees_everything_is_not_hatched(lens):
-    assert hatching(lens, WIDE, 1.0, Placement(SIZE, SIZE, 1.0, (0, 0), SIZE), 7.0) == []
-
-
-def test_a_wider_viewport_than_the_panorama_is_hatched_above_and_below():
-    placement = Placement(SIZE, SIZE, 1.0, (0, 0), SIZE)
-    lines = hatching(Lens("equirectangular"), PANORAMA.viewport, 1.0, placement, 7.0)
-    edge = 100 * (1 - math.pi / 4)  # pi / 2 of 2
-    assert lines
-    assert all(
-        max(y1, y2) <= edge + 1e-6 or min(y1, y2) >= 200 - edge - 1e-6 for _, y1, _, y2 in lines
-    )

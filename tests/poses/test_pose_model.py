@@ -23,8 +23,11 @@ from app.poses.model import (
     pose_set,
     walked,
 )
+from app.state.app_state import AppState
+from renderer.camera import Camera
 from renderer.camera_formats import CameraSet
 from renderer.lenses import Lens
+from renderer.scene import Scene, View
 
 
 def test_a_frustum_s_edges_are_the_rays_through_the_image_s_corners() -> None:
@@ -206,3 +209,16 @@ def test_the_way_through_what_is_shown_ends_at_its_ends() -> None:
     assert walked(shown, 9, 1) == 9 and walked(shown, 2, -7) == 2
     assert walked(shown, -1, 1) == 2 and walked(shown, 3, -1) == 9  # not among them
     assert walked([], 3, 1) == -1
+
+
+def test_a_camera_keeps_the_shape_of_its_image_s_pixels():
+    """The calibration's pixels are 1.2 times as wide as high, in images of any other shape too."""
+    camera = Camera(viewport=(-0.6, 0.6, -0.5, 0.5))
+    view = View(camera, given=(camera, (100, 100)))
+    assert view.for_size((100, 100)) is camera
+    for size in ((300, 100), (100, 300), (50, 50)):
+        left, right, bottom, top = view.for_size(size).viewport
+        assert (right - left) / size[0] / ((top - bottom) / size[1]) == pytest.approx(1.2)
+        assert right >= 0.6 - 1e-12 and top >= 0.5 - 1e-12
+    state = AppState.for_scene(Scene(()), view)
+    assert state.with_fit(False).view.for_size((300, 100)) is camera

@@ -99,11 +99,15 @@ def test_what_is_a_scene_stays_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "problem"),
     [
-        ("transforms.json", "{}", "holds no known camera; give a transforms.json"),
+        ("transforms.json", "{}", "not a recognised camera format; give a file with"),
         ("transforms.json", "{", "line 1, column 2: expecting property name"),
-        ("transforms.json", '{"frames": []}', "frames: is empty"),
-        ("transforms.json", '{"frames": [{"w": 4, "h": 3}]}', "frames[0].transform_matrix"),
-        ("notes.txt", "milk, bread", "holds no known camera"),
+        ("transforms.json", '{"frames": []}', "frames with a transform_matrix (nerf)"),
+        (
+            "transforms.json",
+            '{"frames": [{"w": 4, "h": 3}]}',
+            "frames with a transform_matrix (nerf)",
+        ),
+        ("notes.txt", "milk, bread", "camera_matrix, K, P, or fx and fy (opencv)"),
     ],
 )
 def test_a_broken_file_is_one_line(tmp_path: Path, name: str, text: str, problem: str) -> None:

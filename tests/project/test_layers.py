@@ -27,8 +27,8 @@ FLOORS = (
     "renderer.atomic",
     "renderer.child",
     "renderer.pixels",
-    "renderer.frame",
     "renderer.camera_checks",
+    "renderer.frame",
     "renderer.intrinsics",
     "renderer.lens_distortion",
     "renderer.lenses",
@@ -108,13 +108,13 @@ PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers lens_section projection sections",
     "photograph": "layer laying",
-    "pair": "boxes camera_drag choices dark_note footprint hatching image_mouse marks overlay pane "
+    "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "against_photograph composed differences",
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
     "painting parts pixel_plane scrubber tint tools widening",
     "objects": "handles in_views inspector material_fields outliner value_fields",
-    "probe": "histogram",
+    "probe": "",
     "stepper": "controls listing numbers plan",
     "costs": "plots",
     "your_code": "code_pictures",

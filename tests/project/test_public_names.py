@@ -67,7 +67,7 @@ class TestWrongArguments:
                 draw(size)
 
     def test_a_size_without_end(self):
-        with pytest.raises(LucidaError, match=r"size: .* is not two numbers"):
+        with pytest.raises(LucidaError, match=r"size: .* is not two whole numbers"):
             check_size((math.inf, 6))
 
     @pytest.mark.parametrize("load", [load_scene, load_view, read_cameras])

@@ -217,3 +217,8 @@ def test_checks_count_in_the_same_page(tmp_path, capsys):
     capsys.readouterr()
     assert main(["lecture", "--results", str(lines)]) == 2
     assert capsys.readouterr().err == "lucida: --results: has no page to write; add -o class.html\n"
+
+
+def test_the_class_ends_on_the_day_of_its_last_answer():
+    answers = [made("a", "One", 60 * hour, FLIPPED) for hour in (0, 24 * 100)]
+    assert class_results(answers, []).summary.endswith("24 November 2026 to 4 March 2027")

@@ -11,6 +11,7 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import PATIENT_S, Driver, Key
 
+from app.widgets import theme
 from app.window import exporting
 from renderer.camera import Camera
 from renderer.camera_formats import PosedCamera, read_cameras, written
@@ -250,3 +251,25 @@ def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
     assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
     d.picture()
     only_sections(d)
+
+
+def drive_names_in_any_script_stay_intact(d: Driver) -> None:
+    name = "图像 صورة e\u0301 نیم\u200cروز"
+    path = d.folder / name / "场景.toml"
+    path.parent.mkdir()
+    path.write_text(
+        f'[[objects]]\ntype = "sphere"\nname = "{name}"\n[[objects]]\ntype = "box"\n', "utf-8"
+    )
+    d.window.files.open(str(path))
+    d.until(lambda: d.window.state.scene.name == "场景" and not d.window.files.busy)
+    assert d.window.state.scene.objects[0].name == name
+    again = path.with_name("مشهد.toml")
+    save_as(d, "Save scene as...", again)
+    assert load_scene(again).objects[0].name == name
+    font = d.window.fonts.text
+    assert font is not None
+    for files, letters in zip(theme.SYSTEM_FONTS, ("图像", "صورة\u0301"), strict=True):
+        if any(Path(file).is_file() for file in files):
+            assert all(font.is_glyph_in_font(ord(letter)) for letter in letters)
+    d.settle()
+    d.picture()

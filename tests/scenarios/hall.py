@@ -14,7 +14,6 @@ from app.lecture.view import LECTURE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)
 STEPPER_STEP = 12
-KINDS_STEP = 8
 
 
 def enlarge(d: Driver, scale: float) -> None:
@@ -123,31 +122,3 @@ def drive_the_lecture_ends(d: Driver) -> None:
     assert state.images.resolution is None and not state.preferences.presentation
     shown = {view.name for view in d.window.shell.stage.shown}
     assert {"Camera", "Raster", "Ray"} <= shown and LECTURE not in shown
-
-
-def drive_the_laboratorys_table_is_whole_at_any_size(d: Driver) -> None:
-    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
-    d.settle()
-    d.window.lecture.go(d.window, KINDS_STEP)
-    d.window.change(d.window.state.with_options(laboratory={"table": True}))
-    beyond: list[float] = []
-    small_button = imgui.small_button
-
-    def told(label: str) -> bool:
-        pressed = small_button(label)
-        edge = imgui.get_window_pos().x + imgui.get_window_size().x
-        beyond.append(imgui.get_item_rect_max().x - edge)
-        return bool(pressed)
-
-    for scale in SCALES:
-        enlarge(d, scale)
-        imgui.small_button = told
-        try:
-            d.ctx.yield_(2)
-        finally:
-            imgui.small_button = small_button
-        assert beyond and max(beyond) <= 0, (scale, max(beyond))
-        beyond.clear()
-    enlarge(d, 1.0)
-    d.window.lecture.leave(d.window)
-    d.settle()

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import threading
-from typing import Any
-
 import numpy as np
 from imgui_bundle import imgui
 from maximised import Maximised
-from window_driver import ATTEMPTS, PATIENT_S, Driver, Key
+from window_driver import ATTEMPTS, Driver, Key
 
-from app.laboratory import disk
 from app.laboratory.pages import PAGE_TITLES
 from app.laboratory.view import LaboratoryView
 
@@ -55,31 +51,6 @@ def drive_every_page_shows_its_pictures(d: Driver) -> None:
             print(f"attempt {attempt}, {page}: panels and equal parts {differing}")
             d.settle()
         assert not differing, (page, differing)
-    ALONE.close(d)
-
-
-def drive_the_page_is_left_before_the_sizes_are_known(d: Driver) -> None:
-    view = ALONE.open(d, page="bitmaps")
-    began, may_end = threading.Event(), threading.Event()
-    sizes = disk.sizes
-
-    def waiting(*arguments: Any) -> tuple[disk.DiskRow, ...]:
-        began.set()
-        may_end.wait(PATIENT_S)
-        return sizes(*arguments)
-
-    disk.sizes = waiting
-    try:
-        d.window.change(d.window.state.with_options(laboratory={"page": "kinds"}))
-        d.until(began.is_set)
-        d.window.change(d.window.state.with_options(laboratory={"page": "bitmaps"}))
-        d.ctx.yield_(2)
-        assert not view.settled
-    finally:
-        disk.sizes = sizes
-        may_end.set()
-    d.until(lambda: view.settled)
-    assert len(view.sizes) == 9
     ALONE.close(d)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
@@ -28,6 +29,21 @@ def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
     assert d.window.state.preferences.presentation
     lecture_of(d).leave(d.window)
     d.settle()
+
+
+def drive_the_end_brings_back_what_was_shown_before(d: Driver) -> None:
+    moved = replace(d.window.state.camera, eye=(1.0, 2.0, 7.0))
+    before = d.window.state.with_camera(moved).with_fit(False)
+    d.window.change(before)
+    give(d)
+    d.press(int(Key.page_down))
+    d.settle()
+    assert d.window.state.scene is not before.scene
+    give(d)  # one lecture after another
+    lecture_of(d).leave(d.window)
+    d.settle()
+    assert d.window.state.scene is before.scene
+    assert d.window.state.view == before.view
 
 
 def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:

@@ -149,17 +149,17 @@ def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
 
 
 def widened(d: Driver, name: str) -> None:
-    """Moves the edge of a view's dock that others share, to the left or up."""
+    """Moves the edge of a view's dock that others share, so that the dock grows."""
     node = imgui.internal.find_window_by_name(d.window.views[name].label).dock_node
     around = node.parent_node
     if around.split_axis == imgui.internal.Axis.x:
         is_first = node.pos.x <= around.pos.x + 2
         start = node.pos.x + is_first * (node.size.x + 2) - 1, node.pos.y + 0.5 * node.size.y
-        end = start[0] - 40, start[1]
+        end = start[0] + (40 if is_first else -40), start[1]
     else:
         is_first = node.pos.y <= around.pos.y + 2
         start = node.pos.x + 0.5 * node.size.x, node.pos.y + is_first * (node.size.y + 2) - 1
-        end = start[0], start[1] - 30
+        end = start[0], start[1] + (30 if is_first else -30)
     d.drag(start, end)
     d.ctx.yield_(4)
 

@@ -116,7 +116,7 @@ def drive_a_line_is_asked_for(d: Driver) -> None:
     assert len(asked.names) == quiz.CHOICES
     assert _is_shown(d, "wrong", asked.pictures[asked.right_at], made.now.size)
     before = d.picture()
-    d.ctx.item_click(_item(f"choice {quiz.LETTERS[asked.right_at]}"))
+    d.ctx.item_click(_item(f"###choice {quiz.LETTERS[asked.right_at]}"))
     d.settle()
     options = _options(d)
     assert options.answer == asked.names[asked.right_at] and options.score == (1, 1)

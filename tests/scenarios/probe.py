@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import threading
-
 import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import RASTER, Driver, Key
@@ -11,7 +9,6 @@ from window_driver import RASTER, Driver, Key
 from app.host import layout
 from app.outside.projected import Strokes
 from app.outside.view import OUTSIDE, OutsideView
-from app.probe import view as probe_view
 from app.probe.reading import Reading
 from app.probe.view import PROBE, ProbeView
 from app.widgets import formula
@@ -137,54 +134,21 @@ def lines(d: Driver, name: str) -> int:
     return sum(len(part.points) for part in found)
 
 
-def drive_rays_of_a_row_and_of_pins_stand_in_the_outside_view(d):
+def drive_rays_of_pins_stand_in_the_outside_view(d):
     enter(d)
     d.window.change(d.window.state.with_options(marked=(120, 150)))
     d.settle()
-    assert lines(d, "rays") == lines(d, "pin") == 0
+    assert lines(d, "pin") == 0
     assert lines(d, "normal") > 0
-    for which in ("row", "column"):
-        options = {"rays": which, "pins": ((20, 30), (100, 40))}
-        d.window.change(d.window.state.with_options(probe=options))
-        d.settle()
-        d.until(lambda: lines(d, "rays") >= 30)
-        assert lines(d, "pin") >= 2
+    options = {"pins": ((20, 30), (100, 40))}
+    d.window.change(d.window.state.with_options(probe=options))
+    d.settle()
+    assert lines(d, "pin") >= 2
     d.window.shell.stage.show(PROBE, False)
     d.ctx.yield_(4)
-    assert [lines(d, name) for name in ("rays", "pin", "normal")] == [0, 0, 0]
+    assert [lines(d, name) for name in ("pin", "normal")] == [0, 0]
     d.window.shell.stage.show(PROBE)
     d.ctx.yield_(4)
-    leave(d)
-
-
-def drive_the_histogram_is_of_the_image_that_is_shown(d):
-    """Counted once an image, in the background, and again where it is shown otherwise."""
-    enter(d)
-    d.window.change(d.window.state.with_options(marked=(120, 150)))
-    d.settle()
-    real, counted = probe_view.histogram, []
-
-    def counting(color, images):
-        counted.append(threading.current_thread().name)
-        return real(color, images)
-
-    probe_view.histogram = counting
-    try:
-        for ev in (0.5, 1.5):
-            d.window.change(d.window.state.with_options(images={"exposure_ev": ev}))
-            d.settle()
-            d.ctx.yield_(10)
-            found = view(d).histogram
-            assert found is not None
-            shown = to_srgb8(d.window.renderers.ray_image.frame.color, ev)
-            for k in range(3):
-                assert (found.counts[k] == np.bincount(shown[..., k].ravel(), minlength=256)).all()
-        assert counted == ["lucida-histogram"] * 2
-        d.window.change(d.window.state.with_options(marked=(20, 30)))
-        d.settle()
-        assert len(counted) == 2, "another pixel, the same image"
-    finally:
-        probe_view.histogram = real
     leave(d)
 
 

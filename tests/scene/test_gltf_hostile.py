@@ -43,22 +43,21 @@ def sparse(
     return {"accessors.0.sparse": given, f"{PRIMITIVE}.indices": None} | at
 
 
-OUTSIDE = "is not in the model's folder"
+OUTSIDE = "is not in the folder of what names it"
 GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     (
         {"nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}]},
         "nodes[0]: has two parents, or is",
-    ),
-    (
-        {"nodes": [*[{"children": [k + 1]} for k in range(5000)], {"mesh": 0}]},
-        "nodes[1001]: is deeper",
     ),
     ({"nodes": [{"children": [7]}]}, "nodes: names entry 7, counted from 0, of 1"),
     ({"nodes": [{"mesh": 7}]}, "nodes[0].mesh: names entry 7"),
     ({"nodes": [{}]}, "holds no triangle"),
     ({"nodes": [{"mesh": 0, "scale": [0, 1, 1]}]}, "holds no triangle"),
     ({"nodes": [{"mesh": 0, "scale": [1e300, 1e300, 1]}]}, "node 'x'.transform: is too large"),
-    ({"nodes": [{"mesh": 0, "matrix": [1] * 15}]}, "nodes[0].matrix: is not 16 numbers"),
+    (
+        {"nodes": [{"mesh": 0, "matrix": [1] * 15}]},
+        "nodes[0].matrix: expected array of len",
+    ),
     (
         {"nodes": [{"mesh": 0, "translation": ["a", 0, 0]}]},
         "nodes[0].translation[0]: expected float",
@@ -69,26 +68,28 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
         "nodes: make more than 10000 objects",
     ),
     ({"asset": None}, "object missing required field asset"),
-    ({"asset.minVersion": "2.1"}, "asset.minVersion: says that it needs glTF 2.1"),
     ({"asset": {"version": "1.0"}, "meshes": {"a": {"primitives": []}}}, "is glTF 1.0; export it"),
     ({"asset": {"version": "2.0"}, "meshes": {"a": 1}}, "meshes: expected array, got object"),
-    ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "is compressed with KHR"),
+    (
+        {"extensionsRequired": ["KHR_draco_mesh_compression"]},
+        "extensionsRequired: KHR_draco_mesh_compression is not read",
+    ),
     ({"meshes.0.primitives.0.indices": 9}, "accessors: names entry 9"),
     ({"meshes.0.primitives.0.material": 9}, "meshes[0].primitives[0].material: names entry 9"),
     ({"meshes.0.primitives.0.attributes.POSITION": None}, "meshes[0].primitives[0]: has no POS"),
     ({"meshes.0.primitives.0.mode": 0}, "holds no triangle"),
-    ({"accessors.0.count": 10**11}, "accessors: name 1.12e+03 GiB of buffers of 44 bytes"),
+    ({"accessors.0.count": 10**11}, "accessors[0]: declares 100000000000 elements in a view of 36"),
     ({"accessors.1.count": 10**11}, "has 33333333333 triangles"),
     ({"accessors.1.count": 10**7}, "accessors[1]: declares 10000000 elements"),
     ({"accessors.0.count": -1}, "accessors[0].count: expected int >= 0"),
     ({"accessors.0.bufferView": None}, "accessors[0]: has no bufferView"),
     ({"accessors.0.sparse": {"count": 1}}, "accessors[0].sparse: object missing"),
     (sparse(count=9), "accessors[0].sparse.indices: declares 9 elements"),
-    (sparse(kind=5126), "accessors[0].sparse.indices: declares 3 elements, 12 bytes"),
+    (sparse(kind=5126), "accessors[0].sparse.indices: declares 3 elements in a view of 6 bytes"),
     (sparse(indices_at=24), "accessors[0].sparse.indices: names element"),
     ({"accessors.0.type": "VEC9"}, "accessors[0]: is VEC9 of type 5126"),
     ({"accessors.0.componentType": 1}, "accessors[0]: is VEC3 of type 1"),
-    ({"accessors.1.componentType": 5126}, "accessors[1]: declares 3 elements, 12"),
+    ({"accessors.1.componentType": 5126}, "accessors[1]: declares 3 elements in a view of 6"),
     (
         {"accessors.1": {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR"}},
         "meshes[0].primitives[0].indices: are of type float32",
@@ -96,8 +97,7 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"bufferViews.0.buffer": 3}, "bufferViews[0].buffer: names entry 3"),
     ({"bufferViews.0.byteLength": 10**6}, "bufferViews[0]: ends behind its buffer"),
     ({"bufferViews.0.byteLength": 10**9}, "bufferViews[0]: ends behind its buffer"),
-    ({"bufferViews.0.byteStride": 1}, "bufferViews[0].byteStride: 1 is below the 12"),
-    ({"buffers.0.byteLength": 10**9}, "buffers[0]: declares 954 MiB and has 44"),
+    ({"buffers.0.byteLength": 10**9}, "buffers[0]: declares 1,000,000,000 bytes and has 44"),
     ({"buffers.0.uri": None}, "buffers[0]: has no uri and no binary chunk"),
     ({"buffers.0.uri": "data:x;base64,@@@"}, "buffers[0].uri: is not base64"),
     ({"buffers.0.uri": "none.bin"}, "buffers[0].uri: 'none.bin' does not exist"),
@@ -148,7 +148,7 @@ IN_CHUNK = changed({"buffers.0.uri": None})
         (glb(IN_CHUNK, declared=30), "declares a chunk of"),
         (glb(IN_CHUNK, chunk=4_000_000_000), "declares a chunk of 4000000000 bytes"),
         (glb(IN_CHUNK)[:-20], "declares"),
-        (glb(IN_CHUNK).replace(b"BIN\0", b"NIX\0"), "buffers[0]: declares 44 bytes and has 0 byt"),
+        (glb(IN_CHUNK).replace(b"BIN\0", b"NIX\0"), "buffers[0]: declares 44 bytes and has 0"),
         (glb(IN_CHUNK).replace(b"JSON", b"NOSJ"), "has no JSON chunk"),
         (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is glTF 1.0"),
         (b"glTF", "declares 0 bytes and has 4"),

@@ -11,7 +11,6 @@ from gltf_files import gltf, load_gltf
 
 from renderer.errors import LucidaError
 from renderer.scene.cancelling import cancelled_by
-from renderer.scene.limits import SHARED_BYTES
 
 
 def shared(
@@ -46,20 +45,11 @@ def test_one_buffer_shown_a_thousand_times_is_built_once(tmp_path: Path, monkeyp
     assert len({id(entry.shape.faces) for entry in objects}) == 1
 
 
-def test_primitives_of_one_list_of_vertices_have_only_their_own(
-    tmp_path: Path, monkeypatch
-) -> None:
-    from renderer.scene import models
-
-    build, sizes = models.build_mesh, []
-    monkeypatch.setattr(
-        models, "build_mesh", lambda part: sizes.append(len(part.vertices)) or build(part)
-    )
+def test_primitives_of_one_list_of_vertices_have_only_their_own(tmp_path: Path) -> None:
     one, two = load_gltf(shared(CORNERS, FACES, own=False), tmp_path).objects
     assert (one.shape.vertices == CORNERS[:3]).all()
     assert {tuple(v) for v in two.shape.vertices} == {tuple(v) for v in CORNERS[[0, 1, 2, 3, 4]]}
     assert len(two.shape.faces) == 2
-    assert sizes == [3, 5]
 
 
 def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> None:
@@ -80,16 +70,7 @@ def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> 
 def test_what_is_too_much_is_refused_before_it_is_read(tmp_path: Path, monkeypatch) -> None:
     tree = shared(CORNERS, FACES[:1] * 4, instances=3)
     load_gltf(tree, tmp_path)
-    monkeypatch.setattr("renderer.scene.gltf_shared.TRIANGLES", 11)
+    monkeypatch.setattr("renderer.scene.gltf.TRIANGLES", 11)
     monkeypatch.setattr("renderer.scene.gltf_file.OpenGltf.view", None)
     with pytest.raises(LucidaError, match="has 12 triangles; stay within 11"):
         load_gltf(tree, tmp_path)
-
-
-def test_accessors_cannot_name_one_buffer_without_end(tmp_path: Path) -> None:
-    tree = shared(np.zeros((300_000, 3)), [FACES[0]] * 30, own=True)
-    for number, accessor in enumerate(tree["accessors"][::2]):
-        accessor["count"] -= number  # no two are the same
-    with pytest.raises(LucidaError, match=r"name 103 MiB of buffers of 3\.43 MiB; give each"):
-        load_gltf(tree, tmp_path)
-    assert SHARED_BYTES < 103 << 20

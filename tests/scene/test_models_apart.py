@@ -168,17 +168,15 @@ def test_without_an_interpreter_models_are_read_here(
 
 
 def test_only_large_files_are_worth_a_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    text = written(tmp_path / "a.obj", "#" * apart.LARGE_TEXT_BYTES)
-    assert is_large(text)
-    numbers = written(tmp_path / "a.stl", b"\0" + b"#" * apart.LARGE_TEXT_BYTES)
+    numbers = written(tmp_path / "a.stl", b"\0" + b"#" * (apart.LARGE_BYTES - 2))
     assert not is_large(numbers)
     with numbers.open("r+b") as file:
-        file.truncate(apart.LARGE_BINARY_BYTES)
+        file.truncate(apart.LARGE_BYTES)
     assert is_large(numbers)
     tree = written(tmp_path / "a.gltf", "{}")
     assert not is_large(tree)
     with (tmp_path / "a.bin").open("wb") as file:
-        file.truncate(apart.LARGE_BINARY_BYTES)
+        file.truncate(apart.LARGE_BYTES)
     assert is_large(tree)
     assert not is_large(tmp_path / "missing.obj")
     assert not is_large(tmp_path)

@@ -220,10 +220,12 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (stl(4_000_000_000, 1), "declares 4000000000 triangles, 186 GiB, and has 134 bytes"),
+        (
+            stl(4_000_000_000, 1),
+            "declares 4000000000 triangles, 200,000,000,084 bytes",
+        ),
         (stl(2000, 1999), "declares 2000 triangles, 100,084 bytes, and has 100,034 bytes"),
         (stl(2, 1), "declares 2 triangles"),
-        (stl(1, 2), "declares 1 triangles"),
         (stl(0, 0), "holds no triangle"),
         (stl(1, 1, float("nan")), "vertices: 1 of 3 are NaN"),
         (stl(1, 1)[:60], "is too short to be STL"),
@@ -238,7 +240,7 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
         ("solid\nendsolid\n" * 10_001, "has 10001 solids; stay within 10000"),
         ("solid endsolid solid\n", "holds no triangle"),
     ],
-    ids=range(14),
+    ids=range(13),
 )
 def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.stl", content)).startswith(message)

@@ -6,11 +6,13 @@ import os
 import tomllib
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from random_edits import check_same
 
 from renderer.camera import Camera
 from renderer.errors import LucidaError
+from renderer.frame import check_size
 from renderer.scene import (
     BUILTIN_SCENES,
     Checker,
@@ -78,6 +80,41 @@ def test_scenes_made_in_python_are_written_by_their_parts(tmp_path):
     bare = Scene((SceneObject(Sphere()),), lights=())
     save_scene(tmp_path / "scene.toml", bare)
     assert load_scene(tmp_path / "scene.toml").lights == ()
+
+
+def test_numpy_s_numbers_are_written_as_numbers(tmp_path):
+    material = Material(np.float32([0.5, 0.25, 0]), shininess=np.float32(3), single_sided=np.True_)
+    ball = SceneObject(Sphere(np.arange(3), np.float64(1.5)), material, "a")
+    view = View(Camera(distance=np.float64(2)), fit=np.True_)
+    scene = Scene((ball,), (PointLight(np.arange(3)),), np.ones(3), view=view, name="b")
+    save_scene(tmp_path / "scene.toml", scene)
+    found = load_scene(tmp_path / "scene.toml")
+    check_same(found, scene)
+    assert found.objects[0].shape == Sphere((0, 1, 2), 1.5)
+
+
+@pytest.mark.parametrize(
+    ("make", "field"),
+    [
+        (lambda: Camera(distance="2"), "distance"),
+        (lambda: Camera(eye=("1", "2", "3")), "eye"),
+        (lambda: Camera(near=True), "near"),
+        (lambda: check_size("64"), "size"),
+        (lambda: check_size((64.5, 48)), "size"),
+        (lambda: Camera().fitted((-4, -3)), "size"),
+        (lambda: Camera.look_at((0, 0, 5), (0, 0, 0), aspect="2"), "aspect"),
+        (lambda: Camera.look_at((0, 0, 5), (0, 0, 0), distance="2"), "distance"),
+        (lambda: Sphere(radius="1"), "radius"),
+        (lambda: Material(shininess="50"), "shininess"),
+        (lambda: Material(diffuse="abc"), "diffuse"),
+        (lambda: Checker(size=None), "size"),
+        (lambda: PointLight(("0", "1", "2")), "position"),
+    ],
+)
+def test_what_is_no_number_is_refused_as_what_it_is(make, field):
+    with pytest.raises(LucidaError, match=r"is not (a number|two whole|a width|3 numbers)") as told:
+        make()
+    assert told.value.field == field
 
 
 def test_what_the_format_cannot_hold_is_said_and_nothing_written(tmp_path):

@@ -146,15 +146,13 @@ def test_a_gltf_textures_transform_moves_the_same_place(
 
 
 WRONG_GLTF = {
-    "no image": ({}, {}, "has neither uri nor bufferView"),
+    "no image": ({}, {}, "has no bufferView"),
     "a damaged one": ({"bufferView": 0}, {}, "is none of PNG"),
     "a view too far": ({"bufferView": 9}, {}, "texture: images[0].bufferView: names entry 9"),
-    "an address": ({"uri": "http://localhost/a.png"}, {}, "is not a file"),
+    "an address": ({"uri": "http://localhost/a.png"}, {}, "does not exist"),
     "above": ({"uri": "..%2Fa.png"}, {}, "is not in the folder"),
     "no base64": ({"uri": "data:image/png;base64,!!"}, {}, "is not base64"),
     "no texture": ({"bufferView": 2}, {"textures": []}, "names entry 0"),
-    "another type": ({"bufferView": 2}, {"textures": {"a": 1}}, "names entry 0"),
-    "not numbers": ({"bufferView": "x"}, {}, "expected"),
     "another kind": ({"bufferView": 2}, {"textures": [{}]}, "has no image of a known kind"),
 }
 
@@ -235,12 +233,12 @@ def test_a_scene_files_texture_table(tmp_path: Path) -> None:
 WRONG_TABLES = {
     "'gone.png'": r"materials\.m\.texture: 'gone.png' does not exist",
     "'../a.png'": r"materials\.m\.texture: '../a.png' is not in the folder",
-    "'/a.png'": r"materials\.m\.texture: '/a.png' is not in the folder.*copy the image there",
+    "'/a.png'": r"materials\.m\.texture: '/a.png' is not in the folder.*copy it there",
     "''": r"materials\.m\.texture: names no image; give the name of a file",
     "'s.toml'": r"materials\.m\.texture: 's.toml' is none of PNG",
     "3": r"materials\.m\.texture: is a whole number; give",
     "{ file = 'a.png', wrap = 'tile' }": r"texture\.wrap: 'tile' is unknown; give one of repeat",
-    "{ file = 'a.png', scale = nan }": r"texture\.scale: nan is not a usable number",
+    "{ file = 'a.png', scale = nan }": r"texture\.scale: nan is not finite",
     "{ file = 'a.png', size = 1 }": r"texture\.size: is unknown",
     "'a.png'\nchecker = {}": r"materials\.m\.texture: is given, and so is a checker",
 }

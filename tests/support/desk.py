@@ -26,6 +26,7 @@ INSTALL = "sudo apt-get install --no-install-recommends xvfb openbox xdotool"
 STATUS_PX = 50
 REST_S = 2.5  # longer than the window ever waits between two frames
 PAUSE_S = 0.3  # between two keys
+HELD_MS = 60
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
@@ -79,13 +80,14 @@ class Desk:
         return done.stdout.split()
 
     def key(self, *chords: str) -> None:
-        """Presses chords, such as ctrl+plus, each at once, as a remote desktop does.
+        """Presses chords, such as ctrl+plus, as fingers do: at a few frames a second, GLFW takes a
+        chord that is pressed within a millisecond for its keys alone.
 
         Each is answered for before the next one's pause begins: of two presses of Ctrl that a busy
         server takes in the same millisecond, GLFW drops the second.
         """
         for chord in chords:
-            self.xdotool("key", chord, "getmouselocation", "sleep", PAUSE_S)
+            self.xdotool("key", "--delay", HELD_MS, chord, "getmouselocation", "sleep", PAUSE_S)
 
     def chord(self, modifier: str, key: str) -> None:
         """Holds a modifier, presses a key, as a finger does."""

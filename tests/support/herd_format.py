@@ -61,5 +61,8 @@ def install(monkeypatch: Any) -> None:
     den.recognises, den.write = lambda given: False, write_den  # type: ignore[attr-defined]
     for module in (herd, den):
         monkeypatch.setitem(sys.modules, f"renderer.camera_formats.{module.__name__}", module)
-    own = (Format("herd", "cameras in a herd", (".herd",)), Format("den", "a den", ("",)))
+    own = (
+        Format("herd", "cameras in a herd", "herd", (".herd",)),
+        Format("den", "a den", "-", ("",)),
+    )
     monkeypatch.setattr(formats, "FORMATS", (*own, *formats.FORMATS))

@@ -9,8 +9,8 @@ from app.state.app_state import AppState
 from app.window.action_table import ACTIONS, MENUS
 from app.window.instruments import INSTRUMENTS, make_views
 from app.window.palette_entries import SYNONYMS, pages
-from app.window.palette_search import Entry, found, score
-from app.window.shortcut_sheet import in_columns, narrowed, sections
+from app.window.palette_search import Entry, found
+from app.window.shortcut_sheet import in_columns, sections
 from renderer.scene import load_scene
 
 ENTRIES = [
@@ -24,7 +24,7 @@ ENTRIES = [
 
 
 def names(query: str, recent: tuple[str, ...] = ()) -> list[str]:
-    return [match.entry.name for match in found(query, ENTRIES, recent)]
+    return [entry.name for entry in found(query, ENTRIES, recent)]
 
 
 @pytest.mark.parametrize(
@@ -54,14 +54,6 @@ def test_recently_used_stand_first():
     assert names("", recent)[:2] == ["Light theme", "Presentation"]
     assert names("theme", recent)[0] == "Light theme"
     assert names("dark", recent)[0] == "Dark theme"  # what fits better wins
-
-
-def test_letters_are_told_for_marking():
-    assert score("pp", "Parallel projection") is not None
-    assert score("pp", "Parallel projection")[1] == (0, 9)
-    assert score("", "anything") == (0, ())
-    assert score("b", "") is None
-    assert score("i", "İstanbul") is None or len(score("i", "İstanbul")[1]) == 1
 
 
 TABLE = [
@@ -95,7 +87,6 @@ PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
         ("indices", "Pixels from 0 (arrays)"),
         ("undo", "Undo"),
         ("depth", "Depth"),
-        ("subpixels", "Image laboratory: Subpixels"),
         ("dithers", "Image laboratory: One bit"),
         ("lcd", "Display: LCD"),
         ("lights", "Add point light"),
@@ -103,7 +94,7 @@ PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
     ],
 )
 def test_the_words_of_other_programs_find_what_is_meant(query, wanted):
-    best = [match.entry.name for match in found(query, [*TABLE, *VIEWS, *PAGES])][:4]
+    best = [entry.name for entry in found(query, [*TABLE, *VIEWS, *PAGES])][:4]
     assert wanted in best
 
 
@@ -117,7 +108,7 @@ def test_pages_are_options_of_their_instruments():
 
 def test_whole_words_stand_before_letters_that_lie_apart():
     entries = [Entry("Go right, in depth", "", lambda: None), Entry("Pixel grid", "", lambda: None)]
-    assert found("grid", entries)[0].entry.name == "Pixel grid"
+    assert found("grid", entries)[0].name == "Pixel grid"
 
 
 def test_synonyms_name_what_there_is():
@@ -148,15 +139,6 @@ def test_the_sheet_holds_every_key_and_fits_columns():
         assert max(heights) <= 1.1 * sum(heights) / columns, "of about one height"
         for column in placed:
             assert column == sorted(column, key=parts.index), "in their order"
-
-
-def test_the_sheet_is_narrowed_to_words():
-    parts = sections()
-    assert narrowed(parts, "") == parts
-    assert narrowed(parts, "xyzzy") == []
-    rows = [row for _, rows in narrowed(parts, "PAGE step") for row in rows]
-    assert rows[:2] == [("Page Down", "Next step"), ("Page Up", "Previous step")]
-    assert all("step" in row[1] for row in rows)
 
 
 def test_a_plus_is_a_plus_with_or_without_shift():

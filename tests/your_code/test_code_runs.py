@@ -59,6 +59,9 @@ class FakeStudent:
     def answer(self, call: Call) -> Any:
         return right_ray(dict(call.arguments))
 
+    def restart(self) -> None:
+        pass
+
     def stop(self) -> None:
         self.ended.set()
 

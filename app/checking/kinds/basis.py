@@ -83,16 +83,22 @@ class BasisKind(CheckKind):
         return ", ".join(parts)
 
 
+def conditioning(eye: Vector, target: Vector, up: Vector) -> float:
+    """Return how much a relative error of the vectors grows in the basis."""
+    back = np.subtract(eye, target)
+    away, length = np.linalg.norm(back), np.linalg.norm(up)
+    sine = np.linalg.norm(np.cross(up, back)) / (length * away)
+    return float((1 + (np.linalg.norm(eye) + np.linalg.norm(target)) / away) / sine)
+
+
 def case_of(task: CheckTask, eye: Vector, target: Vector, up: Vector) -> CheckCase:
     camera = Camera.look_at(eye, target, up)
     right = np.array([camera.u, camera.v, camera.w])
-    away = np.linalg.norm(np.subtract(eye, target))
-    sine = np.linalg.norm(np.cross(up, camera.w)) / np.linalg.norm(up)
-    near = FLOAT32 * (1 + (np.linalg.norm(eye) + np.linalg.norm(target)) / away) / sine
+    near = FLOAT32 * conditioning(eye, target, up)
     values = {
         "eye": list(eye),
         "target": list(target),
         "up": list(up),
         "forward": (-right[2]).tolist(),
     }
-    return CheckCase(named(task, values), right, float(near), values, target=target, up=up)
+    return CheckCase(named(task, values), right, near, values, target=target, up=up)

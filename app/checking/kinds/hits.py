@@ -16,10 +16,10 @@ rounding of float32.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from app.checking.cases import generator, point, rounded
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, named, tolerances
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 MARGIN = 0.05
+Place = Literal["ahead", "beside", "behind", "around"]
+_PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
 RAY_WORDS = {
     "origin": "where the ray starts",
     "direction": "where it goes; of any length",
@@ -42,11 +44,16 @@ Values = dict[str, Any]
 
 
 class HitKind(CheckKind):
-    """Base class for rays and objects. kind, fields: an object's type, and its fields."""
+    """Base class for rays and objects.
+
+    kind, fields: an object's type, and its fields.
+    places: of the generated objects, in turn; see _sphere and _triangle.
+    """
 
     answer = "a number t, or None"
     kind: ClassVar[str]
     fields: ClassVar[tuple[str, ...]]
+    places: ClassVar[tuple[Place, ...]]
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
@@ -62,16 +69,12 @@ class HitKind(CheckKind):
         values = {**values, "ray": ray, self.kind: fields}
         return CheckCase(named(task, values), t, near, values)
 
-    def _is_clear(self, values: Values) -> bool:
-        """Return True if rounding cannot decide between hit and miss."""
-        shape = {"type": self.kind} | {name: values[name] for name in self.fields}
-        return bool(hits(values["origin"], values["direction"], shape)[1] > MARGIN)
-
     def _simple(self) -> list[Values]:
         raise NotImplementedError
 
     def _made_up(self, random: Random, number: int) -> Values:
-        raise NotImplementedError
+        ray = _ray(random)
+        return ray | _object(random, ray, self.kind, self.places[number % len(self.places)])
 
     def read(self, task: CheckTask, value: Any) -> Any:
         return parameter(value)
@@ -98,6 +101,7 @@ class SphereHitKind(HitKind):
     arguments = ("origin", "direction", "center", "radius")
     kind = "sphere"
     fields = ("center", "radius")
+    places = ("ahead", "beside", "ahead", "behind", "around")
 
     def _simple(self) -> list[Values]:
         straight = {"origin": [0.0, 0.0, 5.0], "center": [0.0, 0.0, 0.0], "radius": 1.0}
@@ -108,15 +112,6 @@ class SphereHitKind(HitKind):
             {**straight, "direction": [0.0, 1.0, 0.0]},
             {**straight, "origin": [0.0, 0.0, 0.0], "direction": [0.0, 0.5, 0.0]},
         ]
-
-    def _made_up(self, random: Random, number: int) -> Values:
-        """Return a sphere ahead of the ray, to its side, behind it or around its origin, in
-        turn.
-        """
-        how = ("ahead", "beside", "ahead", "behind", "inside")[number % 5]
-        while not self._is_clear(values := aimed_at_sphere(random, how)):
-            pass
-        return values
 
 
 class TriangleHitKind(HitKind):
@@ -132,6 +127,7 @@ class TriangleHitKind(HitKind):
     arguments = ("origin", "direction", "a", "b", "c")
     kind = "triangle"
     fields = ("a", "b", "c")
+    places = ("ahead", "beside", "ahead", "beside", "beside", "behind")
 
     def _simple(self) -> list[Values]:
         flat = {"a": [-1.0, -1.0, 0.0], "b": [2.0, -1.0, 0.0], "c": [-1.0, 2.0, 0.0]}
@@ -144,15 +140,6 @@ class TriangleHitKind(HitKind):
             {"origin": [1.5, 1.5, 4.0], "direction": [0.0, 0.0, -1.0], **flat},
             {"origin": at, "direction": [0.0, 1.0, 0.0], **flat},
         ]
-
-    def _made_up(self, random: Random, number: int) -> Values:
-        """Return a ray and a triangle that it hits, misses beyond an edge, or has behind it, in
-        turn.
-        """
-        while True:
-            values = aimed_at_triangle(random, number % 6)
-            if is_clear_triangle(values) and self._is_clear(values):
-                return values
 
 
 class ClosestHitKind(HitKind):
@@ -170,12 +157,13 @@ class ClosestHitKind(HitKind):
 
     def _case(self, task: CheckTask, values: Values) -> CheckCase:
         ray = {name: values[name] for name in ("origin", "direction")}
-        found = closest(values["origin"], values["direction"], values["objects"])
-        number, t = int(found[0]), float(found[1])
+        found = [*_all_hits(**ray, objects=values["objects"]), np.inf]
+        number, t = int(np.argmin(found)), float(min(found))
         near = 0.0
-        if number >= 0:
-            shape = values["objects"][number]
-            near = tolerance(values["origin"], values["direction"], shape, t, FLOAT32)
+        if t < np.inf:
+            near = tolerance(**ray, shape=values["objects"][number], t=t, rounding=FLOAT32)
+        else:
+            number = -1
         values = {**values, "ray": ray}
         return CheckCase(named(task, values), (float(number), t), near, values)
 
@@ -200,10 +188,10 @@ class ClosestHitKind(HitKind):
     def _made_up(self, random: Random, number: int) -> Values:
         """Return several objects. In turn, the ray hits at least none, one or more of them."""
         while True:
-            objects: list[dict[str, Any]] = []
-            ray: Values = {"origin": list(point(random)), "direction": _direction(random)}
+            ray, objects = _ray(random), []
             for _ in range(int(random.integers(2, 7))):
-                objects.append(_clear_object(random, ray))
+                kind = "sphere" if random.random() < 0.6 else "triangle"
+                objects.append(_object(random, ray, kind, random.choice(_PLACES)))
             met = np.sort(_all_hits(ray["origin"], ray["direction"], objects))
             met = met[np.isfinite(met)]
             if met.size >= number % 3 and np.all(np.diff(met) > 0.02 * met[1:]):
@@ -240,15 +228,6 @@ class ClosestHitKind(HitKind):
         return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
 
 
-def closest(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> tuple[int, float]:
-    """Return the number of the nearest object, from 0, and t; -1 and inf for a miss."""
-    parameters = _all_hits(origin, direction, objects)
-    if not np.isfinite(parameters).any():
-        return -1, np.inf
-    number = int(np.argmin(parameters))
-    return number, float(parameters[number])
-
-
 def _all_hits(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> Floats:
     return np.array([float(hits(origin, direction, shape)[0]) for shape in objects])
 
@@ -269,84 +248,62 @@ def _differ(right: Floats, given: Floats, near: Floats) -> Flags:
         return ~(same | (np.abs(given - right) <= near))
 
 
-def _direction(random: Random) -> list[float]:
-    """Return a direction of length 0.4 to 3, which exposes code that assumes length 1."""
-    unit = random.normal(size=3)
-    scaled = unit / np.linalg.norm(unit) * random.uniform(0.4, 3.0)
-    return [rounded(value, 3) for value in scaled]
+def _ray(random: Random) -> Values:
+    """Return a ray. Its direction has a length from 0.4 to 3, which exposes code that assumes 1."""
+    unit = _unit(random.normal(size=3))
+    direction = np.round(unit * random.uniform(0.4, 3.0), 3).tolist()
+    return {"origin": list(point(random)), "direction": direction}
 
 
-def _aside(random: Random, direction: Floats) -> Floats:
-    """Return a unit vector perpendicular to a direction."""
-    made: Floats = np.cross(direction, random.normal(size=3))
-    return made / np.linalg.norm(made)
+def _object(random: Random, ray: Values, kind: str, place: Place) -> dict[str, Any]:
+    """Return an object that the ray clearly hits, or clearly misses.
 
-
-def aimed_at_sphere(random: Random, how: str) -> Values:
-    """Return a ray, and a sphere that it hits, misses, has behind it or starts in."""
-    center, radius = np.array(point(random, 3.0)), rounded(random.uniform(0.4, 2.0))
-    direction = np.array(_direction(random))
-    unit = direction / np.linalg.norm(direction)
-    miss = how == "beside"
-    offset = random.uniform(1.1, 2.0) if miss else random.uniform(0.0, 0.9)
-    away = random.uniform(0.0, 0.3) if how == "inside" else random.uniform(1.3, 4.0)
-    sign = 1 if how == "behind" else -1
-    origin = center + radius * (offset * _aside(random, unit) + sign * away * unit)
-    return {
-        "origin": [rounded(value, 3) for value in origin],
-        "direction": direction.tolist(),
-        "center": center.tolist(),
-        "radius": radius,
-    }
-
-
-def aimed_at_triangle(random: Random, how: int) -> Values:
-    """Return a ray and a triangle. how: 0, 1 inside; 2, 3, 4 beyond an edge; 5 behind."""
-    a, b, c = (np.array(point(random, 2.0)) for _ in range(3))
-    weights = random.dirichlet((2.0, 2.0, 2.0))
-    if 2 <= how <= 4:
-        weights = weights * np.where(np.arange(3) == how - 2, -1.0, 1.0)
-        weights = weights / weights.sum() if abs(weights.sum()) > 0.1 else weights + 1 / 3
-    aim = weights @ np.array([a, b, c])
-    direction = np.array(_direction(random))
-    away = random.uniform(1.0, 4.0) * (1 if how == 5 else -1)
-    origin = aim + away * direction / np.linalg.norm(direction)
-    return {
-        "origin": [rounded(value, 3) for value in origin],
-        "direction": direction.tolist(),
-        "a": a.tolist(),
-        "b": b.tolist(),
-        "c": c.tolist(),
-    }
-
-
-def is_clear_triangle(values: Values) -> bool:
-    """Return True if the triangle is neither thin nor seen edge-on, so that float32 keeps its
-    digits.
+    place: ahead of the ray, which hits it; beside the ray; behind it; or around its origin.
     """
-    a, b, c = (np.array(values[name]) for name in "abc")
-    across = np.cross(b - a, c - a)
-    edges = [b - a, c - a, c - b]
-    longest = max(float(np.linalg.norm(edge)) for edge in edges)
-    facing = abs(float(across @ np.array(values["direction"])))
-    return facing > 0.1 * longest**2 * float(np.linalg.norm(values["direction"])) > 0.02
-
-
-def _clear_object(random: Random, ray: Values) -> dict[str, Any]:
-    """Return an object that the ray clearly hits or misses; many of them are hit."""
+    make = _sphere if kind == "sphere" else _triangle
     while True:
-        shape = _object(random, ray)
-        clear = shape["type"] == "sphere" or is_clear_triangle({**ray, **shape})
-        if clear and hits(ray["origin"], ray["direction"], shape)[1] > MARGIN:
+        shape = {"type": kind, **make(random, ray, place)}
+        if _is_clear(ray, shape):
             return shape
 
 
-def _object(random: Random, ray: Values) -> dict[str, Any]:
-    unit = np.array(ray["direction"]) / np.linalg.norm(ray["direction"])
-    middle = np.array(ray["origin"]) + random.uniform(-6.0, 12.0) * unit
-    middle += random.uniform(-1.0, 1.0, 3)
-    if random.random() < 0.6:
-        center = [rounded(value) for value in middle]
-        return {"type": "sphere", "center": center, "radius": rounded(random.uniform(0.5, 1.5))}
-    corners = np.round(middle + random.uniform(-3.0, 3.0, (3, 3)), 2).tolist()
-    return {"type": "triangle"} | dict(zip("abc", corners, strict=True))
+def _sphere(random: Random, ray: Values, place: Place) -> Values:
+    radius = rounded(random.uniform(0.4, 2.0))
+    unit = _unit(ray["direction"])
+    aside = _unit(np.cross(unit, random.normal(size=3)))
+    offset = random.uniform(1.1, 2.0) if place == "beside" else random.uniform(0.0, 0.9)
+    away = random.uniform(0.0, 0.3) if place == "around" else random.uniform(1.3, 4.0)
+    away = -away if place == "behind" else away
+    center = ray["origin"] + radius * (offset * aside + away * unit)
+    return {"center": np.round(center, 3).tolist(), "radius": radius}
+
+
+def _triangle(random: Random, ray: Values, place: Place) -> Values:
+    """Return a triangle. Beside the ray, its plane is hit beyond an edge."""
+    corners = random.uniform(-2.0, 2.0, (3, 3))
+    weights = random.dirichlet((2.0, 2.0, 2.0))
+    if place == "beside":
+        weights[random.integers(3)] *= -1.0
+        weights += (1 - weights.sum()) / 3
+    away = random.uniform(1.0, 4.0) * (-1 if place == "behind" else 1)
+    corners += ray["origin"] + away * _unit(ray["direction"]) - weights @ corners
+    return dict(zip("abc", np.round(corners, 3).tolist(), strict=True))
+
+
+def _unit(vector: ArrayLike) -> Floats:
+    values = np.asarray(vector, float)
+    return values / np.linalg.norm(values)
+
+
+def _is_clear(ray: Values, shape: Values) -> bool:
+    """Return True if rounding cannot decide between hit and miss.
+
+    A triangle must be neither thin nor seen edge-on, so that float32 keeps the digits of t.
+    """
+    if shape["type"] == "triangle":
+        a, b, c = (np.array(shape[name]) for name in "abc")
+        longest = max(float(np.linalg.norm(edge)) for edge in (b - a, c - a, c - b))
+        facing = abs(float(np.cross(b - a, c - a) @ ray["direction"]))
+        if not facing > 0.1 * longest**2 * float(np.linalg.norm(ray["direction"])) > 0.02:
+            return False
+    return bool(hits(ray["origin"], ray["direction"], shape)[1] > MARGIN)

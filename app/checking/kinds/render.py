@@ -138,9 +138,7 @@ def _object(shot: Shot, random: Random, at: Floats, depth: float, part: float) -
     if random.random() < 0.6:
         where = [rounded(value, 3) for value in center]
         return {"type": "sphere", "center": where, "radius": rounded(size, 3), "color": color}
-    turn = random.uniform(0.0, 2 * np.pi)
-    corners = {}
-    for name, angle in zip("abc", (0.0, 2.1, 4.2), strict=True):
-        around = np.array([np.cos(turn + angle), np.sin(turn + angle), random.uniform(-0.2, 0.2)])
-        corners[name] = [rounded(value, 3) for value in center + 1.5 * size * unit @ around]
-    return {"type": "triangle", **corners, "color": color}
+    turn = random.uniform(0.0, 2 * np.pi) + 2.1 * np.arange(3)
+    around = np.column_stack([np.cos(turn), np.sin(turn), random.uniform(-0.2, 0.2, 3)])
+    corners = np.round(center + 1.5 * size * around @ unit.T, 3).tolist()
+    return {"type": "triangle", **dict(zip("abc", corners, strict=True)), "color": color}

@@ -21,55 +21,58 @@ def hits(origin: ArrayLike, direction: ArrayLike, shape: Shape) -> tuple[Floats,
 
     origin, direction: (..., 3). Both results have the rays' shape.
     """
+    found, margin = crossings(origin, direction, shape)
+    return np.minimum.reduce([np.where(t > 0, t, np.inf) for t in found]), margin
+
+
+def crossings(origin: ArrayLike, direction: ArrayLike, shape: Shape) -> tuple[list[Floats], Floats]:
+    """Return every t, of any sign, at which each ray's line crosses the object, and the margins.
+
+    A line that misses the object has NaN.
+    """
+    o, d = np.asarray(origin, float), np.asarray(direction, float)
     with np.errstate(all="ignore"):
         if shape["type"] == "sphere":
-            return sphere_hits(origin, direction, shape["center"], shape["radius"])
-        return triangle_hits(origin, direction, shape["a"], shape["b"], shape["c"])
+            return _sphere_crossings(o, d, np.asarray(shape["center"], float), shape["radius"])
+        return _triangle_crossings(o, d, *(np.asarray(shape[name], float) for name in "abc"))
 
 
-def sphere_hits(
-    origin: ArrayLike, direction: ArrayLike, center: ArrayLike, radius: float
-) -> tuple[Floats, Floats]:
+def _sphere_crossings(
+    o: Floats, d: Floats, center: Floats, radius: float
+) -> tuple[list[Floats], Floats]:
     """Solve |o + t d - c| = r. Margins: from the outline, and from the origin to the surface, in
     radii.
     """
-    o, d = np.asarray(origin, float), np.asarray(direction, float)
-    from_center = o - np.asarray(center, float)
+    from_center = o - center
     squared = np.sum(d * d, axis=-1)
     middle = -np.sum(from_center * d, axis=-1) / squared  # t of the point closest to the centre
     nearest = from_center + middle[..., None] * d
     inside = radius**2 - np.sum(nearest * nearest, axis=-1)
-    half = np.sqrt(np.maximum(inside, 0.0) / squared)
-    near, far = middle - half, middle + half
-    t = np.where(near > 0, near, far)
-    t = np.where((inside > 0) & (t > 0), t, np.inf)
+    half = np.sqrt(inside / squared)  # NaN outside of the outline
     at_surface = np.abs(np.linalg.norm(from_center, axis=-1) / radius - 1)
-    return t, np.minimum(np.abs(inside) / radius**2, at_surface)
+    margin = np.minimum(np.abs(inside) / radius**2, at_surface)
+    return [middle - half, middle + half], margin
 
 
-def triangle_hits(
-    origin: ArrayLike, direction: ArrayLike, a: ArrayLike, b: ArrayLike, c: ArrayLike
-) -> tuple[Floats, Floats]:
+def _triangle_crossings(
+    o: Floats, d: Floats, a: Floats, b: Floats, c: Floats
+) -> tuple[list[Floats], Floats]:
     """Solve o + t d = a + beta (b - a) + gamma (c - a) by Cramer's rule; both sides count. Margins:
     from the edges, as barycentric coordinates, and from the origin to the plane, in lengths of d.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Ray-Triangle Intersection".
     """
-    o, d = np.asarray(origin, float), np.asarray(direction, float)
-    corner = np.asarray(a, float)
-    first, second = np.asarray(b, float) - corner, np.asarray(c, float) - corner
+    first, second = b - a, c - a
     across = np.cross(first, second)
     along = np.sum(d * across, axis=-1)
-    away = corner - o
+    away = a - o
     t = np.sum(away * across, axis=-1) / along
     beta = np.sum(np.cross(d, away) * -second, axis=-1) / along
     gamma = np.sum(np.cross(d, away) * first, axis=-1) / along
-    alpha = 1 - beta - gamma
-    least = np.minimum(np.minimum(alpha, beta), gamma)
+    least = np.minimum(np.minimum(1 - beta - gamma, beta), gamma)
     flat = np.abs(along) <= 1e-12 * np.linalg.norm(across) * np.linalg.norm(d, axis=-1)
-    hit = ~flat & (least > 0) & (t > 0)
     margin = np.where(flat, 1.0, np.minimum(np.abs(least), np.abs(t)))
-    return np.where(hit, t, np.inf), margin
+    return [np.where(~flat & (least > 0), t, np.nan)], margin
 
 
 def tolerance(

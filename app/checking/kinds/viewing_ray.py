@@ -31,9 +31,11 @@ from app.checking.conventions import (
     Shot,
     argument_lists,
 )
+from app.checking.kinds.basis import conditioning
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
 from app.checking.kinds.values import in_order, shown, text_of
 from app.checking.tasks import CheckCase, CheckTask
+from renderer.camera import Camera
 
 Floats = NDArray[np.float64]
 
@@ -134,21 +136,28 @@ def _tolerances(conventions: Conventions, shot: Shot, directions: Floats) -> tup
     them.
     """
     camera = shot.camera
-    left, right, bottom, top = camera.viewport
-    x = max(abs(left), abs(right)) + right - left
-    y = max(abs(bottom), abs(top)) + top - bottom
-    u, v, w = (np.linalg.norm(part) for part in (camera.u, camera.v, camera.w))
-    largest = np.linalg.norm(camera.eye) + x * u + y * v + camera.distance * w
+    largest = largest_number(camera)
     angle = largest / np.linalg.norm(directions, axis=1)
     origin = np.full(len(directions), largest)
     if {"target", "up"} & conventions.words:
-        eye, target = np.asarray(camera.eye), np.asarray(shot.target)
-        away = np.linalg.norm(eye - target)
-        sine = np.linalg.norm(np.cross(shot.up, camera.w)) / np.linalg.norm(shot.up) / w
-        basis = (1 + (np.linalg.norm(eye) + np.linalg.norm(target)) / away) / sine
+        basis = conditioning(camera.eye, shot.target, shot.up)
         angle = angle + basis
-        origin = origin + basis * (x * u + y * v)
+        origin = origin + basis * _reach(camera)
     return FLOAT32 * origin, FLOAT32 * angle
+
+
+def _reach(camera: Camera) -> float:
+    """Return the X|u| + Y|v| of the module's docstring."""
+    left, right, bottom, top = camera.viewport
+    x = max(abs(left), abs(right)) + right - left
+    y = max(abs(bottom), abs(top)) + top - bottom
+    return float(x * np.linalg.norm(camera.u) + y * np.linalg.norm(camera.v))
+
+
+def largest_number(camera: Camera) -> float:
+    """Return the M of the module's docstring."""
+    depth = camera.distance * np.linalg.norm(camera.w)
+    return float(np.linalg.norm(camera.eye) + _reach(camera) + depth)
 
 
 def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance: Floats) -> Flags:

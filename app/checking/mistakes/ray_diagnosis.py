@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from app.checking.mistakes.diagnosis import Diagnosis, named
 from app.checking.mistakes.program import Program
-from app.checking.mistakes.ray_facts import facts, kept
+from app.checking.mistakes.ray_facts import facts
 from app.checking.mistakes.ray_trial import RayCase, RayTrial
 from app.checking.mistakes.rays import RayTask, ray_program
 
@@ -41,9 +41,6 @@ def diagnose_rays(
 
     kinds = [case.camera.projection for case in cases]
     sentences, found, explained = named(kinds, flags, program_and_trial)
-    trial = RayTrial(cases, rays, own_task, any_origin)
-    if remembered := kept(cases, trial):
-        sentences.append(f"Or, with the same numbers: {remembered}" if sentences else remembered)
     if not explained:
-        sentences += facts(cases, trial, flags)
+        sentences += facts(cases, RayTrial(cases, rays, own_task, any_origin), flags)
     return Diagnosis(tuple(sentences), found)

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.checking.cases import is_orthonormal, is_symmetric
 from app.checking.mistakes.candidates import LOOSE
-from app.checking.mistakes.ray_trial import RayCase, RayTrial, images
+from app.checking.mistakes.ray_trial import RayCase, RayTrial
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-TOLD = 3  # facts at most; more would hide the helpful one
-KEPT = (
-    "Your rays are correct for the first camera that your function was given, also where it is "
-    "given another one: does it keep {} from one call to the next?"
-)
 
 
 def facts(cases: Sequence[RayCase], trial: RayTrial, wrong: Flags) -> list[str]:
@@ -26,8 +21,9 @@ def facts(cases: Sequence[RayCase], trial: RayTrial, wrong: Flags) -> list[str]:
     broken = trial.count - np.count_nonzero(np.isfinite(trial.given).all(axis=(1, 2)))
     if broken:
         return [f"{broken} of {trial.count} rays have NaN or inf: look for a division by 0."]
-    told = [*_parts(trial), *_where(cases, wrong), *_same(cases, trial.given)]
-    return told[:TOLD]
+    if np.ptp(trial.given, axis=0).max() == 0:
+        return ["All your rays are the same: they do not depend on i and j."]
+    return [*_parts(trial), *_where(cases, wrong)]
 
 
 def _parts(trial: RayTrial) -> Iterator[str]:
@@ -46,83 +42,25 @@ def _parts(trial: RayTrial) -> Iterator[str]:
         yield "Your directions are correct, your origins are not."
 
 
-def _is_orthonormal(case: RayCase) -> bool:
-    basis = case.camera.basis
-    return bool(np.allclose(basis.T @ basis, np.eye(3), atol=1e-9))
-
-
-def _is_symmetric(case: RayCase) -> bool:
-    left, right, bottom, top = case.camera.viewport
-    return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
-
-
 PLACES: dict[str, Callable[[RayCase], bool]] = {
     "in parallel projection": lambda case: case.camera.is_parallel,
     "in perspective": lambda case: not case.camera.is_parallel,
-    "where the basis is orthonormal": _is_orthonormal,
-    "where the viewport is symmetric": _is_symmetric,
+    "where the basis is orthonormal": lambda case: is_orthonormal(case.camera),
+    "where the viewport is symmetric": lambda case: is_symmetric(case.camera),
     "where `distance` = 1": lambda case: case.camera.distance == 1.0,
     "in square images": lambda case: case.size[0] == case.size[1],
 }  # fmt: skip
 
-# Of first row, first column, last row, last column: those that are wrong.
-EDGES = {
-    "the last row or column": [2, 3],
-    "the first row or column": [0, 1],
-}
-
 
 def _where(cases: Sequence[RayCase], wrong: Flags) -> Iterator[str]:
-    """Yield a property of exactly the images whose rays are all correct, and the edges that all
-    wrong pixels are on.
-    """
-    spans = list(images(cases))
-    right = [not wrong[first:last].any() for first, last in spans]
+    """Yield a property of exactly the images whose rays are all correct."""
+    firsts, right = [], []
+    numbers = range(len(cases))
+    for _, group in groupby(numbers, lambda number: (cases[number].camera, cases[number].size)):
+        image = list(group)
+        firsts.append(cases[image[0]])
+        right.append(not wrong[image].any())
     if any(right):
-        firsts = [cases[first] for first, _ in spans]
         found = [place for place, is_there in PLACES.items() if [*map(is_there, firsts)] == right]
         if found:
             yield f"Your rays are correct {' and '.join(found)}, and wrong elsewhere."
-    pixels = np.array([case.pixel for case in cases])
-    last = np.array([case.size[::-1] for case in cases]) - 1
-    at = np.column_stack([pixels == 0, pixels == last])
-    for name, edges in EDGES.items():
-        if not wrong.all() and at[wrong][:, edges].any(axis=1).all():
-            yield f"Only rays of {name} are wrong."
-            return
-
-
-def kept(cases: Sequence[RayCase], trial: RayTrial) -> str:
-    """Return a sentence if the rays of all cameras are those of the first camera; "" otherwise."""
-    first = cases[0].camera
-    for what in ("it", "its eye and basis"):
-        made = []
-        for case in cases:
-            own = case.camera
-            if what != "it":
-                own = replace(own, eye=first.eye, u=first.u, v=first.v, w=first.w)
-            made.append((first if what == "it" else own).ray(*case.pixel, case.size))
-        apart = trial.apart(trial.given, np.array(made), np.arange(trial.count))
-        if apart.max() <= LOOSE:
-            return KEPT.format(what)
-    return ""
-
-
-def _same(cases: Sequence[RayCase], given: Floats) -> Iterator[str]:
-    """Detect rays that do not depend on i or j."""
-    found = []
-    for first, last in images(cases):
-        i, j = np.array([case.pixel for case in cases[first:last]]).T
-        if np.ptp(i) and np.ptp(j):
-            found.append([_is_constant(given[first:last], group) for group in (0 * i, j, i)])
-    told = (
-        "All your rays of an image are the same: they do not depend on i and j.",
-        "Your rays are the same in all rows: they do not depend on i.",
-        "Your rays are the same in all columns: they do not depend on j.",
-    )
-    if found:
-        yield from [text for text, are in zip(told, np.all(found, axis=0), strict=True) if are][:1]
-
-
-def _is_constant(given: Floats, group: NDArray[np.intp]) -> bool:
-    return all(bool(np.ptp(given[group == value], axis=0).max() == 0) for value in set(group))

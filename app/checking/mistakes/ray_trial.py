@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.checking.kinds.viewing_ray import largest_number
 from app.checking.mistakes.program import Mistakes, Program
 from app.checking.mistakes.rays import RayTask, ray_values, run_rays
 from renderer.camera import Camera, Size
@@ -32,49 +33,18 @@ class RayCase:
     up: tuple[float, float, float] | None = None
 
 
-def images(cases: Sequence[RayCase]) -> Iterator[tuple[int, int]]:
-    """Yield (first, last + 1) of consecutive cases with the same camera and size."""
-    first = 0
-    for number in range(1, len(cases) + 1):
-        if number == len(cases) or not _is_same_image(cases[number], cases[first]):
-            yield first, number
-            first = number
-
-
-def _is_same_image(one: RayCase, other: RayCase) -> bool:
-    return (one.camera, one.size, one.target, one.up) == (
-        other.camera, other.size, other.target, other.up
-    )  # fmt: skip
-
-
 def known_values(cases: Sequence[RayCase], task: RayTask) -> dict[str, Any]:
-    """Return the values that the programs' lines use, for all cases: numbers (N, 1), vectors (N,
-    3).
+    """Return the values that the programs' lines use, for all cases: numbers (N, 1), vectors
+    (N, 3), matrices (N, 4, 4).
     """
-    parts: dict[str, list[Any]] = {}
-    for first, last in images(cases):
-        case = cases[first]
-        i, j = np.array([one.pixel for one in cases[first:last]]).T
-        values = ray_values(case.camera, i, j, case.size, task)
+    made = []
+    for case in cases:
+        values = ray_values(case.camera, *case.pixel, case.size, task)
         for name in ("target", "up"):
             given = getattr(case, name)
-            values[name] = np.full(3, np.nan) if given is None else np.asarray(given, float)
-        for name, value in values.items():
-            array = np.asarray(value, float)
-            shape = array.shape if array.shape == (4, 4) else np.atleast_1d(array).shape[-1:]
-            parts.setdefault(name, []).append(np.broadcast_to(array, (last - first, *shape)))
-    return {name: np.concatenate(arrays) for name, arrays in parts.items()}
-
-
-def largest_numbers(known: dict[str, Any]) -> Floats:
-    """Return the largest intermediate result of each case, from |eye| and a point of the viewport;
-    (N,).
-    """
-    length = {name: np.linalg.norm(known[name], axis=-1) for name in ("eye", "u", "v", "w")}
-    sides = {name: np.abs(known[name][:, 0]) for name in ("left", "right", "bottom", "top")}
-    across = np.maximum(sides["left"], sides["right"]) * length["u"]
-    along = np.maximum(sides["bottom"], sides["top"]) * length["v"]
-    return np.asarray(length["eye"] + across + along + known["distance"][:, 0] * length["w"])
+            values[name] = np.full(3, np.nan) if given is None else given
+        made.append(values)
+    return {name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]}
 
 
 class RayTrial:
@@ -95,7 +65,7 @@ class RayTrial:
         self.given = given
         rays = [case.camera.ray(*case.pixel, case.size) for case in cases]
         self.right = np.array(rays, float).reshape(-1, 2, 3)
-        self.scale = largest_numbers(self.known)
+        self.scale = np.array([largest_number(case.camera) for case in cases])
         self.any_origin = any_origin
 
     def errors(

@@ -53,8 +53,6 @@ def _test(one: Reported) -> dict[str, Any]:
         lines += [""] * bool(lines) + ["Printed:", say.output[:OUTPUT_LETTERS]]
     test = {
         "name": f"{one.task.name}: {signature(one.task)}",
-        "name_format": "text",
-        "output_format": "text",
         "max_score": one.task.points,
         "score": one.points,
         "status": "passed" if one.is_right else "failed",

@@ -13,11 +13,10 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.checked import TaskResult, WrongCase
-from app.checking.reports.picture import difference
+from app.checking.checked import TaskResult
+from app.checking.reports.picture import changed_pixels, difference_picture
 from app.checking.reports.pictured import Pictured
-from app.checking.reports.sketch import sketch
-from app.checking.reports.told import VERDICTS, Reported, Told, of_points, reported, summary
+from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
 from renderer.errors import visible
@@ -54,21 +53,11 @@ pre { background: var(--shade); padding: .6rem .8rem; border-radius: .3rem; marg
 figure { margin: 0; flex: 1 1 14rem; max-width: 22rem; }
 figcaption { color: var(--dim); font-size: .9rem; }
 img { width: 100%; image-rendering: pixelated; border: 1px solid var(--line); display: block; }
-.sketch { width: 100%; max-height: 20rem; border: 1px solid var(--line); background: var(--shade); }
-.sketch path { fill: none; stroke: var(--dim); stroke-width: 1.5; }
-.sketch .edge { stroke-dasharray: 2 5; } .sketch text { fill: var(--dim); font-size: 14px; }
-.sketch .eye { fill: var(--ink); }
-.sketch .right { stroke: var(--right); stroke-width: 3; }
-.sketch .given { stroke: var(--wrong); stroke-width: 3; stroke-dasharray: 9 5; }
-.sketch .right.head, .sketch circle.right { fill: var(--right); }
-.sketch .given.head, .sketch circle.given { fill: var(--wrong); stroke-dasharray: none; }
-.key { display: inline-block; width: 1.6rem; border-top: 3px solid var(--right);
-  vertical-align: middle; } .key.given { border-top: 3px dashed var(--wrong); }
 @media print { :root { color-scheme: light; --paper: #ffffff; --ink: #000000; --dim: #444444;
   --line: #999999; --shade: #ffffff; --right: #1a7f37; --wrong: #c4232b; --failed: #9a6700; }
   body { max-width: none; padding: 0; font-size: 11pt; } pre { border: 1px solid var(--line); }
-  .printed { max-height: none; } .sketch { max-height: 14rem; } figure { flex-basis: 9rem; }
-  h2, h3, h2 + p { break-after: avoid; } li, svg, .pictures { break-inside: avoid; }
+  .printed { max-height: none; } figure { flex-basis: 9rem; }
+  h2, h3, h2 + p { break-after: avoid; } li, .pictures { break-inside: avoid; }
   * { print-color-adjust: exact; } }
 """
 
@@ -117,7 +106,7 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
         items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in say.diagnosis)
         parts.append(f'<ul class="told">{items}</ul>\n')
     if say.first is not None:
-        parts.append(_first(task, say, say.first))
+        parts.append(_pre(f"{say.wrong}; the first one:", say.first_lines))
         if pictures is not None:
             parts.append(_pictures(pictures))
     if say.output:
@@ -125,25 +114,12 @@ def _section(one: Reported, pictures: Pictured | None) -> str:
     return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
 
 
-def _first(task: CheckTask, say: Told, first: WrongCase) -> str:
-    """Return the first wrong case in numbers, and as a drawing."""
-    drawn = ""
-    case = first.case
-    if task.kind == "viewing-ray" and case.camera and case.size:
-        rays = (np.asarray(ray, float) for ray in (case.right, first.answer))
-        drawn = (
-            f'{sketch(case.camera, case.size, *rays)}\n<p class="dim"><span class="key"></span> '
-            'the correct ray, <span class="key given"></span> the given one; from the eye through '
-            "the viewport</p>\n"
-        )
-    return f"<h3>{_text(say.wrong)}; the first one:</h3>\n{_pre('', say.first_lines)}{drawn}"
-
-
 def _pictures(pictures: Pictured) -> str:
+    changed = changed_pixels(pictures.right, pictures.given)
     shown = (
         ("with your code", pictures.given),
         ("correct", pictures.right),
-        ("where they differ", difference(pictures.given, pictures.right)),
+        ("where they differ", difference_picture(pictures.right, changed)),
     )
     figures = "".join(
         f'<figure><img alt="{caption}" src="{_data(image)}">'

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.kinds.shapes import sphere_hits
+from app.checking.kinds.shapes import hits
 from renderer.camera import Camera, Size
 from renderer.images import to_srgb8
 
@@ -34,8 +34,13 @@ NO_RAY = (0.35, 0.0, 0.35)  # for missing numbers or directions
 TOWARDS_LIGHT = np.array([-0.48, 0.72, 0.5]) / np.linalg.norm([-0.48, 0.72, 0.5])
 AMBIENT = 0.25
 
+# Of the picture of a difference.
+SEEN = 2  # of 255: pixels that differ by more are marked
+GRAY = 0.4  # brightness of the other pixels
+MARK = (255, 176, 0)
 
-def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
+
+def _in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
     """Convert rays (..., 2, 3), origin and direction, from the world to the frustum's
     coordinates.
     """
@@ -58,7 +63,7 @@ def in_frustum(camera: Camera, size: Size, rays: Floats) -> Floats:
 
 def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
     """Return the picture that rays (H, W, 2, 3) of the world see, sRGB (H, W, 3)."""
-    inside = in_frustum(camera, size, rays)
+    inside = _in_frustum(camera, size, rays)
     origin, direction = inside[..., 0, :], inside[..., 1, :]
     with np.errstate(all="ignore"):
         direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
@@ -67,7 +72,8 @@ def picture(camera: Camera, size: Size, rays: Floats) -> Bytes:
         nearest, floor = _floor(origin, direction)
         color = np.where(np.isfinite(nearest)[..., None], floor, color)
         for center, radius, albedo in SPHERES:
-            t, _ = sphere_hits(origin, direction, center, radius)
+            sphere = {"type": "sphere", "center": center, "radius": radius}
+            t, _ = hits(origin, direction, sphere)
             at = origin + t[..., None] * direction
             normal = (at - center) / radius
             light = AMBIENT + (1 - AMBIENT) * np.maximum(normal @ TOWARDS_LIGHT, 0)
@@ -91,8 +97,17 @@ def _floor(origin: Floats, direction: Floats) -> tuple[Floats, Floats]:
     return t, (first + second) / 2 + contrast[..., None] * (first - second)
 
 
-def difference(first: Bytes, second: Bytes) -> Bytes:
-    """Return black where two pictures are equal, brighter where they differ more."""
-    apart = np.abs(first.astype(int) - second.astype(int)).max(axis=-1)
-    gray = np.where(apart > 0, 60 + apart * 195 // 255, 0).astype(np.uint8)
-    return np.repeat(gray[..., None], 3, axis=-1)
+def changed_pixels(right: Bytes, wrong: Bytes) -> NDArray[np.bool_]:
+    """Return the pixels in which two displayed pictures differ visibly, (H, W)."""
+    differs: NDArray[np.bool_] = (
+        np.abs(right.astype(np.int16) - wrong.astype(np.int16)).max(axis=2) > SEEN
+    )
+    return differs
+
+
+def difference_picture(right: Bytes, changed: NDArray[np.bool_]) -> Bytes:
+    """Return the differing pixels, bright on the correct picture in dark gray."""
+    gray = (GRAY * right.mean(axis=2)).astype(np.uint8)
+    picture: Bytes = np.repeat(gray[..., None], 3, axis=2)
+    picture[changed] = MARK
+    return picture

@@ -1,1 +1,1 @@
-"""Running students' code: a Python file, any program, or a file of rays; each is a Student."""
+"""Running students' code: a Python file or any program; each is a Student."""

@@ -51,12 +51,11 @@ class CommandStudent(ProgramStudent):
             except LucidaError as error:
                 return Run((), "", Failure("missing", str(error)))
             values: list[Any] = []
-            try:
-                failure = self._run(program, calls, values, end)
-                program.end()
-                return Run(tuple(values), program.output(), failure)
-            finally:
-                self._end()
+            failure = self._run(program, calls, values, end)
+            program.end()
+            printed = program.output()
+            self._end()
+            return Run(tuple(values), printed, failure)
 
     def _run(
         self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
@@ -66,8 +65,8 @@ class CommandStudent(ProgramStudent):
         line = b""
         try:
             while len(values) < len(calls):
-                line = _next_line(program, end)
-                values.append(json.loads(line, parse_int=whole_number))
+                if line := program.line(end).strip():
+                    values.append(json.loads(line, parse_int=whole_number))
         except ProgramOverError as over:
             kind, text = told_over(over, self.limits, "it")
             text = f"{self._name}: {text}, with {len(values)} of {len(calls)} answers"
@@ -98,10 +97,3 @@ def _words(command: str) -> list[str]:
 
 def _line(call: Call) -> str:
     return json.dumps({"function": call.function, **dict(call.arguments)}) + "\n"
-
-
-def _next_line(program: StudentProgram, end: float) -> bytes:
-    """Return the next answer that is not blank."""
-    while not (line := program.line(end).strip()):
-        pass
-    return line

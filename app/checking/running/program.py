@@ -208,6 +208,10 @@ class ProgramStudent:
         if program:
             program.stop()
 
+    def restart(self) -> None:
+        with self._turn:
+            self._end()
+
     def close(self) -> None:
         self._closed = True
         self.stop()

@@ -36,10 +36,7 @@ def _told_status(status: int | None) -> str:
         return "closed what it answers through"
     if status >= 0:
         return f"ended with exit status {status}"
-    try:
-        return f"was ended by {signal.Signals(-status).name}"
-    except ValueError:
-        return f"was ended by signal {-status}"
+    return f"was ended by signal {-status} ({signal.strsignal(-status)})"
 
 
 def whole_number(text: str) -> int | float:

@@ -17,9 +17,8 @@ from app.checking.builtin import BUILTIN
 from app.checking.checked import TaskResult, checked
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.reports.page import page
-from app.checking.reports.picture import NO_RAY, picture
+from app.checking.reports.picture import MARK, NO_RAY, changed_pixels, picture
 from app.checking.reports.pictured import Pictured, pictured
-from app.checking.reports.sketch import sketch
 from app.checking.running.file import FileStudent
 from app.checking.tasks import FEEDBACK
 from app.cli import main
@@ -107,8 +106,9 @@ def test_pictures_are_what_was_given_what_is_right_and_where_they_differ(tried) 
     assert given.shape == right.shape == apart.shape and max(given.shape) >= 64
     upside_down = np.abs(given[::-1].astype(int) - right).max(axis=-1)
     assert np.mean(upside_down > 8) < 0.02  # but for pixels that an edge goes through
-    same = (given == right).all(axis=-1)
-    assert (apart[same] == 0).all() and (apart[~same] >= 60).all() and not same.all()
+    changed = changed_pixels(right, given)
+    marked = (apart == MARK).all(axis=-1)
+    assert (marked == changed).all() and changed.any() and not changed.all()
 
 
 @pytest.mark.parametrize("feedback", FEEDBACK)
@@ -126,7 +126,6 @@ def test_what_the_feedback_keeps_back_is_not_in_the_file(tried, feedback: str) -
         first.right,
         first.given,
         symbols.arguments(first.arguments, "book"),
-        "<svg",
         "data:image",
         "cases are",
     ):
@@ -169,9 +168,3 @@ def test_rays_that_are_none_are_shown_as_such() -> None:
     seen = picture(camera, size, rays)
     wanted = to_srgb8(np.array(NO_RAY, np.float32))
     assert (seen[0, :3] == wanted).all() and not (seen[0, 3] == wanted).all()
-    for given in rays[0, :3]:
-        drawn = sketch(camera, size, np.stack(camera.ray(0, 0, size)), given)
-        assert 'class="given' not in drawn and "nan" not in drawn and "inf" not in drawn
-    far = np.array([[1e9, -1e9, 3.0], [0.0, 0.0, 1.0]])
-    numbers = re.findall(r"-?\d+\.\d", sketch(camera, size, rays[2, 3], far))
-    assert max(abs(float(number)) for number in numbers) < 2000
