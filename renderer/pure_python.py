@@ -54,7 +54,7 @@ def _plain(compiled: Any) -> Callable[..., Any]:
     """Return the Python function behind a compiled one; the functions that it calls are replaced,
     too.
     """
-    source = compiled.py_func
+    source = getattr(compiled, "py_func", compiled)
     names = {
         name: _plain(value) if hasattr(value, "py_func") else value
         for name in source.__code__.co_names

@@ -14,7 +14,6 @@ uniform int channel;
 uniform int component;  // 0 to 2: that channel of light alone
 uniform float gain;     // divided by the full scale
 uniform bool has_sign;
-uniform bool displayed;  // the colours are display values already
 
 out vec4 color;
 
@@ -33,7 +32,6 @@ float difference(ivec2 at) {
             second = vec3(second[component]);
         }
         if (unusable(first) || unusable(second)) return 1e30;
-        if (displayed) return most(second - first);
         return most(srgb_from_linear(clamp(second, 0.0, 1.0))
             - srgb_from_linear(clamp(first, 0.0, 1.0)));
     }

@@ -11,7 +11,6 @@ from app import __version__
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.commands.arguments import SCENE_HELP, size
 from app.commands.given_camera import add_view_option, say_changes, viewed
-from app.storage.code_files import found_code, is_code
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -99,6 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
     from app.photograph.reading import found_photograph, is_photograph
     from app.poses.model import PoseSet
     from app.poses.reading import is_cameras, open_cameras
+    from app.storage.code_files import found_code, is_code
     from renderer.camera_formats.given import Options
     from renderer.images import check_image_path
     from renderer.scene.model import View

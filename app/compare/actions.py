@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.compare import comparing
-from app.compare.options import CompareMode, CompareOptions, Pair
+from app.compare.options import CompareMode, CompareOptions
 from app.host.action import SHIFT, Action, Key, Window, changing
-from app.photograph.actions import is_open
 from app.state.app_state import AppState
 from renderer.compare import Comparison
 
@@ -54,16 +53,6 @@ def _comparing(number: int, mode: CompareMode, name: str) -> Action:
     )
 
 
-def _pair(pair: Pair, name: str) -> Action:
-    return Action(
-        MENU,
-        name.capitalize().replace("|", "against"),
-        _shown(lambda state: comparing.with_pair(state, pair)),
-        is_on=lambda state: state.of(CompareOptions).pair == pair,
-        can=lambda window: pair == "raster-ray" or is_open(window),
-    )
-
-
 def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Action:
     """Return an action that toggles an option."""
 
@@ -105,7 +94,6 @@ def _previous(state: AppState, comparison: Comparison) -> AppState:
 
 COMPARING = (
     *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
-    *(_pair(pair, name) for pair, name in comparing.PAIRS),
     _switch("The other image (hold the key)", "flipped", "X"),
     _switch("Mark the causes", "causes", "K", (int(Key.k),)),
     _keyed("More gain", _gain(2.0), "]", Key.right_bracket),

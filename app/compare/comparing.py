@@ -10,8 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.compare.options import CompareMode, CompareOptions, Pair
-from app.photograph.options import PhotographOptions
+from app.compare.options import CompareMode
 from app.state.app_state import AppState
 from app.state.options import Channel, ImageOptions, Pixel
 from renderer.compare import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
@@ -26,11 +25,6 @@ MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ),
     ("wipe", "Wipe", "The raster image left of the divider, the ray image right of it."),
     ("flip", "Flip", "One image in the other's place: hold X to see the other one."),
-)
-PAIRS: tuple[tuple[Pair, str], ...] = (
-    ("raster-ray", "raster | ray"),
-    ("raster-photograph", "raster | photograph"),
-    ("ray-photograph", "ray | photograph"),
 )
 MARKED_MAGNIFICATION = 32.0  # from here on the pixels show their values
 STEP_FROM = 8.0  # less, and a pixel is not to be seen: then the step magnifies
@@ -92,29 +86,6 @@ def effects_of(state: AppState) -> str:
     return " and ".join(on)
 
 
-def sides(state: AppState) -> tuple[str, str]:
-    """Return what is compared: the first and the second, in a word."""
-    is_open = bool(state.of(PhotographOptions).file)
-    first, second = state.of(CompareOptions).pair.split("-") if is_open else ("raster", "ray")
-    return first, second
-
-
-def has_photograph(state: AppState) -> bool:
-    """Return True if one image is compared with the photograph."""
-    return sides(state)[1] == "photograph"
-
-
-def mode_told(mode: CompareMode, state: AppState) -> str:
-    """Return what a mode shows."""
-    told = next(told for known, _, told in MODES if known == mode)
-    first, second = sides(state)
-    if second == "ray":
-        return told
-    for name, now in (("ray image", second), ("raster image", f"{first} image")):
-        told = told.replace(name, now)
-    return told
-
-
 @dataclass(frozen=True)
 class ColorScale:
     """The texts at a colour bar.
@@ -130,13 +101,8 @@ class ColorScale:
     short: tuple[str, str]
 
 
-def scale(
-    channel: Channel, gain: float, signed: bool, compared: tuple[str, str] = ("raster", "ray")
-) -> ColorScale:
-    """Return the meaning of a difference's colours. compared: see sides()."""
-    first, second = compared
-    if second == "photograph":
-        channel = "color"
+def scale(channel: Channel, gain: float, signed: bool) -> ColorScale:
+    """Return the meaning of a difference's colours."""
     full = FULL_SCALE[channel] / gain
     if channel == "id":
         return ColorScale("object", "", "the same", "another one", ("", "another"))
@@ -146,9 +112,9 @@ def scale(
         "normal": ("normal", f"{full:.3g}", "larger"),
     }[channel]
     if signed:
-        low, high = f"{first} {longer} by {number}", f"{second} {longer} by {number}"
-        short = f"{first} {number}", f"{second} {number}"
-        return ColorScale(f"{second} - {first}: {what}", low, "0", high, short)
+        low, high = f"raster {longer} by {number}", f"ray {longer} by {number}"
+        short = f"raster {number}", f"ray {number}"
+        return ColorScale(f"ray - raster: {what}", low, "0", high, short)
     return ColorScale(f"difference of the {what}", "", "0", number, ("", number))
 
 
@@ -235,10 +201,6 @@ def at_worst(state: AppState, comparison: Comparison) -> AppState:
 
 def with_mode(state: AppState, mode: CompareMode) -> AppState:
     return state.with_options(compare={"mode": mode})
-
-
-def with_pair(state: AppState, pair: Pair) -> AppState:
-    return state.with_options(compare={"pair": pair})
 
 
 def with_gain(state: AppState, gain: float) -> AppState:

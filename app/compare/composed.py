@@ -73,10 +73,6 @@ class Composed:
             return self._subtract(ray.size, first, first, mapping, objects)
         return self._subtract(ray.size, first, self._of_ray(mapping.channel), mapping)
 
-    def displayed_difference(self, left: Picture, right: Picture, mapping: Mapping) -> Picture:
-        """Return the same for two pictures, RGBA8 of one size, as displayed."""
-        return self._subtract(left.texture.size, left.held, right.held, mapping, displayed=True)
-
     def _subtract(
         self,
         size: tuple[int, int],
@@ -84,7 +80,6 @@ class Composed:
         ray: Held,
         mapping: Mapping,
         objects: tuple[Held, Held] | None = None,
-        displayed: bool = False,
     ) -> Picture:
         first, second = objects or ((self._no_ids, None),) * 2
         signed, channel = mapping.signed and objects is None, mapping.channel
@@ -101,7 +96,6 @@ class Composed:
             component=COMPONENTS[mapping.component] if channel == "color" else -1,
             gain=mapping.gain / FULL_SCALE[channel],
             has_sign=signed,
-            displayed=displayed,
         )
 
     def compose(

@@ -11,9 +11,6 @@ from app.pair.view import RasterView
 SYNONYMS = {
     "Worst pixel": "error difference",
     "Compare raster and ray": "difference diff error flip",
-    "Raster against ray": "compare difference",
-    "Raster against photograph": "compare difference diff wipe background",
-    "Ray against photograph": "compare difference diff wipe background",
 }
 
 INSTRUMENT = Instrument(

@@ -10,20 +10,19 @@ from app.state.options import Part
 from renderer.difference import LARGEST_GAIN
 
 CompareMode = Literal["absolute", "signed", "wipe", "flip"]
-Pair = Literal["raster-ray", "raster-photograph", "ray-photograph"]
 
 
 @dataclass(frozen=True)
 class CompareOptions:
-    """The compare view. gain: what the difference is multiplied with before it gets a colour.
+    """The compare view.
 
-    pair: what is compared; both images, where no photograph is open. divider: the wipe's, in parts
-    of the image's width: the pair's first one left of it. flipped: flip shows the second one.
+    gain: what the difference is multiplied with before it gets a colour.
+    divider: the wipe's, in parts of the image's width.
+    flipped: flip shows the ray image.
     causes: differing pixels are marked in the colours of their causes.
     """
 
     mode: CompareMode = "wipe"
-    pair: Pair = "raster-ray"
     gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
     divider: Part = 0.5
     flipped: bool = False

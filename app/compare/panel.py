@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.compare import comparing
-from app.compare.comparing import MODES, PAIRS, ColorScale
+from app.compare.comparing import MODES, ColorScale
 from app.compare.options import CompareOptions
-from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options import Pixel
@@ -64,26 +63,21 @@ class Wish:
 def toolbar(state: AppState) -> AppState:
     """Draw modes, gain and the switch of the causes, in as many rows as they need."""
     options = state.of(CompareOptions)
-    for mode, name, _ in MODES:
+    for mode, name, told in MODES:
         if mode != MODES[0][0]:
             follow(button_width(name))
         if _choice(name, options.mode == mode):
             state = comparing.with_mode(state, mode)
-        tip(comparing.mode_told(mode, state))
-    if state.of(PhotographOptions).file:
-        state = _pairs(state)
-    photographed = comparing.has_photograph(state)
-    if not photographed:
-        follow(_check_width("causes"))
-        changed, on = checkbox("causes", options.causes)
-        if changed:
-            state = state.with_options(compare={"causes": on})
-        tip("Mark the pixels that differ, in the colours of their causes.")
+        tip(told)
+    follow(_check_width("causes"))
+    changed, on = checkbox("causes", options.causes)
+    if changed:
+        state = state.with_options(compare={"causes": on})
+    tip("Mark the pixels that differ, in the colours of their causes.")
     width = min(9 * imgui.get_font_size(), imgui.get_content_region_avail().x)
     follow(width)
     imgui.set_next_item_width(width)
-    is_object = state.images.channel == "id" and not photographed
-    has_gain = options.mode in ("absolute", "signed") and not is_object
+    has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
     imgui.begin_disabled(not has_gain)
     changed, gain = slider_float(
         "##gain",
@@ -96,21 +90,6 @@ def toolbar(state: AppState) -> AppState:
         state = comparing.with_gain(state, gain)
     tip("What the difference is multiplied with. Keys [ and ]")
     imgui.end_disabled()
-    return state
-
-
-def _pairs(state: AppState) -> AppState:
-    """Draw the choice of what is compared, if a photograph is open."""
-    now = dict(PAIRS)[state.of(CompareOptions).pair]
-    width = max(map(button_width, dict(PAIRS).values())) + imgui.get_frame_height()
-    follow(width)
-    imgui.set_next_item_width(width)
-    if imgui.begin_combo("##pair", now):
-        for pair, name in PAIRS:
-            if imgui.selectable(name, name == now)[0]:
-                state = comparing.with_pair(state, pair)
-        imgui.end_combo()
-    tip("What is compared: both images, or one of them and the photograph.")
     return state
 
 
@@ -144,13 +123,11 @@ def footer(
 def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
     """Draw the colour bar; in the other modes something else of the same height."""
     top = imgui.get_cursor_pos_y()
-    options, photographed = state.of(CompareOptions), comparing.has_photograph(state)
-    first, second = comparing.sides(state)
+    options = state.of(CompareOptions)
     if options.mode in ("absolute", "signed"):
         signed = options.mode == "signed"
-        scale = comparing.scale(state.images.channel, options.gain, signed, (first, second))
-        at = " as shown" if photographed else comparing.measured_at(state.images)
-        scale = replace(scale, title=scale.title + at)
+        scale = comparing.scale(state.images.channel, options.gain, signed)
+        scale = replace(scale, title=scale.title + comparing.measured_at(state.images))
         _color_bar(scale, signed, draw_map)
     elif options.mode == "wipe":
         imgui.set_next_item_width(-1)
@@ -158,10 +135,10 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
         if changed:
             state = comparing.with_divider(state, percent / 100)
         tip("Where the divider stands. It can be dragged in the image, too.")
-        text = f"{first} left of {100 * options.divider:.0f} %, {second} right of it"
+        text = f"raster left of {100 * options.divider:.0f} %, ray right of it"
         imgui.text(fitting_words(text, imgui.get_content_region_avail().x))
     else:
-        for flipped, name in ((False, first), (True, second)):
+        for flipped, name in ((False, "raster"), (True, "ray")):
             if flipped:
                 imgui.same_line()
             if _choice(f"show {name}", options.flipped == flipped):

@@ -6,8 +6,6 @@ numbers; composed.py makes the pictures; over the image, the mouse does the same
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
@@ -15,7 +13,6 @@ from numpy.typing import NDArray
 
 from app.compare import comparing, panel
 from app.compare.actions import FLIP_KEY
-from app.compare.against_photograph import AgainstPhotograph
 from app.compare.composed import Composed, Mapping
 from app.compare.differences import draw_differences
 from app.compare.options import CompareOptions
@@ -40,8 +37,6 @@ KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
-# Left, right, the divider's column, and whether muted: see Composed.compose().
-Composing = tuple[Held, Held | None, int, bool]
 AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the display transform
 
 
@@ -57,7 +52,6 @@ class CompareView(ImageView):
         self._shown: ShownImage | None = None
         self._show = Memo(_show)
         self._error: Exception | None = None
-        self.against = AgainstPhotograph(linked.photograph)
         self._footer_px = 0.0  # the height of what is below the image, in the last frame
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
@@ -88,7 +82,6 @@ class CompareView(ImageView):
         imgui.end_child()
         told = self._told(host)
         is_short = available.y < panel.LOW_EM * imgui.get_font_size()
-        is_short |= comparing.has_photograph(host.state)  # which has no causes and errors
         top = imgui.get_cursor_pos_y()
         wish = panel.footer(host.state, told, is_short, host.fonts, self._color_map)
         footer_px = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
@@ -130,14 +123,11 @@ class CompareView(ImageView):
         if mode == "wipe":
             self._draw_divider(host, screen)
         elif mode == "flip":
-            name = comparing.sides(host.state)[self._flipped(host.state)]
-            _label(host, screen, name.capitalize(), right=False)
+            _label(host, screen, "Ray" if self._flipped(host.state) else "Raster", right=False)
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         verdict = host.renderers.verdict(host.state)
         if host.state.of(CompareOptions).mode not in ("absolute", "signed") or verdict is None:
-            return
-        if comparing.has_photograph(host.state):
             return
         if host.state.images.grid and not waiting(host.renderers, host.state):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
@@ -154,22 +144,13 @@ class CompareView(ImageView):
             both.request(state),
         )
         assert request is not None
-        photographed, image = comparing.has_photograph(state), both.ray_image
-        look = replace(look, component="rgb") if photographed else look
         raster = textures.raster_in(whole(both.size), request, look, COMPARED)
         if raster is None:
             return None
         left, right, divider, muted = raster.held, None, 0, False
         try:
-            if photographed:
-                first: Picture | None = raster
-                if comparing.sides(state)[0] == "ray":
-                    first = textures.ray_in(whole(both.size), request, look, COMPARED)
-                if first is None:
-                    return None
-                left, right, divider, muted = self._with_photograph(both, state, first)
-            elif options.mode in ("absolute", "signed"):
-                drawn = textures.raster.full(request)
+            if options.mode in ("absolute", "signed"):
+                drawn, image = textures.raster.full(request), both.ray_image
                 muted = drawn is None or image is None or waiting(both, state) != ""
                 if drawn is not None and image is not None and not muted:
                     mapping = Mapping(
@@ -189,8 +170,7 @@ class CompareView(ImageView):
                 elif divider < both.size[0]:
                     return None  # not the raster image in the ray image's place
             verdict = both.verdict(state)
-            has_labels = options.causes and not photographed
-            labels = verdict.comparison.labels if verdict and has_labels else None
+            labels = verdict.comparison.labels if verdict and options.causes else None
             enlarged = min(placement.unit) < LARGE_PX
             picture = composed.compose(both.size, left, right, divider, muted, labels, enlarged)
             self._show(shown, picture.held)
@@ -202,22 +182,6 @@ class CompareView(ImageView):
             shown.set_channels({})
             return None
         return seen
-
-    def _with_photograph(self, both: Renderers, state: AppState, first: Picture) -> Composing:
-        """Return compose()'s arguments for an image's picture and the photograph."""
-        options, image = state.of(CompareOptions), first.held
-        seen = self.against.pictures(both, state, first, whole(both.size))
-        if options.mode not in ("absolute", "signed"):
-            divider = self._first_of_second(both, state)
-            if seen is None:
-                return image, None, divider, False
-            return image, seen.photograph.held, divider, False
-        if seen is None or first.texture.size != both.size:  # coarse
-            return image, None, 0, True
-        assert self._composed is not None
-        mapping = Mapping(gain=options.gain, signed=options.mode == "signed")
-        difference = self._composed.displayed_difference(first, seen.photograph, mapping)
-        return difference.held, None, 0, False
 
     def _first_of_second(self, both: Renderers, state: AppState) -> int:
         """Return the first column that shows the second of the two images."""
@@ -238,10 +202,6 @@ class CompareView(ImageView):
         """Return the values of the visible pixels, each from the image that it is taken from."""
         raster = both.raster_values(state, channel, region)
         ray = both.ray_values(state, channel, region)
-        if comparing.has_photograph(state):  # of which none are told
-            if self._first_of_second(both, state) < both.size[0]:
-                return None
-            return ray if comparing.sides(state)[0] == "ray" else raster
         if state.of(CompareOptions).mode == "flip":
             return ray if self._flipped(state) else raster
         if raster is None or ray is None:
@@ -287,9 +247,8 @@ class CompareView(ImageView):
         x = self._divider_x(host.state, screen, host.renderers.size)
         draw = imgui.get_window_draw_list()
         em = imgui.get_font_size()
-        first, second = comparing.sides(host.state)
-        _label(host, screen, first.capitalize(), right=False, end=x)
-        _label(host, screen, second.capitalize(), right=True, end=x)
+        _label(host, screen, "Raster", right=False, end=x)
+        _label(host, screen, "Ray", right=True, end=x)
         if not low.x <= x <= high.x:
             return
         black, white = theme.u32(theme.rgb("#000000", 0.75)), theme.u32(theme.rgb("#ffffff"))
@@ -318,10 +277,6 @@ class CompareView(ImageView):
         pixel = host.hovered[1] if host.hovered else state.marked
         if error is not None:
             return panel.CompareReport(describe(error), theme.ERROR)
-        if comparing.has_photograph(state):
-            at_rest = not (imgui.is_any_item_active() or host.travelling)
-            text, bad = self.against.headline(comparing.sides(state), at_rest)
-            return panel.CompareReport(text, theme.ERROR if bad else theme.TEXT)
         if waits or verdict is None:
             return panel.CompareReport(waits or "Comparing ...", theme.DIM)
         comparison = verdict.comparison

@@ -97,16 +97,6 @@ class PhotographLayer:
         laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
         return self._laid(both, name, picture, placement, laid, ray)
 
-    def instead(
-        self, both: Renderers, state: AppState, picture: Picture, placement: Placement
-    ) -> Picture:
-        """Return the photograph in place of a picture of a whole image.
-
-        The picture stays where the photograph ends or is transparent: nothing differs there.
-        """
-        laid = LaidPhotograph(self._parts(both, state))
-        return self._laid(both, ("in its place", ""), picture, placement, laid, False)
-
     def end(self) -> None:
         self._work.close()
         self._forget()

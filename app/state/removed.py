@@ -43,6 +43,9 @@ REMOVED: dict[str, Removed] = {
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
     "laboratory.table": Removed("the kinds' sizes are over their pictures", True),
+    "compare.pair": Removed(
+        "both renderers are compared, and a photograph is laid over them", "raster-ray"
+    ),
     "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),

@@ -21,7 +21,6 @@ LIGHTS = (
     DirectionalLight((-0.9, -0.1, -0.3), (0.2, 0.22, 0.26)),  # the fill, from the right
 )
 
-Floats = Sequence[float] | NDArray[np.float64]
 
 DIRECTION = (0.5, 0.35, 1.0)  # from the scene's centre to the eye: its front, from the right
 FOV_Y_DEG = 35.0

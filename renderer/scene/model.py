@@ -161,7 +161,7 @@ def _checked_transform(value: ArrayLike) -> NDArray[np.float64]:
 
 def is_flat(linear: NDArray[np.float64]) -> bool:
     """Return True if a matrix (3, 3) flattens what it is applied to."""
-    most = float(np.abs(linear).max()) or 1.0  # so that no square leaves float64
+    most = np.maximum(np.abs(linear).max(axis=0), 1e-300)  # so that no square leaves float64
     lengths = most * np.linalg.norm(linear / most, axis=0)
     return not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9)
 

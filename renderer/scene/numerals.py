@@ -51,12 +51,13 @@ def corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
     a word lacks one, None if all do. Raises ValueError for any other word.
     """
     text = text.replace(b"//", b"/0/")
-    for blank in (b" ", b"\t", b"\n"):  # 7/ and 7/8/ are 7/0 and 7/8/0
-        text = text.replace(b"/" + blank, b"/0" + blank)
+    octets = np.frombuffer(text, np.uint8)
+    slashes = np.flatnonzero(octets == _SLASH)
+    if (octets[slashes + 1] <= _BLANK).any():  # 7/ and 7/8/ are 7/0 and 7/8/0
+        return corners(re.sub(rb"/(?=[\x00- ])", b"/0", text))
     if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # 0 to fromstring()
         raise ValueError("a sign without a number")
     begins, _ = words(text)
-    slashes = np.flatnonzero(np.frombuffer(text, np.uint8) == _SLASH)
     more = np.diff(np.searchsorted(slashes, np.append(begins, len(text))))
     most = int(more.max(initial=0))
     numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins) + len(slashes))

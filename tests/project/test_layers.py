@@ -110,7 +110,7 @@ DRAW = {
     "photograph": "layer laying",
     "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
     "pixelgrid rulers straight_lines toolbar vanishing",
-    "compare": "against_photograph composed differences",
+    "compare": "composed differences",
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
     "painting parts pixel_plane scrubber tint tools widening",
     "objects": "handles in_views inspector material_fields outliner value_fields",

@@ -7,14 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from imgui_bundle import hello_imgui
 from PIL import Image
 from window_driver import SIZE, Driver, Key
 
-from app.compare import comparing
-from app.compare.view import CompareView
-from app.host import layout
-from app.images.imaging import with_resolution
 from app.images.renderers import Renderers
 from app.pair.view import RasterView
 from app.photograph.actions import PHOTOGRAPH
@@ -177,39 +172,6 @@ def drive_what_cannot_be_read_is_told_and_nothing_is_lost(d: Driver) -> None:
     d.window.undo()
     d.settle()
     assert layer(d).problem == ""
-
-
-def drive_an_image_is_compared_with_it(d: Driver) -> None:
-    d.window.change(d.window.state.with_fit(False))
-    d.settle()
-    _, right = d.images()
-    path = saved(d, right.astype(np.uint8))
-    opened(d, path)
-    d.window.change(laid(d, shown=False))
-    hello_imgui.switch_layout("Compare")
-    d.ctx.yield_(5)
-    size = right.shape[1], right.shape[0]
-    state = with_resolution(d.window.state, size)
-    view = d.window.view(CompareView)
-    for pair in ("ray-photograph", "raster-photograph"):
-        changes = {"pair": pair, "mode": "absolute", "gain": 1.0}
-        d.window.change(state.with_options(compare=changes))
-        d.settle()
-        told, is_error = view.against.headline(comparing.sides(d.window.state), at_rest=True)
-        assert "image against photograph, as shown: RMS 0." in told and not is_error, told
-    half_a_pixel = d.window.state.camera.shifted(0, 0.5, size)
-    d.window.change(d.window.state.with_camera(half_a_pixel))
-    d.settle()
-    told, _ = view.against.headline(comparing.sides(d.window.state), at_rest=True)
-    assert float(told.split("RMS ")[1].split("/")[0]) > 1.0, told
-    for mode in ("signed", "wipe", "flip"):
-        d.window.change(d.window.state.with_options(compare={"mode": mode}))
-        d.settle()
-        d.window.change(closed(d.window.state))  # both images again
-    d.settle()
-    assert comparing.sides(d.window.state) == ("raster", "ray")
-    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
-    d.ctx.yield_(5)
 
 
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:

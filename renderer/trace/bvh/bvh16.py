@@ -16,7 +16,8 @@ from numba.core import types
 from numpy.typing import NDArray
 
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
-from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.compile.compiled import kernel
+from renderer.trace.compile.emit import emitted
 from renderer.trace.simd.gather import gather
 from renderer.trace.simd.lanes import (
     LANES,
@@ -278,7 +279,7 @@ def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
             store(pointer(normal), (3 * k + 2) * WIDTH, to_f32(nz * scale))
 
 
-@inlined
+@emitted
 def _corner(vertices, faces, corner, here):
     """Return x, y, z of 16 triangles' corners; 0 in the lanes outside `here`."""
     at = gather(faces, corner, here) * np.int32(3)
@@ -289,13 +290,13 @@ def _corner(vertices, faces, corner, here):
     )
 
 
-@inlined
+@emitted
 def _store_corner(array, at, point, here):
     store(array, at, select(here, point[0], _NO_CORNER))
     store(array, at + WIDTH, select(here, point[1], _NO_CORNER))
     store(array, at + 2 * WIDTH, select(here, point[2], _NO_CORNER))
 
 
-@inlined
+@emitted
 def _minus(a, b):
     return to_f64(a[0]) - to_f64(b[0]), to_f64(a[1]) - to_f64(b[1]), to_f64(a[2]) - to_f64(b[2])

@@ -18,6 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -53,7 +54,7 @@ _LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
 _CENTRES = 0xFF00  # the lanes of both
 
 
-@inlined
+@emitted
 def _bounds(records, i):
     """Return the bounds of record i."""
     box = load_half(records, RECORD * i)
@@ -70,7 +71,7 @@ def bounds_of_records(records, start, end):
     return bounds
 
 
-@inlined
+@emitted
 def _bin_scale(bounds):
     """Return bins per unit of (doubled) centre, in the lanes of high centres."""
     extent = bounds + quarters_swapped(bounds)
@@ -78,7 +79,7 @@ def _bin_scale(bounds):
     return select(is_wide, np.float32(BINS * 0.9999) / extent, np.float32(0))
 
 
-@inlined
+@emitted
 def _half_areas(left, right):
     """Return half of the surfaces of two bounds' boxes, in the first lane of each half."""
     both = lower_halves(left, right)
@@ -89,7 +90,7 @@ def _half_areas(left, right):
     return side + one_on + next_of_three(one_on)
 
 
-@inlined
+@emitted
 def _units(count, per_primitive):
     """Return the number of units that `count` primitives fill, the last one perhaps partly.
 

@@ -24,9 +24,10 @@ def is_cached() -> bool:
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Decorate a small function that is compiled as a part of kernels.
+    """Decorate a function with loops or branches that is compiled as a part of kernels.
 
-    It must not create arrays. Not fast-math: watertight intersection needs the operations in the
+    Straight-line ones compile in a fraction of the time if they are emitted (emit.py). It must not
+    create arrays. Not fast-math: watertight intersection needs the operations in the
     order written.
     """
     return numba.njit(

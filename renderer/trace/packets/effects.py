@@ -15,6 +15,7 @@ import numpy as np
 from renderer.scene.flat import SPECULAR_CHECKERED
 from renderer.shared_numbers import AWAY
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted
 from renderer.trace.packets.smooth import triple_of_lane
 from renderer.trace.packets.surface import Pixels
 from renderer.trace.rays.traverse import any_hit, closest_hit
@@ -76,13 +77,13 @@ def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, sc
     return mask_of(lit)
 
 
-@inlined
+@emitted
 def _start(view, scratch, lane):
     """Return the start of a lane's ray, in the world."""
     return plus(triple_of_lane(scratch.origins, lane), triple(view.near_point, 0))
 
 
-@inlined
+@emitted
 def reflected_rays(effects, pixels, point, surface):
     """Return the reflected rays of a square: the law of reflection.
 
@@ -137,7 +138,7 @@ def trace_square(view, world, pixels, mask, square, scratch):
     return load(scratch.reach, 0)
 
 
-@inlined
+@emitted
 def brightest(a):
     """Return the largest component of a colour, lane by lane."""
     return vmax(vmax(a[0], a[1]), a[2])

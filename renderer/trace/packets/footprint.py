@@ -24,6 +24,7 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, i64
 from renderer.trace.packets.tile import (
     AHEAD,
     BEHIND,
@@ -51,17 +52,15 @@ _LAST = np.float32(TILE - 1)
 _SMALL_PX = np.float32(20)
 
 
-@inlined
+@emitted
 def footprints(view, depth, left, right, top, bottom):
     """Return (footprints I32, mask: which hold a pixel's centre) of a node's children.
 
     depth: the least Z in each box, or less. left ...: the largest values of the tile's planes.
     """
-    if view.parallel:
-        per_h = splat(np.float32(1))
-    else:
-        # Behind the eye or around it: anywhere.
-        per_h = splat(np.float32(1)) / vmax(depth, np.float32(1e-30))
+    one = splat(np.float32(1))
+    # Behind the eye or around it: anywhere.
+    per_h = choose(view.parallel, lambda: one, lambda: one / vmax(depth, np.float32(1e-30)))
     first_column = np.int32(TILE - 1) - _pixels(right, per_h)
     last_column = _pixels(left, per_h)
     first_row = np.int32(TILE - 1) - _pixels(bottom, per_h)
@@ -77,16 +76,16 @@ def footprints(view, depth, left, right, top, bottom):
     return (rows * columns) | (pixels << np.int32(16)), holds
 
 
-@inlined
+@emitted
 def _pixels(reach, per_h):
     """Return the number of pixel centres after a side's first one; at most a tile's."""
     return i32_of(vmax(vmin(fma(reach, per_h, _MARGIN_PX), _LAST), np.float32(0)))
 
 
-@inlined
+@emitted
 def open_squares(view, footprint, depth, scratch):
     """Return the squares of a footprint, bits, where some pixel sees nothing nearer than depth."""
-    return np.int64(footprint) & bits(_is_open(view, load(scratch.least, 0), depth))
+    return i64(footprint) & bits(_is_open(view, load(scratch.least, 0), depth))
 
 
 @inlined
@@ -102,23 +101,21 @@ def open_pixels(view, footprint, square, depth, scratch):
     return rows * columns & bits(_is_open(view, best, depth))
 
 
-@inlined
+@emitted
 def pixels_of(footprint):
     """Return the number of pixels in a footprint."""
-    pixels = np.int64(footprint) >> np.int64(16)
+    pixels = i64(footprint) >> np.int64(16)
     across = (pixels >> 4 & 15) - (pixels & 15) + 1
     return across * ((pixels >> 12 & 15) - (pixels >> 8 & 15) + 1)
 
 
-@inlined
+@emitted
 def _is_open(view, key, depth):
     """Return whether something at `depth` may be nearer than what has the key."""
-    if view.parallel:
-        return key <= -depth
-    return key * depth < _ROUNDING
+    return choose(view.parallel, lambda: key <= -depth, lambda: key * depth < _ROUNDING)
 
 
-@inlined
+@emitted
 def children_in_tile(view, box, node, z_far, scratch):
     """Return (mask, depths, footprints, flag): children that may be seen, nearer than z_far.
 
@@ -132,16 +129,20 @@ def children_in_tile(view, box, node, z_far, scratch):
     top = largest_of_plane(box, at, TOP, scratch)
     bottom = largest_of_plane(box, at, BOTTOM, scratch)
     inside = (depth < z_far) & (vmin(vmin(left, right), vmin(top, bottom)) >= np.float32(0))
-    if view.parallel or view.z_near > np.float32(0):
-        # In perspective, the sides leave nothing behind the eye.
-        ahead = largest_of_plane(box, at, AHEAD, scratch)
-        inside = inside & (ahead >= view.z_near)
-    h = splat(np.float32(1)) if view.parallel else depth
+    # In perspective, the sides leave nothing behind the eye.
+    inside = choose(
+        view.parallel | (view.z_near > np.float32(0)),
+        lambda: inside & (largest_of_plane(box, at, AHEAD, scratch) >= view.z_near),
+        lambda: inside,
+    )
+    h = choose(view.parallel, lambda: splat(np.float32(1)), lambda: depth)
     wide = h * (_LAST + _SMALL_PX)
     is_small = inside & (left + right <= wide) & (top + bottom <= wide)
-    footprint = splat(WHOLE_TILE)
     has_small = bits(is_small) != 0
-    if has_small:
+
+    def smaller():
         footprint, holds = footprints(view, depth, left, right, top, bottom)
-        inside = inside & holds
+        return inside & holds, footprint
+
+    inside, footprint = choose(has_small, smaller, lambda: (inside, splat(WHOLE_TILE)))
     return inside, depth, footprint, has_small

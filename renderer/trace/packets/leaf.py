@@ -16,6 +16,7 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.bvh.instances import HAS_HOLES
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted
 from renderer.trace.compile.stage import call_apart
 from renderer.trace.packets.footprint import pixels_of
 from renderer.trace.packets.sample import FEW_PIXELS, cover_pixels, sample_pixels
@@ -59,16 +60,16 @@ from renderer.trace.simd.memory import load, store
 # Of a footprint: on more, most of a leaf's triangles are not small.
 SOME_PIXELS = 160
 
-_E0, _E1, _E2, _KEY = np.arange(4)  # a triangle's functions, in the order of their coefficients
+_E0, _E1, _E2, _KEY = range(4)  # a triangle's functions, in the order of their coefficients
 
 
-@inlined
+@emitted
 def _largest(f, x_low, x_high, y_low, y_high):
     """Return the largest value of an affine function over a rectangle."""
     return vmax(f[0] * x_low, f[0] * x_high) + vmax(f[1] * y_low, f[1] * y_high) + f[2]
 
 
-@inlined
+@emitted
 def _range(f, x_low, x_high, y_low, y_high):
     """Return the least and the largest value of an affine function over a rectangle."""
     left, right, top, bottom = f[0] * x_low, f[0] * x_high, f[1] * y_low, f[1] * y_high
@@ -192,7 +193,7 @@ def _covered_squares(kept, scratch):
     return covered
 
 
-@inlined
+@emitted
 def _bound(scratch, lane, function):
     """Return the largest value of a triangle's function in each square, shifted from the first."""
     coefficients, i = scratch.coefficients, 3 * LANES * function + lane
@@ -255,7 +256,7 @@ def _rasterize_with_holes(view, world, found, leaf, space, tile, square, floats,
         set_hits(scratch, square, hit, key, slot, space)
 
 
-@inlined
+@emitted
 def _nearer(key_near, coefficients, lane, x, y, best):
     """Return (mask, key) of the 16 pixels: where one lane's triangle is nearer than `best`."""
     inside = vmin(
@@ -267,7 +268,7 @@ def _nearer(key_near, coefficients, lane, x, y, best):
     return (inside >= np.float32(0)) & (key < key_near) & (key > best), key
 
 
-@inlined
+@emitted
 def _at(coefficients, i, x, y):
     """Return a triangle's function at 16 pixels."""
     c = coefficients

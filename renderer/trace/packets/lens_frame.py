@@ -7,30 +7,28 @@ as any other. Without a lens, all of this is compiled to nothing.
 
 from __future__ import annotations
 
-import numpy as np
-
-from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted, f32, i64
 from renderer.trace.packets.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS, PacketView
 from renderer.trace.simd.memory import as_float64, shifted
 
 _RAY = 32  # float32: room for twelve float64, in whole cache lines
 
 
-@inlined
+@emitted
 def room_before_scratch(lens, spaces):
     """Return how many float32 a thread needs for its tile's frame."""
     return 0 if lens is None else _RAY + 3 * ROWS * spaces
 
 
-@inlined
+@emitted
 def frames_of(lens, number):
     """Return the first frame of a tile, and the one after its last."""
     if lens is None:
         return 0, 1
-    return np.int64(lens.first[number]), np.int64(lens.first[number + 1])
+    return i64(lens.first[number]), i64(lens.first[number + 1])
 
 
-@inlined
+@emitted
 def set_frame(lens, frame, first, room, scratch):
     """Choose a tile's frame, and compute the numbers of its rays."""
     if lens is None:
@@ -47,17 +45,13 @@ def set_frame(lens, frame, first, room, scratch):
         ray[9 + axis] = lens.ray[9 + axis]
 
 
-@inlined
+@emitted
 def tile_view(view, scratch):
     """Return the view of the tile whose frame was chosen last: the pinhole camera of its frame."""
-    return _tile_view(view.lens, view, scratch)
-
-
-@inlined
-def _tile_view(lens, view, scratch):
+    lens = view.lens
     if lens is None:
         return view
-    room = np.int64(scratch.frame[1])
+    room = i64(scratch.frame[1])
     ray = as_float64(shifted(scratch.coefficients, -room))
     exact = as_float64(shifted(scratch.coefficients, _RAY - room))
     rows = shifted(scratch.coefficients, -((room - _RAY) // 3))
@@ -70,17 +64,13 @@ def _tile_view(lens, view, scratch):
     )  # fmt: skip
 
 
-@inlined
+@emitted
 def turn_rows(view, space, scratch):
     """Compute the rows of a space in the tile's frame."""
-    _turn_rows(view.lens, view, space, scratch)
-
-
-@inlined
-def _turn_rows(lens, view, space, scratch):
+    lens = view.lens
     if lens is None:
         return
-    r, first = space * ROWS, 9 * np.int64(scratch.frame[0])
+    r, first = space * ROWS, 9 * i64(scratch.frame[0])
     turn, pinhole = lens.turn, lens.rows
     for column in range(4):
         x = pinhole[r + ROW_X + column]
@@ -95,22 +85,22 @@ def _turn_rows(lens, view, space, scratch):
     _set_row(view, r + EXTENT, pinhole[r + EXTENT])
 
 
-@inlined
+@emitted
 def _set_row(view, at, value):
     view.rows_exact[at] = value
-    view.rows[at] = np.float32(value)
+    view.rows[at] = f32(value)
 
 
-@inlined
+@emitted
 def is_later_frame(lens, scratch):
     """Return True if the tile had a frame before, whose pixels are written."""
     return False if lens is None else scratch.frame[2] > 0
 
 
-@inlined
+@emitted
 def is_own_pixel(lens, tile, row, column):
     """Return True if the pixel in this row and column of the tile belongs to its frame."""
     if lens is None:
         return True
-    square, lane = row // 4 * 4 + column // 4, row % 4 * 4 + column % 4
-    return lens.ahead[tile.first + 16 * square + lane] > np.float32(0)
+    square, lane = (row & ~3) + (column >> 2), ((row & 3) << 2) + (column & 3)
+    return lens.ahead[tile.first + 16 * square + lane] > 0

@@ -14,9 +14,10 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted
 from renderer.trace.compile.stage import call_apart
 from renderer.trace.packets.smooth import camera_point
-from renderer.trace.packets.sphere import is_near_hit, moment, sphere_ray
+from renderer.trace.packets.sphere import is_near_hit, key_at, moment, sphere_ray
 from renderer.trace.packets.tile import (
     FIRST_SPHERE,
     NOTHING,
@@ -49,11 +50,11 @@ def refine_square(view, world, tile, square, scratch):
     call_apart(_refine, (view, world, tile, square, scratch.coefficients, scratch.hit_slot))
 
 
-@inlined
+@emitted
 def packet_depths(view, square, scratch):
     """Return Z of what a square's pixels see, as the packet found it."""
     best = load(scratch.best, LANES * square)
-    return -best if view.parallel else splat(np.float32(1)) / best
+    return key_at(view, best)
 
 
 @inlined
@@ -93,7 +94,7 @@ def _exact_parameters(view, world, points, z, square, scratch):
     return exact * view.scale
 
 
-@inlined
+@emitted
 def _plane_depths(view, corner, slot, space, points):
     """Return Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera space."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
@@ -104,13 +105,18 @@ def _plane_depths(view, corner, slot, space, points):
     )
     x, y = points.x, points.y
     column, row = to_f64(points.right), to_f64(points.down)
-    if view.parallel:
+
+    def parallel():
         start = n[0] * (x - a[0]) + n[1] * (y - a[1])
         return a[2] - fma(column, n[0], fma(row, n[1], splat(start))) / n[2]
-    return dot(n, a) / fma(column, n[0], fma(row, n[1], splat(dot(n, (x, y, 1.0)))))
+
+    def perspective():
+        return dot(n, a) / fma(column, n[0], fma(row, n[1], splat(dot(n, (x, y, 1.0)))))
+
+    return choose(view.parallel, parallel, perspective)
 
 
-@inlined
+@emitted
 def _sphere_depths(view, spheres, sphere, points, z):
     """Return Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
     f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
@@ -127,20 +133,22 @@ def _sphere_depths(view, spheres, sphere, points, z):
     return select(is_near_hit(z, to_f32(b / a)), near, far)
 
 
-@inlined
+@emitted
 def _lanes(p, column, row):
     """Return an affine vector at a square's pixels: three F64."""
     start = splat(p[0][0]), splat(p[0][1]), splat(p[0][2])
     return fma_lanes(column, p[1], fma_lanes(row, p[2], start))
 
 
-@inlined
+@emitted
 def _coordinate(view, axis, points, t):
     """Return one coordinate of the rays' points at t, F64, rounded only at the end."""
     ray, near = view.ray, view.near_point[axis]
     across, down, shared = ray[ACROSS + axis], ray[DOWN + axis], ray[SHARED + axis]
     start = ray[VARYING + axis] + points.x * across + points.y * down
     varying = fma(to_f64(points.right), across, fma(to_f64(points.down), down, splat(start)))
-    if view.parallel:
-        return to_f32(fma(t, shared, varying - near))
-    return to_f32(fma(t, varying, splat(shared - near)))
+    return choose(
+        view.parallel,
+        lambda: to_f32(fma(t, shared, varying - near)),
+        lambda: to_f32(fma(t, varying, splat(shared - near))),
+    )

@@ -13,6 +13,7 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted
 from renderer.trace.packets.footprint import open_pixels
 from renderer.trace.packets.tile import keep_hits, nearest_key_of, pixel_point
 from renderer.trace.simd.lanes import (
@@ -29,7 +30,7 @@ from renderer.trace.simd.memory import load
 FEW_PIXELS = 8  # more go by squares
 
 
-@inlined
+@emitted
 def _value(f, x, y):
     """Return an affine function of 16 triangles at a pixel."""
     return fma(f[0], x, fma(f[1], y, f[2]))

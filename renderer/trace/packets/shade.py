@@ -14,6 +14,7 @@ from renderer.scene.flat import (
 )
 from renderer.shared_numbers import CELL_NUDGE, CHECKERED, NEAREST_LIGHT, SHORTEST_HALF
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, f32
 from renderer.trace.packets.effects import (
     brightest,
     lit_pixels,
@@ -108,19 +109,22 @@ def add_reflections(
     return color
 
 
-@inlined
+@emitted
 def _albedo(view, scene, m, points, t, point, geometric, tint, scratch):
     """Return the diffuse reflectance of the material at m, or its checker's, times the tint."""
     materials = scene.materials
     albedo = splat_lanes(triple(materials, m + 4 * DIFFUSE_SHININESS))
-    if materials[m + 4 * SPECULAR_CHECKERED + 3] == np.float32(CHECKERED):
+
+    def checkered():
         other = splat_lanes(triple(materials, m + 4 * CHECKER_DIFFUSE))
         is_other = is_other_cell(view, scene.cells, m, points, t, point, geometric, scratch)
-        albedo = select_lanes(is_other, other, albedo)
-    return each_times(albedo, tint)
+        return select_lanes(is_other, other, albedo)
+
+    has_checker = materials[m + 4 * SPECULAR_CHECKERED + 3] == np.float32(CHECKERED)
+    return each_times(choose(has_checker, checkered, lambda: albedo), tint)
 
 
-@inlined
+@emitted
 def is_other_cell(view, cells, m, points, t, point, geometric, scratch):
     """Return the mask of pixels that see an odd cell, just below the surface.
 
@@ -135,46 +139,45 @@ def is_other_cell(view, cells, m, points, t, point, geometric, scratch):
     )
     is_odd = lane_row() < np.float32(0)
     for axis in range(3):
-        nudge = across[0] if axis == 0 else (across[1] if axis == 1 else across[2])
         row = m + 4 * axis
         if points is None:
             half = _half_cell_at(view, cells, row, point)
         else:
             half = _half_cell(view, cells, row, points, t, scratch)
-        half = fma(to_f64(nudge), -0.5 * CELL_NUDGE, half)
+        half = fma(to_f64(across[axis]), -0.5 * CELL_NUDGE, half)
         is_odd = is_odd ^ (half - vfloor(half) >= 0.5)
     return is_odd
 
 
-@inlined
+@emitted
 def _direction(cells, row, a):
-    x, y, z = np.float32(cells[row]), np.float32(cells[row + 1]), np.float32(cells[row + 2])
+    x, y, z = f32(cells[row]), f32(cells[row + 1]), f32(cells[row + 2])
     return fma(a[0], x, fma(a[1], y, a[2] * z))
 
 
-@inlined
+@emitted
 def _half_cell(view, cells, row, points, t, scratch):
     """Return half of one coordinate of the pixels' cells, F64."""
     t = to_f64(t)
-    if view.coarse:
-        t = t + to_f64(load(scratch.rest_of_t, 0))
+    t = choose(view.coarse, lambda: t + to_f64(load(scratch.rest_of_t, 0)), lambda: t)
     ray = view.ray
     right, down = _half_along(cells, row, ray, ACROSS), _half_along(cells, row, ray, DOWN)
     shared = _half_along(cells, row, ray, SHARED)
     varying = _half_along(cells, row, ray, VARYING)
-    varying += points.x * right + points.y * down
+    varying = varying + (points.x * right + points.y * down)
     constant = 0.5 * cells[row + 3]
-    if view.parallel:
-        varying += constant
-    else:
-        shared += constant
+    varying, shared = choose(
+        view.parallel,
+        lambda: (varying + constant, shared),
+        lambda: (varying, shared + constant),
+    )
     pixel = fma(to_f64(points.right), right, fma(to_f64(points.down), down, splat(varying)))
-    if view.parallel:
-        return fma(t, shared, pixel)
-    return fma(t, pixel, splat(shared))
+    return choose(
+        view.parallel, lambda: fma(t, shared, pixel), lambda: fma(t, pixel, splat(shared))
+    )
 
 
-@inlined
+@emitted
 def _half_cell_at(view, cells, row, point):
     """Return the same for points relative to the view's near_point."""
     a, b, c = 0.5 * cells[row], 0.5 * cells[row + 1], 0.5 * cells[row + 2]
@@ -183,7 +186,7 @@ def _half_cell_at(view, cells, row, point):
     return fma(x, a, fma(y, b, fma(z, c, splat(d))))
 
 
-@inlined
+@emitted
 def _half_along(cells, row, ray, at):
     return 0.5 * (
         cells[row] * ray[at] + cells[row + 1] * ray[at + 1] + cells[row + 2] * ray[at + 2]

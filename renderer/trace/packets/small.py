@@ -14,6 +14,7 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted
 from renderer.trace.packets.tile import TILE, keep_hits, nearest_key_of, pixel_points
 from renderer.trace.simd.lanes import (
     LANES,
@@ -47,23 +48,28 @@ class PixelBoxes(NamedTuple):
     bottom: Any
 
 
-@inlined
+@emitted
 def pixel_boxes(view, tile, pa, pb, pc):
     """Return (PixelBoxes, small, other): which triangles may cover a few pixels, and which more.
 
     pa, pb, pc: the corners (X, Y, H), from the tile's first pixel, as is the tile.
     """
     one, last = np.float32(1), np.float32(TILE - 1)
-    (ax, ay, ha), (bx, by, hb), (cx, cy, hc) = pa, pb, pc
-    is_ahead = is_used = ax == ax
-    if not view.parallel:
+    is_used = pa[0] == pa[0]
+
+    def divided():
         # One division for three.
+        (ax, ay, ha), (bx, by, hb), (cx, cy, hc) = pa, pb, pc
         is_ahead = vmin(vmin(ha, hb), hc) > _NEAREST
         ab = ha * hb
         inverse = one / (ab * hc)
         ic, inverse = ab * inverse, hc * inverse
         ia, ib = hb * inverse, ha * inverse
-        ax, ay, bx, by, cx, cy = ax * ia, ay * ia, bx * ib, by * ib, cx * ic, cy * ic
+        return is_ahead, ax * ia, ay * ia, bx * ib, by * ib, cx * ic, cy * ic
+
+    is_ahead, ax, ay, bx, by, cx, cy = choose(
+        view.parallel, lambda: (is_used, pa[0], pa[1], pb[0], pb[1], pc[0], pc[1]), divided
+    )
     left, right = vmin(vmin(ax, bx), cx), vmax(vmax(ax, bx), cx)
     top, bottom = vmin(vmin(ay, by), cy), vmax(vmax(ay, by), cy)
     across, down = right - left, bottom - top
@@ -82,12 +88,12 @@ def pixel_boxes(view, tile, pa, pb, pc):
     return boxes, is_sized & holds & has_few, is_used & ~(is_sized & (~holds | has_few))
 
 
-@inlined
+@emitted
 def _first(x):
     return -vfloor(-vmax(x, np.float32(0)))
 
 
-@inlined
+@emitted
 def _last(x):
     return vfloor(vmin(x, np.float32(TILE - 1)))
 

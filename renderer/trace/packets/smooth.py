@@ -13,15 +13,14 @@ import numpy as np
 from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.scalar.vectors import cross, dot, minus, plus, times, triple
 from renderer.trace.simd.lanes import LANES, fma, lane_of, splat
 from renderer.trace.simd.memory import as_float64
 
 OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
-# NumPy integers: numba would compile a version of a function for each Python literal.
-_E0, _E1, _E2 = np.array([0, 3, 6])
-_X, _Y, _Z = np.arange(3)
+_E0, _E1, _E2 = 0, 3, 6  # where edges are kept
 
 
 class Vertices(NamedTuple):
@@ -32,17 +31,17 @@ class Vertices(NamedTuple):
     c: np.int64
 
 
-@inlined
+@emitted
 def vertices_of(faces, primitive):
     """Return the vertices of a triangle of the flat scene."""
     return Vertices(
-        3 * np.int64(faces[3 * primitive]),
-        3 * np.int64(faces[3 * primitive + 1]),
-        3 * np.int64(faces[3 * primitive + 2]),
+        3 * i64(faces[3 * primitive]),
+        3 * i64(faces[3 * primitive + 1]),
+        3 * i64(faces[3 * primitive + 2]),
     )
 
 
-@inlined
+@emitted
 def barycentrics(view, corner, slot, space, points, scratch):
     """Return (b0, b1, b2) of a slot's triangle at a square's pixels, F32.
 
@@ -52,9 +51,10 @@ def barycentrics(view, corner, slot, space, points, scratch):
     square, so that small triangles and narrow views keep their digits. The last triangle's are kept
     in the scratch: a tile may see a single one.
     """
-    edges = as_float64(scratch.kept_edges)
-    if scratch.kept[0] != np.int32(slot) or scratch.kept[1] != np.int32(space):
-        scratch.kept[0], scratch.kept[1] = np.int32(slot), np.int32(space)
+    edges, slot_32, space_32 = as_float64(scratch.kept_edges), i32(slot), i32(space)
+
+    def set_up():
+        scratch.kept[0], scratch.kept[1] = slot_32, space_32
         at = slot // WIDTH * CORNERS + slot % WIDTH
         a = _homogeneous_corner(view, space, corner, at)
         b = _homogeneous_corner(view, space, corner, at + 3 * WIDTH)
@@ -62,17 +62,20 @@ def barycentrics(view, corner, slot, space, points, scratch):
         _keep(edges, _E0, cross(b, c))
         _keep(edges, _E1, cross(c, a))
         _keep(edges, _E2, cross(a, b))
+
+    is_kept = (scratch.kept[0] == slot_32) & (scratch.kept[1] == space_32)
+    choose(is_kept, lambda: None, set_up)
     w0, w1, w2 = _edge(edges, _E0, points), _edge(edges, _E1, points), _edge(edges, _E2, points)
     scale = splat(np.float32(1)) / (w0 + w1 + w2)
     return w0 * scale, w1 * scale, w2 * scale
 
 
-@inlined
+@emitted
 def _keep(edges, at, e):
     edges[at], edges[at + 1], edges[at + 2] = e[0], e[1], e[2]
 
 
-@inlined
+@emitted
 def barycentrics_at(view, world, slot, space, point):
     """Return (b0, b1, b2) at 16 points of a slot's triangle, F32, relative to near_point."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
@@ -87,17 +90,17 @@ def barycentrics_at(view, world, slot, space, point):
     return np.float32(1) - b1 - b2, b1, b2
 
 
-@inlined
+@emitted
 def triple_of_lane(array, at):
     """Return one lane of three vectors, one after the other, as float64."""
     return (
-        np.float64(array[at]),
-        np.float64(array[at + LANES]),
-        np.float64(array[at + 2 * LANES]),
+        f64(array[at]),
+        f64(array[at + LANES]),
+        f64(array[at + 2 * LANES]),
     )
 
 
-@inlined
+@emitted
 def _weight(view, world, space, g, a, point):
     """Return g . (q - a), q the object's point that is seen at a point of the world."""
     m, r = world.object_from_world, 12 * space
@@ -106,18 +109,18 @@ def _weight(view, world, space, g, a, point):
     z = g[0] * m[r + 2] + g[1] * m[r + 6] + g[2] * m[r + 10]
     at_near = dot((x, y, z), triple(view.near_point, 0))
     constant = at_near + dot(g, (m[r + 3], m[r + 7], m[r + 11])) - dot(g, a)
-    value = fma(point[2], np.float32(z), splat(np.float32(constant)))
-    return fma(point[0], np.float32(x), fma(point[1], np.float32(y), value))
+    value = fma(point[2], f32(z), splat(f32(constant)))
+    return fma(point[0], f32(x), fma(point[1], f32(y), value))
 
 
-@inlined
+@emitted
 def _homogeneous_corner(view, space, corner, at):
     """Return (X, Y, H) of a corner, float64."""
     x, y, z = camera_point(view, space, corner, at)
-    return x, y, (1.0 if view.parallel else z)
+    return x, y, choose(view.parallel, lambda: 1.0, lambda: z)
 
 
-@inlined
+@emitted
 def camera_point(view, space, corner, at):
     """Return (X, Y, Z) of a corner, float64."""
     rows, r = view.rows_exact, space * ROWS
@@ -129,29 +132,23 @@ def camera_point(view, space, corner, at):
     )
 
 
-@inlined
+@emitted
 def _edge(edges, at, points):
     """Return an edge function at a square's pixels."""
     e = triple(edges, at)
-    start = np.float32(dot(e, (points.x, points.y, 1.0)))
-    across, down = np.float32(e[0]), np.float32(e[1])
+    start = f32(dot(e, (points.x, points.y, 1.0)))
+    across, down = f32(e[0]), f32(e[1])
     return fma(points.right, across, fma(points.down, down, splat(start)))
 
 
-@inlined
+@emitted
 def blended(array, vertices, weights):
     """Return the weighted mean of three numbers of each vertex."""
-    return (
-        _blended(array, _X, vertices, weights),
-        _blended(array, _Y, vertices, weights),
-        _blended(array, _Z, vertices, weights),
+    a, b, c = (triple(array, vertex) for vertex in vertices)
+    return tuple(
+        fma(weights[0], a[axis], fma(weights[1], b[axis], weights[2] * c[axis]))
+        for axis in range(3)
     )
-
-
-@inlined
-def _blended(array, axis, vertices, weights):
-    a, b, c = array[vertices.a + axis], array[vertices.b + axis], array[vertices.c + axis]
-    return fma(weights[0], a, fma(weights[1], b, weights[2] * c))
 
 
 @inlined
@@ -166,7 +163,7 @@ def _is_set(normals, at):
     return normals[at] != 0 or normals[at + 1] != 0 or normals[at + 2] != 0
 
 
-@inlined
+@emitted
 def agrees(normals, vertices, geometric, lane):
     """Return True if the sum of a triangle's vertex normals is not on the other side of one lane's
     geometric normal.

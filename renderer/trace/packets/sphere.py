@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, f32
 from renderer.trace.packets.tile import (
     FIRST_SPHERE,
     SQUARE,
@@ -39,7 +40,7 @@ from renderer.trace.simd.memory import load
 _CHORD = np.float32(5e-7)  # relative: more than z and the chord's middle are rounded by
 
 
-@inlined
+@emitted
 def sphere_ray(view, spheres, sphere, x, y):
     """Return (f, its changes across and down; d, its changes) at the image point (x, y), float64.
 
@@ -51,18 +52,20 @@ def sphere_ray(view, spheres, sphere, x, y):
     across, down, shared = triple(ray, ACROSS), triple(ray, DOWN), triple(ray, SHARED)
     varying = plus(triple(ray, VARYING), plus(times(x, across), times(y, down)))
     per_f, per_d = 1.0 / radius, view.scale / radius
-    if view.parallel:
-        return (
+    return choose(
+        view.parallel,
+        lambda: (
             (times(per_f, minus(varying, centre)), times(per_f, across), times(per_f, down)),
             (times(per_d, shared), zero, zero),
-        )
-    return (
-        (times(per_f, minus(shared, centre)), zero, zero),
-        (times(per_d, varying), times(per_d, across), times(per_d, down)),
+        ),
+        lambda: (
+            (times(per_f, minus(shared, centre)), zero, zero),
+            (times(per_d, varying), times(per_d, across), times(per_d, down)),
+        ),
     )
 
 
-@inlined
+@emitted
 def moment(f, d):
     """Return f x d, affine as well: its value, and its changes across and down."""
     return (
@@ -72,7 +75,7 @@ def moment(f, d):
     )
 
 
-@inlined
+@emitted
 def _square(p):
     """Return |p|^2, p affine: coefficients of 1, x, y, x x, x y, y y."""
     return (
@@ -81,42 +84,39 @@ def _square(p):
     )
 
 
-@inlined
+@emitted
 def _rounded(p):
     """Return the coefficients of _square() as float32."""
-    (a, b, c), (d, e, f) = p
-    return (
-        np.float32(a), np.float32(b), np.float32(c), np.float32(d), np.float32(e), np.float32(f)
-    )  # fmt: skip
+    return tuple(f32(coefficient) for part in p for coefficient in part)
 
 
-@inlined
+@emitted
 def sphere_equation(f, d):
     """Return the polynomials (a, b, c, discriminant) of sphere_ray()'s (f, d)."""
     a, c, m = _square(d), _square(f), _square(moment(f, d))
     b = (
-        np.float32(-dot(f[0], d[0])),
-        np.float32(-dot(f[1], d[0]) - dot(f[0], d[1])),
-        np.float32(-dot(f[2], d[0]) - dot(f[0], d[2])),
+        f32(-dot(f[0], d[0])),
+        f32(-dot(f[1], d[0]) - dot(f[0], d[1])),
+        f32(-dot(f[2], d[0]) - dot(f[0], d[2])),
     )
     discriminant = minus(a[0], m[0]), minus(a[1], m[1])
     c = minus(c[0], (1.0, 0.0, 0.0)), c[1]
     return _rounded(a), b, _rounded(c), _rounded(discriminant)
 
 
-@inlined
+@emitted
 def quadratic(p, x, y):
     """Return a polynomial at 16 image points, relative to where it was set up."""
     in_x = fma(x, p[3], fma(y, p[4], splat(p[1])))
     return fma(x, in_x, fma(y, fma(y, p[5], splat(p[2])), splat(p[0])))
 
 
-@inlined
+@emitted
 def affine(p, x, y):
     return fma(x, p[1], fma(y, p[2], splat(p[0])))
 
 
-@inlined
+@emitted
 def sphere_depths(equation, x, y):
     """Return (near, far, mask): Z of the sphere's two points on each ray; mask: there are any.
 
@@ -151,30 +151,36 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
             continue
         # The nearer point that lies within near and far.
         points = square_points(view, tile, square)
-        own, column, row = _at_square(view.lens, view, spheres, sphere, equation, points, dx, dy)
+        own, column, row = _at_square(view, spheres, sphere, equation, points, dx, dy)
         near, far, hit = sphere_depths(own, column, row)
         z_near, z_far = depth_range(view, square, scratch)
         z = select((near > z_near) & (near < z_far), near, far)
         hit = hit & (z > z_near) & (z < z_far)
-        key = -z if view.parallel else splat(np.float32(1)) / z
+        key = key_at(view, z)
         hit = hit & (key > load(scratch.best, LANES * square))
         if bits(hit) != 0:
             set_hits(scratch, square, hit, key, FIRST_SPHERE - sphere, 0)
     return smallest(load(scratch.least, 0))
 
 
-@inlined
-def _at_square(lens, view, spheres, sphere, equation, points, dx, dy):
+@emitted
+def _at_square(view, spheres, sphere, equation, points, dx, dy):
     """Return a sphere's equation and where a square's pixels are in it: the tile's; behind a lens,
     whose frames may span half of a small image, the square's own.
     """
-    if lens is None:
+    if view.lens is None:
         return equation, points.right + dx, points.down + dy
     f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     return sphere_equation(f, d), points.right, points.down
 
 
-@inlined
+@emitted
+def key_at(view, z):
+    """Return the key of Z."""
+    return choose(view.parallel, lambda: -z, lambda: splat(np.float32(1)) / z)
+
+
+@emitted
 def sphere_normal(view, spheres, sphere, points, z):
     """Return outward unit normals of a sphere at a square's pixels, F32; z: the depths seen.
 
@@ -195,7 +201,7 @@ def sphere_normal(view, spheres, sphere, points, z):
     return normalized_lanes(fma_lanes(inverse, cross(d, m), times(half, d)))
 
 
-@inlined
+@emitted
 def is_near_hit(z, middle):
     """Return which pixels see a sphere's nearer hit. z: of the hit; middle: of the chord.
 
@@ -204,14 +210,14 @@ def is_near_hit(z, middle):
     return z <= fma(vabs(middle), _CHORD, middle)
 
 
-@inlined
+@emitted
 def sphere_normal_at(view, spheres, sphere, point):
     """Return outward unit normals at 16 points of a sphere, relative to the view's near_point."""
     centre = minus(triple(spheres, 4 * sphere), triple(view.near_point, 0))
     return normalized_lanes(minus(point, splat_lanes(centre)))
 
 
-@inlined
+@emitted
 def _vectors(p, x, y):
     """Return an affine vector at 16 image points."""
     return fma_lanes(y, splat_lanes(p[2]), fma_lanes(x, splat_lanes(p[1]), splat_lanes(p[0])))

@@ -17,6 +17,7 @@ from renderer.scene.flat import FlatScene
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, HAS_TEXTURE, IS_STRETCHED
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted
 from renderer.trace.packets.smooth import (
     agrees,
     barycentrics,
@@ -114,24 +115,27 @@ class Surface(NamedTuple):
     gloss: Any
 
 
-@inlined
+@emitted
 def square_rays(view, points):
     """Return the rays of a square's pixels, at these image points."""
     x, y = coordinates(points)
     shared, varying = triple(view.ray, SHARED), triple(view.ray, VARYING)
     point = triple(view.near_point, 0)
-    if view.parallel:
-        return Pixels(_ray_lanes(view.ray, minus(varying, point), x, y), splat_lanes(shared))
-    return Pixels(splat_lanes(minus(shared, point)), _ray_lanes(view.ray, varying, x, y))
+    rays = choose(
+        view.parallel,
+        lambda: (_ray_lanes(view.ray, minus(varying, point), x, y), splat_lanes(shared)),
+        lambda: (splat_lanes(minus(shared, point)), _ray_lanes(view.ray, varying, x, y)),
+    )
+    return Pixels(*rays)
 
 
-@inlined
+@emitted
 def points_on(pixels, t):
     """Return the points of rays at t, relative to what the origins are."""
     return fma_lanes(t, pixels.direction, pixels.origin)
 
 
-@inlined
+@emitted
 def _ray_lanes(ray, start, x, y):
     below = fma_lanes(y, splat_lanes(triple(ray, DOWN)), splat_lanes(start))
     return fma_lanes(x, splat_lanes(triple(ray, ACROSS)), below)
@@ -282,7 +286,7 @@ def instance_surface(
     return Surface(facing, bend_grazing(pixels.direction, mask, shading), tint, white()), places
 
 
-@inlined
+@emitted
 def viewers_side(normal, direction):
     """Return 1 where a normal faces the viewer, else -1."""
     return select(
@@ -290,21 +294,24 @@ def viewers_side(normal, direction):
     )
 
 
-@inlined
+@emitted
 def white():
     """Return the colour that changes nothing when multiplied."""
     return splat_lanes((1, 1, 1))
 
 
-@inlined
+@emitted
 def bend_grazing(direction, mask, normal):
     """Return shading normals bent just enough to face the viewer, in the lanes of the mask."""
     cosine = dot_lanes(normal, direction)
     # Few squares have any: cosine > -GRAZING |direction|, without the root.
     close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)
-    if bits(mask & (close | (cosine > np.float32(0)))) == 0:
-        return normal
-    along = normalized_lanes(direction)
-    bent = dot_lanes(normal, along) + GRAZING
-    turned = normalized_lanes(minus(normal, times(bent, along)))
-    return select_lanes(mask & (bent > np.float32(0)), turned, normal)
+
+    def bend():
+        along = normalized_lanes(direction)
+        bent = dot_lanes(normal, along) + GRAZING
+        turned = normalized_lanes(minus(normal, times(bent, along)))
+        return select_lanes(mask & (bent > np.float32(0)), turned, normal)
+
+    is_any = bits(mask & (close | (cosine > np.float32(0)))) != 0
+    return choose(is_any, bend, lambda: normal)

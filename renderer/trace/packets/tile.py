@@ -17,6 +17,7 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
 from renderer.trace.packets.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.simd.gather import gather, prefetch
 from renderer.trace.simd.lanes import (
@@ -89,8 +90,8 @@ scratch_of = divider(Scratch, _FLOATS.values(), _INTS.values())
 
 NOTHING, FIRST_SPHERE = np.int32(-1), np.int32(-2)
 
-# The planes: four sides, -Z and Z. Not Python's int, for each of which a function is compiled anew.
-LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = np.arange(6)
+# The planes: four sides, -Z and Z.
+LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = range(6)
 
 
 class Tile(NamedTuple):
@@ -118,20 +119,15 @@ class Points(NamedTuple):
     down: Any
 
 
-@inlined
+@emitted
 def new_tile(view, row, column, scratch):
     """Return the tile whose first pixel is (row, column)."""
-    return _new_tile(view.lens, view, row, column, scratch)
-
-
-@inlined
-def _new_tile(lens, view, row, column, scratch):
-    last, slack = np.float32(TILE - 1), view.slack_px
+    last, slack, lens = np.float32(TILE - 1), view.slack_px, view.lens
     if lens is None:
-        x = np.float32(column + 0.5 + view.left)
-        y = np.float32(row + 0.5 + view.above)
+        x = f32(column + 0.5 + view.left)
+        y = f32(row + 0.5 + view.above)
         return Tile(x, y, x - slack, x + last + slack, y - slack, y + last + slack, 0)
-    frame = np.int64(scratch.frame[0])
+    frame = i64(scratch.frame[0])
     x, y, b = np.float32(0), np.float32(0), 4 * frame
     left, right, above, below = (
         lens.bounds[b],
@@ -142,7 +138,7 @@ def _new_tile(lens, view, row, column, scratch):
     return Tile(x, y, left - slack, right + slack, above - slack, below + slack, frame * _PIXELS)
 
 
-@inlined
+@emitted
 def from_first_pixel(tile):
     """Return the tile with its first pixel as the origin of image points.
 
@@ -154,43 +150,35 @@ def from_first_pixel(tile):
     )
 
 
-@inlined
+@emitted
 def square_points(view, tile, square):
     """Return the image points of a square's pixels."""
     x, y = _first_point(tile, square)
-    return _square_points(view.lens, tile, square, np.float64(x), np.float64(y))
-
-
-@inlined
-def _square_points(lens, tile, square, x, y):
+    x, y, lens = f64(x), f64(y), view.lens
     if lens is None:
         return Points(x, y, lane_column(), lane_row())
     at = tile.first + LANES * square
     return Points(x, y, load(lens.right, at), load(lens.down, at))
 
 
-@inlined
+@emitted
 def coordinates(points):
     """Return x and y of image points, F32."""
-    return points.right + np.float32(points.x), points.down + np.float32(points.y)
+    return points.right + f32(points.x), points.down + f32(points.y)
 
 
-@inlined
+@emitted
 def pixel_point(view, tile, square, lane):
     """Return the image point of one pixel, equal to that of coordinates()."""
     x, y = _first_point(tile, square)
-    return _pixel_point(view.lens, tile, square, lane, x, y)
-
-
-@inlined
-def _pixel_point(lens, tile, square, lane, x, y):
+    lens = view.lens
     if lens is None:
-        return x + np.float32(lane & (SQUARE - 1)), y + np.float32(lane >> 2)
+        return x + f32(lane & (SQUARE - 1)), y + f32(lane >> 2)
     at = tile.first + LANES * square + lane
     return x + lens.right[at], y + lens.down[at]
 
 
-@inlined
+@emitted
 def pixel_points(view, tile, column, row, mask):
     """Return (x, y, number in the tile) of a pixel in each lane; x and y as by coordinates().
 
@@ -200,11 +188,7 @@ def pixel_points(view, tile, column, row, mask):
     inner, outer = np.int32(SQUARE - 1), np.int32(TILE - SQUARE)
     pixel = ((i & outer) << two) + (j & outer) << two
     pixel = pixel + ((i & inner) << two) + (j & inner)
-    return _pixel_points(view.lens, tile, column, row, pixel, mask)
-
-
-@inlined
-def _pixel_points(lens, tile, column, row, pixel, mask):
+    lens = view.lens
     if lens is None:
         return column, row, pixel
     right = gather(shifted(lens.right, tile.first), pixel, mask)
@@ -213,11 +197,10 @@ def _pixel_points(lens, tile, column, row, pixel, mask):
     return right + vfloor(column * part) * side, down + vfloor(row * part) * side, pixel
 
 
-@inlined
+@emitted
 def _first_point(tile, square):
     """Return the image point of a square's first pixel, on the grid."""
-    dx, dy = np.float32((square & 3) * SQUARE), np.float32((square >> 2) * SQUARE)
-    return tile.x + dx, tile.y + dy
+    return tile.x + f32((square & 3) * SQUARE), tile.y + f32((square >> 2) * SQUARE)
 
 
 @inlined
@@ -249,84 +232,66 @@ def _clear_tile(lens, view, tile, row, column, scratch):
     return view.key_far if lens is None else smallest(load(scratch.least, 0))
 
 
-@inlined
+@emitted
 def nearest_key(view, square, scratch):
     """Return the key that a hit must be below, for a square's pixels."""
-    return _nearest_key(view.lens, view, square, scratch)
+    if view.lens is None:
+        return splat(view.key_near)
+    return load(scratch.key_near, LANES * square)
 
 
-@inlined
-def _nearest_key(lens, view, square, scratch):
-    return splat(view.key_near) if lens is None else load(scratch.key_near, LANES * square)
-
-
-@inlined
+@emitted
 def nearest_key_of(view, pixel, scratch):
     """Return the same for one of the tile's pixels."""
-    return _nearest_key_of(view.lens, view, pixel, scratch)
+    return view.key_near if view.lens is None else scratch.key_near[pixel]
 
 
-@inlined
-def _nearest_key_of(lens, view, pixel, scratch):
-    return view.key_near if lens is None else scratch.key_near[pixel]
-
-
-@inlined
+@emitted
 def depth_range(view, square, scratch):
     """Return what Z must be above and below, for a square's pixels."""
-    return _depth_range(view.lens, view, square, scratch)
-
-
-@inlined
-def _depth_range(lens, view, square, scratch):
-    if lens is None:
+    if view.lens is None:
         return splat(view.z_near), splat(view.z_far)
     z_near = splat(np.float32(1)) / load(scratch.key_near, LANES * square)
     return z_near, splat(np.float32(np.inf))
 
 
-@inlined
+@emitted
 def own_parameters(view, tile, square, t):
     """Return t in units of the pixels' own directions."""
-    return _own_parameters(view.lens, tile, square, t)
-
-
-@inlined
-def _own_parameters(lens, tile, square, t):
+    lens = view.lens
     if lens is None:
         return t
     ahead = load(lens.ahead, tile.first + LANES * square)
     return select(ahead > np.float32(0), t / ahead, np.float32(np.inf))
 
 
-@inlined
+@emitted
 def set_hits(scratch, square, hit, key, slot, instance):
     """Store a hit, with its key, in a square's pixels of the mask."""
     at = LANES * square
     best = select(hit, key, load(scratch.best, at))
     store(scratch.best, at, best)
     slots, instances = load(scratch.hit_slot, at), load(scratch.hit_instance, at)
-    store(scratch.hit_slot, at, select(hit, splat(np.int32(slot)), slots))
-    store(scratch.hit_instance, at, select(hit, splat(np.int32(instance)), instances))
+    store(scratch.hit_slot, at, select(hit, splat(i32(slot)), slots))
+    store(scratch.hit_instance, at, select(hit, splat(i32(instance)), instances))
     scratch.least[square] = smallest(best)
 
 
-@inlined
+@emitted
 def set_space(view, space, tile, scratch):
     """Set up what the tile needs of a space: its planes, and rows from the first pixel."""
     _set_planes(view, space, tile, scratch)
     exact, at = view.rows_exact, space * ROWS
     for i in range(ROWS):
         scratch.rows[i] = view.rows[at + i]
+    z = exact[at + ROW_Z], exact[at + ROW_Z + 1], exact[at + ROW_Z + 2], exact[at + ROW_Z + 3]
+    h = choose(view.parallel, lambda: (0.0, 0.0, 0.0, 1.0), lambda: z)
     for column in range(4):
-        h = exact[at + ROW_Z + column]
-        if view.parallel:
-            h = np.float64(column == 3)
-        scratch.rows[ROW_X + column] = exact[at + ROW_X + column] - tile.x * h
-        scratch.rows[ROW_Y + column] = exact[at + ROW_Y + column] - tile.y * h
+        scratch.rows[ROW_X + column] = exact[at + ROW_X + column] - tile.x * h[column]
+        scratch.rows[ROW_Y + column] = exact[at + ROW_Y + column] - tile.y * h[column]
 
 
-@inlined
+@emitted
 def _set_planes(view, space, tile, scratch):
     """Set up the tile's planes in a space: functions of p that are >= 0 inside.
 
@@ -335,7 +300,7 @@ def _set_planes(view, space, tile, scratch):
     at = space * ROWS
     x, y, z = _row(view, at + ROW_X), _row(view, at + ROW_Y), _row(view, at + ROW_Z)
     zero, one = np.float32(0), np.float32(1)
-    h = (zero, zero, zero, one) if view.parallel else z
+    h = choose(view.parallel, lambda: (zero, zero, zero, one), lambda: z)
     _set_plane(view, at, LEFT, _side(x, tile.x_low, h, one), scratch)
     _set_plane(view, at, RIGHT, _side(x, tile.x_high, h, -one), scratch)
     _set_plane(view, at, TOP, _side(y, tile.y_low, h, one), scratch)
@@ -344,13 +309,13 @@ def _set_planes(view, space, tile, scratch):
     _set_plane(view, at, BEHIND, _side(z, zero, h, -one), scratch)
 
 
-@inlined
+@emitted
 def _row(view, at):
     rows = view.rows
     return rows[at], rows[at + 1], rows[at + 2], rows[at + 3]
 
 
-@inlined
+@emitted
 def _side(row, limit, h, sign):
     """Return sign (row - limit h)."""
     return (
@@ -361,7 +326,7 @@ def _side(row, limit, h, sign):
     )
 
 
-@inlined
+@emitted
 def _set_plane(view, at, plane, function, scratch):
     """Store n . (p - o) + d as n . p + w, and which corner of a box is farthest along n."""
     extent = view.rows[at + EXTENT]
@@ -369,14 +334,14 @@ def _set_plane(view, at, plane, function, scratch):
     for axis in range(3):
         n, origin = function[axis], view.rows[at + ORIGIN + axis]
         scratch.planes[4 * plane + axis] = n
-        scratch.farthest[3 * plane + axis] = (3 + axis if n >= 0 else axis) * WIDTH
+        scratch.farthest[3 * plane + axis] = (axis + 3 * i64(n >= 0)) * WIDTH
         w -= n * origin
         size += abs(n) * (extent + np.float32(2) * abs(origin))
     # Never too small: no box is rejected by rounding.
     scratch.planes[4 * plane + 3] = w + np.float32(5e-7) * size
 
 
-@inlined
+@emitted
 def largest_of_plane(box, at, plane, scratch):
     """Return a plane's largest value in each of a node's 16 boxes."""
     n, corner, planes, farthest = 4 * plane, 3 * plane, scratch.planes, scratch.farthest

@@ -20,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
-from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, f64
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.scalar.vectors import minus, plus, triple
 from renderer.trace.simd.lanes import (
@@ -49,7 +49,7 @@ SLIVER = np.float32(1 / 8)
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
 
 
-@inlined
+@emitted
 def _camera_corner(p, rows, r):
     """Return (X, Y, Z) of one corner of each triangle."""
     q = minus(p, triple(rows, r + ORIGIN))
@@ -60,23 +60,23 @@ def _camera_corner(p, rows, r):
     )
 
 
-@inlined
+@emitted
 def affine_row(rows, r, q):
     """Return one camera coordinate of p = o + q, by the row at r."""
     return fma(q[0], rows[r], fma(q[1], rows[r + 1], fma(q[2], rows[r + 2], splat(rows[r + 3]))))
 
 
-@inlined
+@emitted
 def _exact(v):
     return to_f64(v[0]), to_f64(v[1]), to_f64(v[2])
 
 
-@inlined
+@emitted
 def _rounded(v):
     return to_f32(v[0]), to_f32(v[1]), to_f32(v[2])
 
 
-@inlined
+@emitted
 def _camera_corners_exact(view, corner, leaf, space, tile):
     at, rows, r = leaf * CORNERS, view.rows_exact, space * ROWS
     return (
@@ -86,33 +86,40 @@ def _camera_corners_exact(view, corner, leaf, space, tile):
     )
 
 
-@inlined
+@emitted
 def _seen_from(view, tile, p):
     """Return (X, Y, Z) from the tile's first pixel."""
-    x, y = np.float64(tile.x), np.float64(tile.y)
-    if view.parallel:
-        return p[0] - x, p[1] - y, p[2]
-    return fma(p[2], -x, p[0]), fma(p[2], -y, p[1]), p[2]
+    x, y = f64(tile.x), f64(tile.y)
+    return choose(
+        view.parallel,
+        lambda: (p[0] - x, p[1] - y, p[2]),
+        lambda: (fma(p[2], -x, p[0]), fma(p[2], -y, p[1]), p[2]),
+    )
 
 
-@inlined
+@emitted
 def camera_corners(view, corner, leaf, space, tile, scratch):
     """Return (X, Y, Z) of the corners a, b, c of a leaf's triangles, from the tile's first pixel.
 
     Computed in float64 for views so narrow that float32 has no digits left for them.
     """
-    if view.exact[space]:
+
+    def exact():
         a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
         return _rounded(a), _rounded(b), _rounded(c)
-    at, rows = leaf * CORNERS, scratch.rows
-    return (
-        _camera_corner(load3(corner, at), rows, 0),
-        _camera_corner(load3(corner, at + 3 * WIDTH), rows, 0),
-        _camera_corner(load3(corner, at + 6 * WIDTH), rows, 0),
-    )
+
+    def usual():
+        at, rows = leaf * CORNERS, scratch.rows
+        return (
+            _camera_corner(load3(corner, at), rows, 0),
+            _camera_corner(load3(corner, at + 3 * WIDTH), rows, 0),
+            _camera_corner(load3(corner, at + 6 * WIDTH), rows, 0),
+        )
+
+    return choose(view.exact[space] != 0, exact, usual)
 
 
-@inlined
+@emitted
 def edge_function(p, q):
     """Return the coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
 
@@ -124,7 +131,7 @@ def edge_function(p, q):
     return fma(sy, dh, -(sh * dy)), fma(sh, dx, -(sx * dh)), fma(sx, dy, -(sy * dx))
 
 
-@inlined
+@emitted
 def key_function(view, a, b, c, ha, hb, hc):
     """Return (coefficients of x, y and 1 of the triangle's key, its volume, the volume's terms).
 
@@ -141,19 +148,22 @@ def key_function(view, a, b, c, ha, hb, hc):
     terms = fma(vabs(a[1]), vabs(left_y) + vabs(right_y), terms)
     terms = fma(vabs(ha) * SLIVER, vabs(left_h) + vabs(right_h), terms)
     inverse = np.float32(1) / volume
-    if view.parallel:
+
+    def parallel():
         # Z is affine in (x, y), and takes the corners' values at them.
         z1, z2 = b[2] - a[2], c[2] - a[2]
         kx = (z2 * y1 - z1 * y2) * inverse
         ky = (z1 * x2 - z2 * x1) * inverse
-        k1 = -a[2] - kx * a[0] - ky * a[1]
-    else:
+        return kx, ky, -a[2] - kx * a[0] - ky * a[1]
+
+    def perspective():
         # Points of the plane have n . (X, Y, H) = volume, so 1 / H = n . (x, y, 1) / volume.
-        kx, ky, k1 = nx * inverse, ny * inverse, nh * inverse
-    return (kx, ky, k1), volume, terms
+        return nx * inverse, ny * inverse, nh * inverse
+
+    return choose(view.parallel, parallel, perspective), volume, terms
 
 
-@inlined
+@emitted
 def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
     """Return (coefficients of the key, sign of the volume), computed in float64, then rounded.
 
@@ -163,25 +173,29 @@ def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
     would cover a line, or all of the image.
     """
     a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
-    ha, hb, hc = a[2], b[2], c[2]
-    if view.parallel:
-        ha = hb = hc = to_f64(splat(np.float32(1)))
+    one = to_f64(splat(np.float32(1)))
+    ha, hb, hc = choose(view.parallel, lambda: (one, one, one), lambda: (a[2], b[2], c[2]))
     (kx, ky, k1), volume, terms = key_function(view, a, b, c, ha, hb, hc)
     is_seen = vabs(volume) > terms * EDGE_ON
     is_seen = is_seen & _differ(pa, pb) & _differ(pb, pc) & _differ(pc, pa)
     # Few leaves have any, and the divisions would take as long as all the rest.
     close = vabs(ha * hb) * (2 * SPECK_PX)
-    if bits((vabs(b[0] * ha - a[0] * hb) < close) & (vabs(b[1] * ha - a[1] * hb) < close)) != 0:
-        is_seen = is_seen & ~_is_speck(
-            tile, a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc
-        )
+    is_close = (vabs(b[0] * ha - a[0] * hb) < close) & (vabs(b[1] * ha - a[1] * hb) < close)
+    is_seen = choose(
+        bits(is_close) != 0,
+        lambda: (
+            is_seen
+            & ~_is_speck(tile, a[0] / ha, a[1] / ha, b[0] / hb, b[1] / hb, c[0] / hc, c[1] / hc)
+        ),
+        lambda: is_seen,
+    )
     zero = splat(np.float32(0))
     kx, ky = select(is_seen, to_f32(kx), zero), select(is_seen, to_f32(ky), zero)
     k1 = select(is_seen, to_f32(k1), np.float32(-np.inf))
     return (kx, ky, k1), select(volume >= np.float64(0), splat(np.float32(1)), np.float32(-1))
 
 
-@inlined
+@emitted
 def _is_speck(tile, ax, ay, bx, by, cx, cy):
     """Return which triangles are smaller than SPECK_PX and too thin for float32."""
     x1, y1, x2, y2 = bx - ax, by - ay, cx - ax, cy - ay
@@ -189,17 +203,17 @@ def _is_speck(tile, ax, ay, bx, by, cx, cy):
     square = vmax(vmax(fma(x1, x1, y1 * y1), fma(x2, x2, y2 * y2)), fma(x3, x3, y3 * y3))
     area = vabs(fma(x1, y2, -(y1 * x2)))
     # Twice the area is the longest side times the height.
-    far = np.float64(1) + abs(np.float64(tile.x)) + abs(np.float64(tile.y))
+    far = np.float64(1) + abs(f64(tile.x)) + abs(f64(tile.y))
     height = fma(vabs(ax) + vabs(ay), SPECK_ROUNDING, splat(far * SPECK_ROUNDING))
     return (square < SPECK_PX * SPECK_PX) & (area * area < square * (height * height))
 
 
-@inlined
+@emitted
 def _differ(p, q):
     return (p[0] != q[0]) | (p[1] != q[1]) | (p[2] != q[2])
 
 
-@inlined
+@emitted
 def triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, wanted):
     """Return (coefficients of x, y and 1 of the keys, signs of the volumes), where wanted.
 
@@ -208,25 +222,24 @@ def triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, wanted):
     key, volume, terms = key_function(view, a, b, c, ha, hb, hc)
     sign = select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))
     doubtful = wanted & (vabs(volume) * DOUBTFUL <= terms)
-    if bits(doubtful) == 0:
-        return _without_backs(view, space, key, sign), sign
-    pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
-    exact, exact_sign = key_function_exact(view, corner, leaf, space, tile, pa, pb, pc)
-    key = select_lanes(doubtful, exact, key)
-    sign = select(doubtful, exact_sign, sign)
+
+    def corrected():
+        pa, pb, pc = (a[0], a[1], ha), (b[0], b[1], hb), (c[0], c[1], hc)
+        exact, exact_sign = key_function_exact(view, corner, leaf, space, tile, pa, pb, pc)
+        return select_lanes(doubtful, exact, key), select(doubtful, exact_sign, sign)
+
+    key, sign = choose(bits(doubtful) != 0, corrected, lambda: (key, sign))
     return _without_backs(view, space, key, sign), sign
 
 
-@inlined
+@emitted
 def _without_backs(view, space, key, sign):
     is_seen = sign * view.back[space] <= np.float32(0)
     return key[0], key[1], select(is_seen, key[2], np.float32(-np.inf))
 
 
-@inlined
+@emitted
 def homogeneous(view, a, b, c):
     """Return H of three corners."""
-    if view.parallel:
-        one = splat(np.float32(1))
-        return one, one, one
-    return a[2], b[2], c[2]
+    one = splat(np.float32(1))
+    return choose(view.parallel, lambda: (one, one, one), lambda: (a[2], b[2], c[2]))

@@ -11,6 +11,7 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.compile.compiled import inlined, pasted
+from renderer.trace.compile.emit import choose, emitted
 from renderer.trace.packets.footprint import ANY_DEPTH, WHOLE_TILE, children_in_tile, open_squares
 from renderer.trace.packets.leaf import rasterize_leaf
 from renderer.trace.packets.lens_frame import turn_rows
@@ -21,13 +22,13 @@ from renderer.trace.simd.lanes import LANES, bits, lowest_bit
 from renderer.trace.simd.memory import store
 
 
-@inlined
+@emitted
 def farthest_seen(view, least):
     """Return Z of what has the key `least`."""
-    return -least if view.parallel else np.float32(1) / least
+    return choose(view.parallel, lambda: -least, lambda: np.float32(1) / least)
 
 
-@inlined
+@emitted
 def _push(top, depth, node, footprint, scratch):
     """Write one entry of the stack."""
     scratch.waiting_depths[top] = depth

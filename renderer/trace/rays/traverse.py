@@ -20,6 +20,7 @@ import numpy as np
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted
 from renderer.trace.rays.holes import without_holes
 from renderer.trace.scalar.vectors import dot, minus, plus, rotated, times, transformed, triple
 from renderer.trace.simd.lanes import (
@@ -128,7 +129,7 @@ def _turned(is_x, is_y, x, y, z):
     )
 
 
-@inlined
+@emitted
 def children_on_ray(box, node, ray, t_min, t_max):
     """Return (mask, depths): children of a node that the ray enters within [t_min, t_max]."""
     at = node * BOX
@@ -172,7 +173,7 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     return bits(inside), select(inside, t, np.float32(np.inf))
 
 
-@inlined
+@emitted
 def _sheared(corner, at, ray):
     """Return a corner of 16 triangles relative to the origin, sheared so that the ray is the z
     axis.

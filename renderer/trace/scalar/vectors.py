@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted
 
 
 @inlined
@@ -17,51 +18,51 @@ def row(array, i):
     return np.float64(array[i, 0]), np.float64(array[i, 1]), np.float64(array[i, 2])
 
 
-@inlined
+@emitted
 def triple(array, at):
     """Return array[at : at + 3] of a flat array."""
     return array[at], array[at + 1], array[at + 2]
 
 
-@inlined
+@emitted
 def transformed(m, at, p):
     """Return a point p, transformed by the upper three rows of a matrix, at m[at:] row by row."""
     return plus(rotated(m, at, p), (m[at + 3], m[at + 7], m[at + 11]))
 
 
-@inlined
+@emitted
 def rotated(m, at, a):
     """Return a direction, transformed likewise."""
     return dot(triple(m, at), a), dot(triple(m, at + 4), a), dot(triple(m, at + 8), a)
 
 
-@inlined
+@emitted
 def plus(a, b):
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-@inlined
+@emitted
 def minus(a, b):
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-@inlined
+@emitted
 def times(s, a):
     return s * a[0], s * a[1], s * a[2]
 
 
-@inlined
+@emitted
 def each_times(a, b):
     """Return the component-wise product, of colours."""
     return a[0] * b[0], a[1] * b[1], a[2] * b[2]
 
 
-@inlined
+@emitted
 def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@inlined
+@emitted
 def cross(a, b):
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
@@ -77,7 +78,7 @@ def normalized(a):
     return times(1.0 / length(a), a)
 
 
-@inlined
+@emitted
 def blend(b0, p, b1, q, b2, r):
     """Return b0 p + b1 q + b2 r: interpolation by barycentrics."""
     return (

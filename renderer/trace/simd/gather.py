@@ -10,8 +10,8 @@ from typing import Any
 from llvmlite import ir
 from numba.core import types
 from numba.core.errors import TypingError
-from numba.extending import intrinsic
 
+from renderer.trace.compile.emit import instruction, target
 from renderer.trace.simd.types import (
     I32,
     INT32,
@@ -19,66 +19,60 @@ from renderer.trace.simd.types import (
     LANES,
     MASK,
     VECTOR,
-    address_of,
     array_kind,
     call_llvm,
     element_address,
+    first_address,
     llvm_vector,
     repeated,
     shuffled,
 )
 
 
-def _addresses(context, builder, sig, args):
-    """Return the addresses of array[index[lane]], for an intrinsic's array and I32 arguments."""
-    wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
-    data = address_of(context, builder, sig.args[0], args[0])
-    first = repeated(builder, builder.ptrtoint(data, INT64))
-    offset = builder.shl(builder.sext(args[1], wide), ir.Constant(wide, [2] * LANES))
-    return builder.inttoptr(builder.add(first, offset), pointers)
-
-
-@intrinsic
-def gather(typing, array, index, mask):
+@instruction
+def gather(array, index, mask):
     """Return array[index[lane]] in the lanes of the mask; 0 in the others, whose index may be
     anything.
     """
-    kind = array_kind(array)
-    if kind == "f64" or index != I32 or mask != MASK:
+    kind = array_kind(array.kind)
+    if kind == "f64" or index.kind != I32 or mask.kind != MASK:
         raise TypingError("gather takes 32-bit elements, an I32 and a MASK")
 
-    def codegen(context, builder, sig, args):
-        address = _addresses(context, builder, sig, args)
+    def emit(builder):
+        wide, pointers = ir.VectorType(INT64, LANES), ir.VectorType(ir.PointerType(), LANES)
+        first = repeated(builder, builder.ptrtoint(first_address(builder, array), INT64))
+        offset = builder.shl(builder.sext(index.llvm, wide), ir.Constant(wide, [2] * LANES))
+        address = builder.inttoptr(builder.add(first, offset), pointers)
         zero = ir.Constant(llvm_vector(kind), [0] * LANES)
+        arguments = [address, ir.Constant(INT32, 4), mask.llvm, zero]
         name = f"llvm.masked.gather.v{LANES}{kind}.v{LANES}p0"
-        return call_llvm(builder, name, zero.type, [address, ir.Constant(INT32, 4), args[2], zero])
+        return call_llvm(builder, name, zero.type, arguments)
 
-    return VECTOR[kind](array, index, mask), codegen
+    return VECTOR[kind], emit
 
 
 def _lane_addresses(builder: Any, first: Any, index: Any) -> list:
     """Return the addresses of first[index[lane]], lane by lane; first: the address of 32-bit
     integers.
     """
-    lanes = [builder.extract_element(index, ir.Constant(INT32, lane)) for lane in range(LANES)]
+    lanes = [builder.extract_element(index.llvm, ir.Constant(INT32, k)) for k in range(LANES)]
     return [builder.gep(first, [builder.sext(k, INT64)], source_etype=INT32) for k in lanes]
 
 
-@intrinsic
-def gather_fours(typing, array, index, stride):
+@instruction
+def gather_fours(array, index, stride):
     """Return array[i], array[i + 1], array[i + stride], array[i + stride + 1] of an int32 array,
     with i = index[lane], in all lanes: four I32.
 
     Pairs are loaded one by one, which is faster than the processors' gather instructions.
     """
+    four = types.UniTuple(I32, 4)  # type: ignore[attr-defined]
 
-    def codegen(context, builder, sig, args):
-        data = address_of(context, builder, sig.args[0], args[0])
-        step = context.cast(builder, args[2], sig.args[2], types.intp)
+    def emit(builder):
         pair, fours = ir.VectorType(INT32, 2), []
-        for first in (data, builder.gep(data, [step], source_etype=INT32)):
+        for first in (first_address(builder, array), element_address(builder, array, stride)):
             parts = []
-            for at in _lane_addresses(builder, first, args[1]):
+            for at in _lane_addresses(builder, first, index):
                 loaded = builder.load(builder.bitcast(at, pair.as_pointer()), typ=pair)
                 loaded.align = 4
                 parts.append(loaded)
@@ -88,34 +82,33 @@ def gather_fours(typing, array, index, stride):
                 parts = [shuffled(builder, a, b, every) for a, b in pairs]
             a, b = parts
             fours += [shuffled(builder, a, b, list(range(k, 2 * LANES, 2))) for k in (0, 1)]
-        return context.make_tuple(builder, sig.return_type, fours)
+        return target().context.make_tuple(builder, four, fours)
 
-    four = types.UniTuple(I32, 4)  # type: ignore[attr-defined]
-    return four(array, index, stride), codegen
+    return four, emit
 
 
-@intrinsic
-def prefetch(typing, array, index):
+def _prefetch(builder: Any, addresses: list) -> None:
+    hints = [ir.Constant(INT32, value) for value in (0, 3, 1)]  # read, keep, data
+    for at in addresses:
+        call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, *hints])
+
+
+@instruction
+def prefetch(array, index):
     """Prefetch the cache line of array[index], which will be read soon; any index is allowed."""
 
-    def codegen(context, builder, sig, args):
-        at = builder.bitcast(element_address(context, builder, sig, args), INT32.as_pointer())
-        read, keep, data = (ir.Constant(INT32, value) for value in (0, 3, 1))
-        call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, read, keep, data])
-        return context.get_dummy_value()
+    def emit(builder):
+        at = builder.bitcast(element_address(builder, array, index), INT32.as_pointer())
+        _prefetch(builder, [at])
 
-    return types.void(array, index), codegen
+    return types.void, emit
 
 
-@intrinsic
-def prefetch_lanes(typing, array, index):
+@instruction
+def prefetch_lanes(array, index):
     """Prefetch array[index[lane]] of an int32 array, for each lane."""
 
-    def codegen(context, builder, sig, args):
-        data = address_of(context, builder, sig.args[0], args[0])
-        hints = [ir.Constant(INT32, value) for value in (0, 3, 1)]
-        for at in _lane_addresses(builder, data, args[1]):
-            call_llvm(builder, "llvm.prefetch.p0", ir.VoidType(), [at, *hints])
-        return context.get_dummy_value()
+    def emit(builder):
+        _prefetch(builder, _lane_addresses(builder, first_address(builder, array), index))
 
-    return types.void(array, index), codegen
+    return types.void, emit

@@ -18,10 +18,10 @@ from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
-from numba.core import cgutils, types
+from numba.core import types
 from numba.core.errors import TypingError
-from numba.extending import intrinsic
 
+from renderer.trace.compile.emit import i32, instruction, target
 from renderer.trace.simd.types import (
     F32,
     F64,
@@ -47,33 +47,26 @@ from renderer.trace.simd.types import (
 # Vectors from numbers.
 
 
-@intrinsic
-def splat(typing, x):
+@instruction
+def splat(x):
     """Return a vector with the float32, float64 or int32 number x in each lane."""
-    if x not in KIND_OF:
-        raise TypingError(f"no vectors of {x}")
-
-    def codegen(context, builder, sig, args):
-        return repeated(builder, args[0])
-
-    return VECTOR[KIND_OF[x]](x), codegen
+    if x.kind not in KIND_OF:
+        raise TypingError(f"no vectors of {x.kind}")
+    return VECTOR[KIND_OF[x.kind]], lambda builder: repeated(builder, x.llvm)
 
 
 def _constant(values: list[float]) -> Any:
-    def codegen(context, builder, sig, args):
-        return ir.Constant(llvm_vector("f32"), values)
-
-    return F32(), codegen
+    return F32, lambda builder: ir.Constant(llvm_vector("f32"), values)
 
 
-@intrinsic
-def lane_column(typing):
+@instruction
+def lane_column():
     """Return 0 1 2 3 0 1 2 3 ...: the column of each lane in a square of 4 x 4."""
     return _constant([lane % 4 for lane in range(LANES)])
 
 
-@intrinsic
-def lane_row(typing):
+@instruction
+def lane_row():
     """Return 0 0 0 0 1 1 1 1 ...: the row of each lane in a square of 4 x 4."""
     return _constant([lane // 4 for lane in range(LANES)])
 
@@ -81,198 +74,162 @@ def lane_row(typing):
 # Functions of vectors, lane by lane. Numbers are accepted for some vectors, but not for all.
 
 
-def _function(name: str, count: int) -> Callable:
-    """Return the typing function of an intrinsic that maps to LLVM's function `name`."""
+def _of_vectors(emit: Callable, *values: Any) -> Any:
+    """Return emit(builder, *vectors), with numbers among the values made vectors, and its type."""
+    kind = common_kind(*(value.kind for value in values))
 
-    def build(*fe_types: Any) -> Any:
-        kind = common_kind(*fe_types)
-        vector = VECTOR[kind]
+    def emit_widened(builder):
+        context = target().context
+        return emit(builder, *(widened(context, builder, v.llvm, v.kind, kind) for v in values))
 
-        def codegen(context, builder, sig, args):
-            values = [
-                widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True)
-            ]
-            return call_llvm(builder, f"llvm.{name}.v{LANES}{kind}", llvm_vector(kind), values)
-
-        return vector(*fe_types), codegen
-
-    if count == 1:
-        return lambda typing, x: build(x)
-    return lambda typing, x, y, z: build(x, y, z)
+    return VECTOR[kind], emit_widened
 
 
-# x * y + z, with one rounding if the processor supports it, otherwise with two; consistently in all
-# code: fma(-x, y, -z) is exactly -fma(x, y, z) in either case.
-fma = intrinsic(_function("fmuladd", 3))
-vabs = intrinsic(_function("fabs", 1))
-vsqrt = intrinsic(_function("sqrt", 1))
-vfloor = intrinsic(_function("floor", 1))
+def _function(name: str, *values: Any) -> Any:
+    """Return the call of LLVM's function `name`."""
+
+    def emit(builder, *vectors):
+        kind = common_kind(*(value.kind for value in values))
+        return call_llvm(builder, f"llvm.{name}.v{LANES}{kind}", vectors[0].type, list(vectors))
+
+    return _of_vectors(emit, *values)
 
 
-@intrinsic
-def inverse_root(typing, x):
+@instruction
+def fma(x, y, z):
+    """Return x * y + z, with one rounding if the processor supports it, otherwise with two.
+
+    It is consistent in all code: fma(-x, y, -z) is exactly -fma(x, y, z) in either case.
+    """
+    return _function("fmuladd", x, y, z)
+
+
+vabs = instruction(lambda x: _function("fabs", x))
+vsqrt = instruction(lambda x: _function("sqrt", x))
+vfloor = instruction(lambda x: _function("floor", x))
+
+
+@instruction
+def inverse_root(x):
     """Return 1 / sqrt(x) for x > 0, normal; relative error below 4e-7. NaN or inf for 0.
 
     Uses the processor's estimate and one step of Newton's method, if there is an estimate: a square
     root and a division take several times as long.
     """
 
-    def codegen(context, builder, sig, args):
+    def emit(builder):
         flags = ("afn", "arcp", "contract", "reassoc")
-        name = f"llvm.sqrt.v{LANES}f32"
-        root = call_llvm(builder, name, args[0].type, [args[0]])
+        root = call_llvm(builder, f"llvm.sqrt.v{LANES}f32", x.llvm.type, [x.llvm])
         root.fastmath.update(flags)
-        one = ir.Constant(args[0].type, [1.0] * LANES)
+        one = ir.Constant(x.llvm.type, [1.0] * LANES)
         return builder.fdiv(one, root, flags=flags)
 
-    return F32(x), codegen
+    return F32, emit
 
 
-def _extreme(sign: str) -> Callable:
-    """Return the typing function of the minimum or maximum; y if either is NaN. A single
-    instruction on processors that have one.
+def _extreme(sign: str, x: Any, y: Any) -> Any:
+    """Return the code of the minimum or maximum; y if either is NaN. A single instruction on
+    processors that have one.
     """
-
-    def build(typing, x, y):
-        kind = common_kind(x, y)
-
-        def codegen(context, builder, sig, args):
-            x_, y_ = (
-                widened(context, builder, a, t, kind) for a, t in zip(args, sig.args, strict=True)
-            )
-            return builder.select(builder.fcmp_ordered(sign, x_, y_), x_, y_)
-
-        return VECTOR[kind](x, y), codegen
-
-    return build
+    return _of_vectors(lambda b, x, y: b.select(b.fcmp_ordered(sign, x, y), x, y), x, y)
 
 
-vmin = intrinsic(_extreme("<"))
-vmax = intrinsic(_extreme(">"))
+vmin = instruction(lambda x, y: _extreme("<", x, y))
+vmax = instruction(lambda x, y: _extreme(">", x, y))
 
 
-@intrinsic
-def larger(typing, x, y):
+@instruction
+def larger(x, y):
     """Return vmax() of two F32 without NaN.
 
     If vmax() updates a vector in memory, LLVM stores single lanes, which are slow to load again.
     This function avoids that.
     """
 
-    def codegen(context, builder, sig, args):
-        name, vector = f"llvm.maxnum.v{LANES}f32", llvm_vector("f32")
-        function = cgutils.get_or_insert_function(
-            builder.module, ir.FunctionType(vector, [vector, vector]), name
-        )
-        return builder.call(function, args, fastmath=("nnan", "nsz"))
+    def emit(builder):
+        vector = llvm_vector("f32")
+        largest = call_llvm(builder, f"llvm.maxnum.v{LANES}f32", vector, [x.llvm, y.llvm])
+        largest.fastmath.update(("nnan", "nsz"))
+        return largest
 
-    return F32(x, y), codegen
+    return F32, emit
 
 
-@intrinsic
-def select(typing, mask, x, y):
+@instruction
+def select(mask, x, y):
     """Return x in the lanes of the mask, y in the others."""
-    kind = common_kind(x, y)
-
-    def codegen(context, builder, sig, args):
-        x_, y_ = (
-            widened(context, builder, a, t, kind)
-            for a, t in zip(args[1:], sig.args[1:], strict=True)
-        )
-        return builder.select(args[0], x_, y_)
-
-    return VECTOR[kind](mask, x, y), codegen
+    return _of_vectors(lambda builder, x, y: builder.select(mask.llvm, x, y), x, y)
 
 
-def _conversion(target: VectorType, instruction: str) -> Callable:
-    def build(typing, x):
+def _conversion(target: VectorType, name: str) -> Any:
+    def define(x):
+        return target, lambda builder: getattr(builder, name)(x.llvm, llvm_vector(target.kind))
 
-        def codegen(context, builder, sig, args):
-            return getattr(builder, instruction)(args[0], llvm_vector(target.kind))
-
-        return target(x), codegen
-
-    return build
+    return instruction(define)
 
 
-@intrinsic
-def to_f64(typing, x):
+@instruction
+def to_f64(x):
     """Return an F32 as an F64; an F64 unchanged."""
-
-    def codegen(context, builder, sig, args):
-        return builder.fpext(args[0], llvm_vector("f64")) if sig.args[0] == F32 else args[0]
-
-    return F64(x), codegen
+    wide = llvm_vector("f64")
+    return F64, lambda builder: builder.fpext(x.llvm, wide) if x.kind == F32 else x.llvm
 
 
-to_f32 = intrinsic(_conversion(F32, "fptrunc"))
-i32_of = intrinsic(_conversion(I32, "fptosi"))  # rounds towards 0; the value must fit
-f32_of = intrinsic(_conversion(F32, "sitofp"))
-f64_of = intrinsic(_conversion(F64, "sitofp"))
-bits_of_f32 = intrinsic(_conversion(I32, "bitcast"))
-f32_of_bits = intrinsic(_conversion(F32, "bitcast"))
+to_f32 = _conversion(F32, "fptrunc")
+i32_of = _conversion(I32, "fptosi")  # rounds towards 0; the value must fit
+f32_of = _conversion(F32, "sitofp")
+f64_of = _conversion(F64, "sitofp")
+bits_of_f32 = _conversion(I32, "bitcast")
+f32_of_bits = _conversion(F32, "bitcast")
 
 
 # From vectors to numbers.
 
 
-@intrinsic
-def bits(typing, mask):
+@instruction
+def bits(mask):
     """Return a mask as an int64: bit i is lane i."""
-
-    def codegen(context, builder, sig, args):
-        return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), INT64)
-
-    return types.int64(mask), codegen
+    narrow = ir.IntType(LANES)
+    return types.int64, lambda builder: builder.zext(builder.bitcast(mask.llvm, narrow), INT64)
 
 
-@intrinsic
-def mask_of(typing, number):
+@instruction
+def mask_of(number):
     """Return the mask whose lane i is bit i of an integer."""
-
-    def codegen(context, builder, sig, args):
-        value = context.cast(builder, args[0], sig.args[0], types.int32)
-        return builder.bitcast(builder.trunc(value, ir.IntType(LANES)), llvm_vector("mask"))
-
-    return MASK(number), codegen
+    number, narrow = i32(number), ir.IntType(LANES)
+    mask = llvm_vector("mask")
+    return MASK, lambda builder: builder.bitcast(builder.trunc(number.llvm, narrow), mask)
 
 
-def _permutation(lanes: list[int]) -> Callable:
-    def build(typing, x):
-        def codegen(context, builder, sig, args):
-            return shuffled(builder, args[0], undefined(args[0].type), lanes)
+def _permutation(lanes: list[int]) -> Any:
+    def define(x):
+        return x.kind, lambda builder: shuffled(builder, x.llvm, undefined(x.llvm.type), lanes)
 
-        return x(x), codegen
-
-    return build
+    return instruction(define)
 
 
 # Permutations: swap the quarters of each half; 1 2 0 3 within each quarter; the first, or the last,
 # lane of each quarter in all its lanes.
-quarters_swapped = intrinsic(_permutation([lane ^ 4 for lane in range(LANES)]))
-next_of_three = intrinsic(_permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)]))
-first_of_four = intrinsic(_permutation([lane & ~3 for lane in range(LANES)]))
-last_of_four = intrinsic(_permutation([lane | 3 for lane in range(LANES)]))
+quarters_swapped = _permutation([lane ^ 4 for lane in range(LANES)])
+next_of_three = _permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)])
+first_of_four = _permutation([lane & ~3 for lane in range(LANES)])
+last_of_four = _permutation([lane | 3 for lane in range(LANES)])
 
 
-@intrinsic
-def lower_halves(typing, x, y):
+@instruction
+def lower_halves(x, y):
     """Return lanes 0 to 7 of x, then lanes 0 to 7 of y."""
-
-    def codegen(context, builder, sig, args):
-        lanes = [lane + (LANES // 2) * (lane >= LANES // 2) for lane in range(LANES)]
-        return shuffled(builder, args[0], args[1], lanes)
-
-    return x(x, y), codegen
+    lanes = [lane + (LANES // 2) * (lane >= LANES // 2) for lane in range(LANES)]
+    return x.kind, lambda builder: shuffled(builder, x.llvm, y.llvm, lanes)
 
 
-@intrinsic
-def smallest(typing, x):
+@instruction
+def smallest(x):
     """Return the least of a vector's lanes."""
 
-    def codegen(context, builder, sig, args):
+    def emit(builder):
         # Fold the vector in half until one lane is left.
-        (value,), lanes = args, LANES
+        value, lanes = x.llvm, LANES
         while lanes > 1:
             lanes //= 2
             nothing = undefined(value.type)
@@ -281,28 +238,23 @@ def smallest(typing, x):
             value = builder.select(builder.fcmp_ordered("<", low, high), low, high)
         return builder.extract_element(value, ir.Constant(INT32, 0))
 
-    return SCALAR[common_kind(x)](x), codegen
+    return SCALAR[x.kind.kind], emit
 
 
-@intrinsic
-def lowest_bit(typing, number):
+@instruction
+def lowest_bit(number):
     """Return the index, int64, of the lowest bit set in an integer whose low 32 bits are not 0."""
+    number, never_0 = i32(number), ir.Constant(I1, 1)
 
-    def codegen(context, builder, sig, args):
-        value = context.cast(builder, args[0], sig.args[0], types.int32)
-        index = call_llvm(builder, "llvm.cttz.i32", INT32, [value, ir.Constant(I1, 1)])
+    def emit(builder):
+        index = call_llvm(builder, "llvm.cttz.i32", INT32, [number.llvm, never_0])
         return builder.zext(index, INT64)
 
-    return types.int64(number), codegen
+    return types.int64, emit
 
 
-@intrinsic
-def lane_of(typing, vector, lane):
+@instruction
+def lane_of(vector, lane):
     """Return one lane of a vector, by its index."""
-    scalar = SCALAR[vector.kind]
-
-    def codegen(context, builder, sig, args):
-        index = context.cast(builder, args[1], sig.args[1], types.int32)
-        return builder.extract_element(args[0], index)
-
-    return scalar(vector, lane), codegen
+    lane = i32(lane)
+    return SCALAR[vector.kind.kind], lambda builder: builder.extract_element(vector.llvm, lane.llvm)

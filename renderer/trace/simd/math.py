@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import emitted, f32
 from renderer.trace.simd.lanes import (
     bits_of_f32,
     f32_of,
@@ -26,7 +26,7 @@ _QUARTER_PI = np.pi / 4
 _ZERO = np.float32(0)
 
 
-@inlined
+@emitted
 def log2_lanes(x):
     """Return the binary logarithm of x > 0, normal; relative error below 3e-7, also near x = 1.
 
@@ -49,7 +49,7 @@ def log2_lanes(x):
     return fma(log, np.float32(1.4426950408889634), exponent)
 
 
-@inlined
+@emitted
 def exp2_lanes(x):
     """Return 2^x for x < 128; 0 below 2^-125. Relative error below 2e-7.
 
@@ -68,7 +68,7 @@ def exp2_lanes(x):
     return select(x > np.float32(-125), p * power, np.float32(0))
 
 
-@inlined
+@emitted
 def power_lanes(x, exponent):
     """Return x^exponent for 0 <= x <= 1 and a number exponent >= 1.
 
@@ -77,7 +77,7 @@ def power_lanes(x, exponent):
     return exp2_lanes(log2_lanes(vmax(x, np.float32(1e-37))) * exponent)
 
 
-@inlined
+@emitted
 def atan2_lanes(y, x):
     """Return the angle of (x, y) from the x axis, -pi to pi; 0 for (0, 0). Error below 3e-7.
 
@@ -99,30 +99,30 @@ def atan2_lanes(y, x):
     return select(y < _ZERO, -angle, angle)
 
 
-@inlined
+@emitted
 def dot_lanes(a, b):
     return fma(a[0], b[0], fma(a[1], b[1], a[2] * b[2]))
 
 
-@inlined
+@emitted
 def fma_lanes(s, a, b):
     """Return s a + b."""
     return fma(s, a[0], b[0]), fma(s, a[1], b[1]), fma(s, a[2], b[2])
 
 
-@inlined
+@emitted
 def each_fma(a, b, c):
     """Return a b + c, component by component."""
     return fma(a[0], b[0], c[0]), fma(a[1], b[1], c[1]), fma(a[2], b[2], c[2])
 
 
-@inlined
+@emitted
 def load3(memory, at):
     """Load three vectors, one after the other."""
     return load(memory, at), load(memory, at + LANES), load(memory, at + 2 * LANES)
 
 
-@inlined
+@emitted
 def store3(memory, at, a):
     """Store three vectors, one after the other."""
     store(memory, at, a[0])
@@ -130,25 +130,25 @@ def store3(memory, at, a):
     store(memory, at + 2 * LANES, a[2])
 
 
-@inlined
+@emitted
 def splat_lanes(a):
     """Return a vector with the same numbers, as float32, in all lanes."""
-    return splat(np.float32(a[0])), splat(np.float32(a[1])), splat(np.float32(a[2]))
+    return splat(f32(a[0])), splat(f32(a[1])), splat(f32(a[2]))
 
 
-@inlined
+@emitted
 def inverse_length(a):
     """Return 1 / |a|; NaN or inf for 0."""
     return inverse_root(dot_lanes(a, a))
 
 
-@inlined
+@emitted
 def normalized_lanes(a):
     """Return a / |a|; a must not be 0."""
     scale = inverse_length(a)
     return scale * a[0], scale * a[1], scale * a[2]
 
 
-@inlined
+@emitted
 def select_lanes(mask, a, b):
     return select(mask, a[0], b[0]), select(mask, a[1], b[1]), select(mask, a[2], b[2])

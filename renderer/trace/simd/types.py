@@ -15,9 +15,10 @@ from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.extending import lower_builtin, models, register_model, type_callable
 
+from renderer.trace.compile.emit import Value, target
+
 LANES = 16
 CPointer = types.CPointer  # type: ignore[attr-defined]
-BaseTuple = types.BaseTuple  # type: ignore[attr-defined]
 
 I1, INT32, INT64 = ir.IntType(1), ir.IntType(32), ir.IntType(64)
 ELEMENT = {"f32": ir.FloatType(), "f64": ir.DoubleType(), "i32": INT32, "mask": I1}
@@ -94,12 +95,16 @@ def address_of(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
     return cgutils.create_struct_proxy(array_type)(context, builder, value=array).data
 
 
-def element_address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    """Return the address of array[index], the first two arguments."""
-    index = context.cast(builder, args[1], sig.args[1], types.intp)
-    kind = array_kind(sig.args[0])
-    address = address_of(context, builder, sig.args[0], args[0])
-    return builder.gep(address, [index], source_etype=ELEMENT[kind])
+def first_address(builder: Any, array: Value) -> Any:
+    """Return the same for a Value."""
+    return address_of(target().context, builder, array.kind, array.llvm)
+
+
+def element_address(builder: Any, array: Value, index: Value) -> Any:
+    """Return the address of array[index]."""
+    at = target().context.cast(builder, index.llvm, index.kind, types.intp)
+    element = ELEMENT[array_kind(array.kind)]
+    return builder.gep(first_address(builder, array), [at], source_etype=element)
 
 
 def common_kind(*fe_types: Any) -> str:
