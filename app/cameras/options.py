@@ -85,11 +85,11 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
         ("v", three, "the basis: up"),
         ("w", three, "the basis: back"),
         ("distance", one | {"metavar": "D"}, "of the viewport, along -w"),
-        ("fov", one | {"metavar": "DEG"}, "vertical field of view, in the distance's place"),
+        ("fov", one | {"metavar": "DEG"}, "vertical field of view, instead of the distance"),
         (
             "viewport",
             {"type": numbers(4), "metavar": "L,R,B,T"},
-            "left, right, bottom, top, as it stands",
+            "left, right, bottom, top, used unchanged",
         ),
         ("projection", {"choices": projections}, "of the rays"),
         ("near", one | {"metavar": "N"}, "clip plane, in units of w"),

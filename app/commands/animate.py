@@ -62,7 +62,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--seconds",
         type=common.real(lambda s: 0 < s <= 3600, "is not a time; give up to 3600"),
         metavar="S",
-        help="of the whole film (default: 4, or as KEYS says)",
+        help="length of the film (default: 4, or as KEYS says)",
     )
     parser.add_argument(
         "--fps",
@@ -75,7 +75,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--frames",
         type=common.whole(1, LONGEST, f"is not a number of frames; give 1 to {LONGEST}"),
         metavar="N",
-        help="of the whole film (default: seconds times fps); with --seconds, fps follows",
+        help="number of frames (default: seconds times fps); with --seconds, fps follows",
     )
     parser.add_argument(
         "--renderer",

@@ -13,7 +13,7 @@ NAME = "export"
 
 DESCRIPTION = """\
 Write a scene, its materials, its lights and a camera as glTF 2.0 (.glb), with KHR_lights_punctual
-and KHR_materials_specular. What could not be carried over is listed, and stands in the file."""
+and KHR_materials_specular. What could not be carried over is listed, and recorded in the file."""
 
 EPILOG = """\
 examples:

@@ -28,7 +28,7 @@ EPILOG = """\
 in the lecture:
   Page Down, Right    uncover; next step    Page Up, Left       take back; previous step
   Shift+Page Down     uncover all of it
-  End                 continue at the step where it was left last time; until one walks on
+  End                 continue at the step where it was left last time, until you change steps
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              takes back changes, then the way to the step
   F9                  presentation mode off, and on again; the type stays as large
@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     either.add_argument(
         "--check",
         action="store_true",
-        help="only read the file, scenes, formulas; try hiding answers; not with --export",
+        help="only check file, scenes, formulas and hiding exercises; not with --export",
     )
     either.add_argument(
         "--export",

@@ -26,7 +26,7 @@ Rows are counted from the top, columns from the left; from 0, or with --from 1 f
 EPILOG = """\
 t counts as in `lucida render --channel depth`: 1 on the image plane in perspective. The normal is
 of unit length and faces the viewer; the colour is linear light, and sRGB as in a picture.
-exit status: 0 told (also that the pixel sees the background), 2 a mistake or a failure,
+exit status: 0 done (also if the pixel sees the background), 2 a mistake or a failure,
 130 interrupted
 
 examples:

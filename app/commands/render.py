@@ -70,7 +70,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--channel",
         choices=("color", "depth", "normal", "id"),
         default="color",
-        help="what of each pixel to write (default: color)",
+        help="what to write for each pixel (default: color)",
     )
     common.add_size_option(parser, common.large_size)
     add_view_option(parser)

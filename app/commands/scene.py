@@ -22,10 +22,10 @@ DESCRIPTION = """\
 Say what is in a scene: its objects with their types, triangles, bounds and materials, its lights
 and its camera; what of its materials is not shown; what is odd about it: meshes that are open or
 turned inside out, faces without an area or there twice, what was mended in a model; which model
-files it reads (one outside of its folder is told as such), and which cameras its models have."""
+files it reads (and reports those outside its folder), and which cameras its models have."""
 
 EPILOG = """\
-exit status: 0 told (also where something is odd: all of it can be drawn), 2 a mistake or a failure
+exit status: 0 done (also if something is odd: all of it can be drawn), 2 a mistake or a failure
 
 examples:
   lucida scene my-scene.toml

@@ -25,10 +25,10 @@ commands:
   lucida animate SCENE -o OUT    a film: around the scene, through key cameras
   lucida compare SCENE           raster against ray: counts, errors, causes
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
-  lucida camera FILE             what a camera of any format is; and in other formats
+  lucida camera FILE             describe a camera of any format, or convert it
   lucida export SCENE -o OUT     scene and camera as glTF, for other programs
   lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
-  lucida check FILE.py           what a student wrote, beside the right answers
+  lucida check FILE.py           what a student wrote, next to the correct answers
   lucida tasks                   what can be asked of it
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scene SCENE             its objects, bounds, triangles and lights, and what is odd in it
@@ -43,7 +43,7 @@ examples:
   lucida bunny.obj                        a model, lit and framed
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
-  lucida rays.py                          your own viewing_ray, its picture beside the right one
+  lucida rays.py                          your own viewing_ray, its picture next to the correct one
   lucida photo.jpg                        a photograph over the images, for matching a camera
   lucida transforms.json                  the cameras of a data set, or of a COLMAP model's folder
   lucida --screenshot window.png          draw the window once, save it, leave
