@@ -72,6 +72,8 @@ _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
 _NOT_READ = {
     r"^import bpy|\bbpy\.data": "Blender's scripts are",
     r'"PerspectiveCamera"': "three.js's JSON is",
+    r"<scene version=": "Mitsuba's XML is",
+    r'^\s*Camera\s+"': "pbrt's scene file is",
     r"<sensor ": "Metashape's XML is",
     r'"poseId"': "Meshroom's .sfm is",
     r'"img_name"': "Gaussian splatting's cameras.json is",

@@ -219,6 +219,8 @@ def test_a_difference_that_moves_no_pixel_is_not_refused() -> None:
         ("import bpy\ncamera = bpy.data.cameras.new('a')\n", "Blender's scripts are not read"),
         ('{"object": {"type": "PerspectiveCamera", "fov": 50}}', "three.js's JSON is not read"),
         ('{"views": [], "poses": [{"poseId": "7"}]}', "Meshroom's .sfm is not read"),
+        ('<scene version="3.0.0"><sensor type="thinlens"/></scene>', "Mitsuba's XML is not read"),
+        ('Camera "perspective" "float fov" 40', "pbrt's scene file is not read"),
     ],
 )
 def test_a_format_that_is_not_read_is_named(text: str, told: str) -> None:
