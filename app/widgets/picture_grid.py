@@ -18,6 +18,7 @@ from app.widgets.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3  # of each line
 GAP_EM = 0.7
+LEAST_PART = 0.8  # of their width that captions below titles may leave to pictures
 
 
 @dataclass(frozen=True)
@@ -88,11 +89,13 @@ def picture_grid(
     widest, heading = max(titles), HEADING_EM * em
     columns, extent = _extent(len(pictures), size, room, heading, gap, widest)
     if any(
-        picture.caption and title + imgui.calc_text_size(picture.caption).x > extent.x
+        picture.caption and title + imgui.calc_text_size(picture.caption).x > max(extent.x, widest)
         for picture, title in zip(pictures, titles, strict=True)
     ):
-        heading *= 2
-        columns, extent = _extent(len(pictures), size, room, heading, gap, widest)
+        below = _extent(len(pictures), size, room, 2 * heading, gap, widest)
+        if below[1].x >= LEAST_PART * extent.x:
+            heading *= 2
+            columns, extent = below
     corner, answer = imgui.get_cursor_screen_pos(), None
     width = max(extent.x, min(widest, (room.x - gap * (columns - 1)) / columns))
     pitch = ImVec2(width, extent.y) + ImVec2(gap, heading + gap)
@@ -104,7 +107,8 @@ def picture_grid(
             draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
         is_below = heading > HEADING_EM * em
         shift = ImVec2(0, HEADING_EM * em) if is_below else ImVec2(titles[number], 0)
-        draw.add_text(at + shift, theme.u32(theme.DIM), fitting_words(picture.caption, width))
+        caption = fitting_words(picture.caption, width - shift.x)
+        draw.add_text(at + shift, theme.u32(theme.DIM), caption)
         pixel = _picture(picture, size, at, extent, heading)
         answer = answer if pixel is None else GridAnswer(number, pixel)
     imgui.set_cursor_screen_pos(corner)
