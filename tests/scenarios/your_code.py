@@ -248,7 +248,7 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     d.window.change(d.window.state.with_options(one_based=False))
     d.drop([str(course)])
     d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is correct.", "counting: correct with")
+    until_told(d, "Every ray is correct.", "counting: correct in all of")
     d.until(lambda: d.window.state.options.one_based)  # as the course counts
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
@@ -332,7 +332,11 @@ def children() -> set[int]:
             command = (entry.parent / "cmdline").read_bytes()
         except OSError:
             continue
-        if int(words[1]) == os.getpid() and b"io.FileIO(0" in command and words[0] != "Z":
+        if (
+            int(words[1]) == os.getpid()
+            and b"Runs a student's Python file" in command
+            and words[0] != "Z"
+        ):
             found.add(int(entry.parent.name))
     return found
 
