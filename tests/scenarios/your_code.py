@@ -284,6 +284,7 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
             d.window.change(d.window.state.with_options(preferences=wished))
             d.settle()
             sizes.clear()
+            d.until(lambda: "768 of 768 rays are wrong." in sizes)
             d.picture()
             verdict = sizes.pop("768 of 768 rays are wrong.")
             assert verdict >= imgui.get_main_viewport().size.y / 36, scale

@@ -80,8 +80,8 @@ class Desk:
         return done.stdout.split()
 
     def key(self, *chords: str) -> None:
-        """Presses chords, such as ctrl+plus, as fingers do: at a few frames a second, GLFW takes a
-        chord that is pressed within a millisecond for its keys alone.
+        """Presses chords, such as ctrl+plus, as fingers do. Of a chord within a millisecond, a slow
+        frame has the key alone: ImGui's backend asks GLFW for Ctrl when the key's turn comes.
 
         Each is answered for before the next one's pause begins: of two presses of Ctrl that a busy
         server takes in the same millisecond, GLFW drops the second.
