@@ -109,11 +109,13 @@ def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
 
 
 def drive_the_lecture_ends(d: Driver) -> None:
+    """What was open before the lecture comes back."""
+    camera, scene = d.window.state.camera, d.window.state.scene
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()
     d.window.lecture.go(d.window, 26)  # an image of 8 x 8 pixels
     d.settle()
-    camera, scene = d.window.state.camera, d.window.state.scene
+    assert d.window.state.camera != camera
     d.ctx.menu_click("//##MainMenuBar/Lecture/End the lecture")
     d.settle()
     state = d.window.state
