@@ -226,7 +226,7 @@ def drive_what_a_number_is_refused_for_is_told_of_that_object_alone(d: Driver) -
     d.ctx.item_double_click("//###Inspector/##radius")
     d.ctx.key_chars_replace_enter("1e308")
     d.ctx.yield_(3)
-    assert "radius: 1e+308 is outside" in panel.inspector.problem
+    assert "radius: 1e+308 is too large" in panel.inspector.problem
     d.picture()
     d.ctx.item_click(in_list(d, "box"))
     d.ctx.yield_(3)
