@@ -339,7 +339,7 @@ class TestView:
     def test_check_tries_a_small_image_of_its_shape(self, capsys):
         Path("rays.py").write_text("def viewing_ray(i, j, width, height, camera): return 0, 0\n")
         assert main(["check", "rays.py", "--task", "viewing-ray", "--view", "herd.json#7"]) == 2
-        assert "width=32, height=48" in capsys.readouterr().out
+        assert "W=32, H=48" in capsys.readouterr().out
 
     def test_distortion_is_ignored_only_when_asked_for(self, capsys):
         words = ["pick", "spheres", "0", "0", "--view", "lens.json#0"]

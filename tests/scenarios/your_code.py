@@ -265,8 +265,8 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
 
 
 def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
-    """In presentation mode, and in large type: the verdict is 1/36 of the window's height at least,
-    and larger than the other words."""
+    """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
+    window's height at least, and larger than the other words."""
     sizes: dict[str, float] = {}
     coded_text = panel.coded_text
 
@@ -277,6 +277,10 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
     opened(d, CORNER)
     until_told(d, "768 of 768 rays are wrong.", "half a pixel")
     d.until(lambda: view(d).pictures is not None)
+    stage = d.window.shell.stage
+    stage.show(YOUR_CODE)
+    d.until(lambda: stage.focused == YOUR_CODE)
+    stage.maximise()
     panel.coded_text = drawn  # type: ignore[assignment]
     try:
         for scale in (1.0, 1.5, 2.0, 3.0):
@@ -291,6 +295,7 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
             assert sizes and verdict > 1.2 * max(sizes.values()), scale
     finally:
         panel.coded_text = coded_text
+        stage.maximise()
         wished = {"font_scale": 1.0, "presentation": False}
         d.window.change(d.window.state.with_options(preferences=wished))
     leave(d)
