@@ -138,11 +138,8 @@ class CompareView(ImageView):
         """Return the visible part of the picture, or None."""
         textures, composed, shown = both.textures, self._composed, self._shown
         assert textures is not None and composed is not None and shown is not None
-        options, look, request = (
-            state.of(CompareOptions),
-            look_of(state.images),
-            both.request(state),
-        )
+        options, look = state.of(CompareOptions), look_of(state.images)
+        request = both.request(state)
         assert request is not None
         raster = textures.raster_in(whole(both.size), request, look, COMPARED)
         if raster is None:
@@ -164,7 +161,7 @@ class CompareView(ImageView):
                     ).held
             else:
                 ray = textures.ray_in(whole(both.size), request, look, COMPARED)
-                divider = self._first_of_second(both, state)
+                divider = self._first_ray_column(both, state)
                 if ray is not None:
                     right = ray.held
                 elif divider < both.size[0]:
@@ -183,8 +180,8 @@ class CompareView(ImageView):
             return None
         return seen
 
-    def _first_of_second(self, both: Renderers, state: AppState) -> int:
-        """Return the first column that shows the second of the two images."""
+    def _first_ray_column(self, both: Renderers, state: AppState) -> int:
+        """Return the first column that shows the ray image in a wipe or flip."""
         options = state.of(CompareOptions)
         if options.mode == "wipe":
             return _column(options.divider, both.size)

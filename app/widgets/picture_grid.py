@@ -99,13 +99,12 @@ def picture_grid(
     corner, answer = imgui.get_cursor_screen_pos(), None
     width = max(extent.x, min(widest, (room.x - gap * (columns - 1)) / columns))
     pitch = ImVec2(width, extent.y) + ImVec2(gap, heading + gap)
+    draw, is_below = imgui.get_window_draw_list(), heading > HEADING_EM * em
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         at = corner + pitch * (column, row)
-        draw = imgui.get_window_draw_list()
         with lettering(fonts.bold):
             draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
-        is_below = heading > HEADING_EM * em
         shift = ImVec2(0, HEADING_EM * em) if is_below else ImVec2(titles[number], 0)
         caption = fitting_words(picture.caption, width - shift.x)
         draw.add_text(at + shift, theme.u32(theme.DIM), caption)

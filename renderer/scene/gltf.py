@@ -62,7 +62,7 @@ class Instance:
 
 @dataclass(frozen=True, eq=False)
 class PlacedPart:
-    """What is drawn of an instance. Instances of the same numbers share their part."""
+    """The primitive that an instance draws. Instances of the same numbers share their part."""
 
     part: Part
     name: str

@@ -109,7 +109,7 @@ def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
 
 
 def drive_the_lecture_ends(d: Driver) -> None:
-    """What was open before the lecture comes back."""
+    """The scene and the camera from before the lecture come back."""
     camera, scene = d.window.state.camera, d.window.state.scene
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()

@@ -1,4 +1,4 @@
-"""What a model file means is what is shown, or a line says what is not."""
+"""Models are shown as their files mean them, or a line says what is not shown."""
 
 from __future__ import annotations
 
