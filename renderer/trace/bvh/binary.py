@@ -25,7 +25,7 @@ from renderer.trace.bvh.sah_split import (
     bounds_of_records,
     partition,
 )
-from renderer.trace.compile.compiled import kernel, pasted
+from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.scalar.traverse import Tree
 from renderer.trace.scalar.vectors import row
 from renderer.trace.simd.lanes import LANES
@@ -264,7 +264,7 @@ def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, contr
         )  # fmt: skip
 
 
-@pasted
+@inlined
 def _grow(
     records, bounds, links, levels, job, largest, leaf_size, waiting, waiting_bounds, scratch
 ):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
-from renderer.trace.compile.compiled import inlined, pasted
+from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.emit import choose, emitted
 from renderer.trace.packets.footprint import ANY_DEPTH, WHOLE_TILE, children_in_tile, open_squares
 from renderer.trace.packets.leaf import rasterize_leaf
@@ -69,7 +69,7 @@ def push_children(view, children, child, node, top, scratch):
     return top
 
 
-@pasted
+@inlined
 def walk_world(view, world, tile, least, scratch):
     """Trace the scene for the tile: the upper tree, spheres and instances. least: its
     least key."""
@@ -116,7 +116,7 @@ def _prefetch_next(world, base, top, scratch):
                     prefetch(world.corner, (FIRST_LEAF - node) * CORNERS + line)
 
 
-@pasted
+@inlined
 def walk_instance(view, world, space, footprint, tile, base, least, scratch):
     """Trace an instance, whose space is set up, for the tile. Return the new least key."""
     _push(base, ANY_DEPTH, world.root[space], footprint, scratch)
