@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
 from renderer.trace.compile.compiled import kernel
-from renderer.trace.compile.emit import emitted
+from renderer.trace.compile.emit import emitted, greater, lesser
 from renderer.trace.simd.gather import gather
 from renderer.trace.simd.lanes import (
     LANES,
@@ -182,7 +182,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
         fewer = first + (below[first] > below[first + 1])
         few, many = np.int64(row[fewer]), np.int64(row[2 * first + 1 - fewer])
         least = splat(_FAR)
-        for k in range(1, min(below[fewer], WIDTH - 1) + 1):
+        for k in range(1, lesser(np.int64(below[fewer]), WIDTH - 1) + 1):
             # Lane i - 1 is for i slots: k for one child, i - k for the other, which has none in the
             # first k lanes.
             rest = vmax(load(costs, many - k), load(costs, WIDTH - k))
@@ -200,7 +200,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
     while top > 0:
         top -= 1
         node, level = waiting[3 * top + 1], waiting[3 * top + 2]
-        levels = max(levels, level)
+        levels = greater(levels, level)
         # Choose the members with the least cost. Open a member if its slots cost less than a node
         # of its own. Always open one with a slot for each leaf, which costs nothing, and the
         # first one, which becomes the node.
@@ -215,8 +215,8 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
                 continue
             first = np.int64(links[2 * m])
             left, right = np.int64(row[first]) - 1, np.int64(row[first + 1]) - 1
-            least, of_left = _FAR, min(below[first], s - 1)
-            for k in range(max(1, s - below[first + 1]), of_left + 1):
+            least, of_left = _FAR, lesser(np.int64(below[first]), s - 1)
+            for k in range(greater(1, s - below[first + 1]), of_left + 1):
                 cost = costs[left + k] + costs[right + s - k]
                 if cost < least:
                     least, of_left = cost, k
@@ -258,7 +258,7 @@ def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
         first = take_next(control) * _CHUNK
         if first >= len(leaves):
             return
-        for k in range(first, min(first + _CHUNK, len(leaves))):
+        for k in range(first, lesser(first + _CHUNK, len(leaves))):
             here = mask_of((np.int64(1) << leaves[k, 1]) - 1)
             f = gather(pointer(order), lane + np.int32(leaves[k, 0]), here)
             store(pointer(face), k * WIDTH, select(here, f, np.int32(-1)))

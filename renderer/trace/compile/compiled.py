@@ -46,6 +46,14 @@ _PASSES = (
 )
 
 
+_FLAGS = {
+    "no_compile": True,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+    "error_model": "numpy",
+}
+
+
 class _PartCompiler(CompilerBase):
     """numba's compiler for parts of kernels."""
 
@@ -72,8 +80,8 @@ def inlined(function: Callable[..., Any]) -> Any:
     @cache
     def compiled(kinds: tuple[Any, ...]) -> Any:
         flags = Flags()
-        flags.no_compile = flags.no_cpython_wrapper = flags.no_cfunc_wrapper = True
-        flags.error_model = "numpy"
+        for flag, value in _FLAGS.items():
+            setattr(flags, flag, value)
         typing, context = cpu_target.typing_context, cpu_target.target_context
         result = compile_extra(
             typing, context, function, kinds, None, flags, {}, pipeline_class=_PartCompiler

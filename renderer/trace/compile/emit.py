@@ -2,8 +2,9 @@
 
 numba takes about a millisecond for each statement. A function that is decorated by emitted() costs
 it nothing: wherever a kernel calls it, Python calls it with Values, whose operators emit
-instructions right there. Such a function has no runtime branches or loops: a condition must be known from the types,
-as `lens is None` is, or use choose(). It may call other emitted functions, but none of numba's.
+instructions right there. Such a function has no runtime branches or loops: a condition must be
+known from the types, as `lens is None` is, or use choose(). It may call other emitted functions,
+but none of numba's.
 """
 
 from __future__ import annotations
@@ -217,6 +218,18 @@ def emitted(function: Any) -> Any:
         return context.cast(builder, result.llvm, result.kind, sig.return_type)
 
     return defined(function, kind_of, lower)
+
+
+@emitted
+def lesser(a, b):
+    """Return the lesser of two numbers of one type."""
+    return choose(a < b, lambda: a, lambda: b)
+
+
+@emitted
+def greater(a, b):
+    """Return the greater of two numbers of one type."""
+    return choose(a > b, lambda: a, lambda: b)
 
 
 def instruction(define: Any) -> Any:
