@@ -60,7 +60,7 @@ class _PartCompiler(CompilerBase):
     def define_pipelines(self) -> list[PassManager]:
         pipeline = PassManager("part")
         for each in _PASSES:
-            pipeline.add_pass(each, each.__name__)
+            pipeline.add_pass(each)
         pipeline.finalize()
         return [pipeline]
 

@@ -90,7 +90,7 @@ def open_squares(view, footprint, depth, scratch):
 @emitted
 def open_pixels(view, footprint, square, depth, scratch):
     """Return the pixels of a footprint's square, bits, that see nothing nearer than depth."""
-    pixels = i64(footprint) >> np.int64(16)
+    pixels = i64(footprint) >> 16
     x, y = (square & 3) * 4, (square >> 2) * 4
     first_column, last_column = greater((pixels & 15) - x, 0), lesser((pixels >> 4 & 15) - x, 3)
     first_row, last_row = greater((pixels >> 8 & 15) - y, 0), lesser((pixels >> 12 & 15) - y, 3)
@@ -103,7 +103,7 @@ def open_pixels(view, footprint, square, depth, scratch):
 @emitted
 def pixels_of(footprint):
     """Return the number of pixels in a footprint."""
-    pixels = i64(footprint) >> np.int64(16)
+    pixels = i64(footprint) >> 16
     across = (pixels >> 4 & 15) - (pixels & 15) + 1
     return across * ((pixels >> 12 & 15) - (pixels >> 8 & 15) + 1)
 
