@@ -142,6 +142,8 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     assert isinstance(task, HideExercise)
     lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
+    d.ctx.yield_(12)  # the mark finds its image's size
+    d.settle()
     begun = d.window.state
     assert chosen(begun) == (task.item,)
 
