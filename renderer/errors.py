@@ -77,6 +77,11 @@ def one_line(text: str) -> str:
     return visible(" ".join(text.split()))
 
 
+def quoted(text: str) -> str:
+    """Return a name on one line, between quotation marks."""
+    return f"'{one_line(text)}'"
+
+
 def visible(text: str) -> str:
     """Return the text with control characters escaped, except for line breaks and tabs, and the
     joiners that Persian words and emoji need.
@@ -103,3 +108,8 @@ def describe(error: Exception) -> str:
     if isinstance(error, MemoryError):
         return "not enough memory; try a smaller image or model"
     return one_line(f"{type(error).__name__}: {error}")
+
+
+def not_together(field: str, other: str, remedy: str = "give one of the two") -> LucidaError:
+    """Return the error of two values that exclude each other."""
+    return LucidaError(field, f"cannot be used together with {other}", remedy)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, not_together
 
 if TYPE_CHECKING:
     from renderer.lenses import Lens
@@ -137,7 +137,7 @@ def _check_beside(given: dict[str, Any]) -> None:
     for one, others in (("target", "uvw"), ("up", "uvw"), ("fov", ("distance",))):
         for other in others:
             if one in given and other in given:
-                raise LucidaError(f"--{other}", f"is given beside --{one}", "give one of the two")
+                raise not_together(f"--{other}", f"--{one}")
 
 
 def _looking(view: View, given: dict[str, Any]) -> View:
