@@ -34,11 +34,11 @@ class LucidaError(ValueError):
     def __repr__(self) -> str:
         return f"LucidaError({shortened(str(self), LONGEST_PART)!r})"
 
-    def within(self, prefix: str) -> LucidaError:
+    def within(self, prefix: str, sign: str = ".") -> LucidaError:
         """Return the same error with its field under `prefix`: "w" within "camera" is
         "camera.w".
         """
-        field = f"{prefix}.{self.field}" if self.field else prefix
+        field = sign.join(part for part in (prefix, self.field) if part)
         return LucidaError(field, self.problem, self.remedy, self.source)
 
     def in_file(self, source: str) -> LucidaError:
@@ -61,12 +61,21 @@ class LucidaError(ValueError):
 
 
 @contextlib.contextmanager
-def under(field: str) -> Iterator[None]:
+def under(field: str, sign: str = ".") -> Iterator[None]:
     """Put the fields of errors raised inside under `field`; see LucidaError.within."""
     try:
         yield
     except LucidaError as error:
-        raise error.within(field) from None
+        raise error.within(field, sign) from None
+
+
+@contextlib.contextmanager
+def errors_as(field: str) -> Iterator[None]:
+    """Give errors raised inside this field."""
+    try:
+        yield
+    except LucidaError as error:
+        raise LucidaError(field, error.problem, error.remedy) from None
 
 
 def one_line(text: str) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from renderer.errors import LucidaError, not_together
+from renderer.errors import LucidaError, errors_as, not_together
 
 if TYPE_CHECKING:
     from renderer.lenses import Lens
@@ -157,8 +157,6 @@ def _as_wide(view: View, fov_deg: float) -> View:
     if camera.is_parallel:
         problem = "is nothing that a parallel projection has"
         raise LucidaError("--fov", problem, "give --viewport, or --projection perspective")
-    try:
+    with errors_as("--fov"):
         camera = replace(camera, distance=distance_for(camera, fov_deg))
-    except LucidaError as error:
-        raise LucidaError("--fov", error.problem, error.remedy) from None
     return replace(view, camera=camera)

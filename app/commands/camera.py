@@ -21,7 +21,7 @@ from app.commands.given_camera import (
     source_of,
     with_remedy,
 )
-from renderer.errors import LucidaError, not_together, one_line, visible
+from renderer.errors import LucidaError, errors_as, not_together, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -146,10 +146,8 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
 def _format(option: str, name: str) -> Format:
     from renderer.camera_formats import format_named
 
-    try:
+    with errors_as(option):
         return format_named(name)
-    except LucidaError as error:
-        raise LucidaError(option, error.problem, error.remedy) from None
 
 
 def _target(arguments: argparse.Namespace) -> Format | None:

@@ -19,12 +19,12 @@ from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_lenses, colmap_text
 from renderer.camera_formats.colmap_lenses import model_for
 from renderer.camera_formats.distortion import lens_of
-from renderer.camera_formats.entries import errors_within, in_image
+from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole
 from renderer.camera_formats.rotations import quaternion_of, rotation_of
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.frame import check_size
 from renderer.intrinsics import viewport_of
 from renderer.scene.reading import read_file
@@ -75,7 +75,7 @@ def read(given: Given, options: Options) -> CameraSet:
     posed = []
     for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
         try:
-            with errors_within(image.where, ": "):
+            with under(image.where, ": "):
                 if image.camera not in lenses:
                     problem = f"{image.camera} is not in cameras{kind}"
                     raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
@@ -108,7 +108,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lines, names = [], set()
     for number, posed in enumerate(cameras, 1):
         name = posed.name or f"image_{number:04}.png"
-        with errors_within(name):
+        with under(name):
             if len(name.split()) != 1 or name in names or not name.isprintable():
                 fault = "is given twice" if name in names else "is no single word"
                 raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")

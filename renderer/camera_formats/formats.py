@@ -21,10 +21,9 @@ from pathlib import Path
 from types import ModuleType
 
 from renderer.camera_formats.distortion import check_held, without_lens
-from renderer.camera_formats.entries import errors_within
 from renderer.camera_formats.given import Given, Options, from_json, given
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.scene.reading import suggestion
 
 
@@ -157,6 +156,6 @@ def _held(posed: PosedCamera, entry: Format, options: Options) -> PosedCamera:
     """
     if options.ignore_distortion:
         return without_lens(posed)
-    with errors_within(posed.name):
+    with under(posed.name):
         check_held(posed.camera, posed.size or options.size, entry.lenses, entry.name)
     return posed
