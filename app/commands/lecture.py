@@ -175,11 +175,8 @@ def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
 
     answers, problems = read_answers(arguments.results)
     if not answers:
-        if problems:
-            more = f" ({len(problems) - 1} more like this)" if len(problems) > 1 else ""
-            raise LucidaError("", problems[0] + more)
         remedy = "give files of lucida lecture --answers, or of lucida check --json"
-        raise LucidaError("--results", "have no answers", remedy)
+        raise LucidaError("--results", "; ".join(problems) or "have no answers", remedy)
     for problem in problems:
         print(f"lucida: {problem}", file=sys.stderr)
     results = class_results(answers, [step.title for step in lecture.steps], problems)

@@ -27,7 +27,7 @@ from renderer.camera_formats.rotations import quaternion_of, rotation_of
 from renderer.errors import LucidaError, under
 from renderer.frame import check_size
 from renderer.intrinsics import viewport_of
-from renderer.scene.reading import read_file
+from renderer.scene.reading import naming, read_file
 
 LENSES = frozenset(colmap_lenses.LENSES.values())
 FILES = ("cameras", "images", "points3D")
@@ -74,16 +74,13 @@ def read(given: Given, options: Options) -> CameraSet:
     bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # y down and z forward become up and back
     posed = []
     for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
-        try:
-            with under(image.where, ": "):
-                if image.camera not in lenses:
-                    problem = f"{image.camera} is not in cameras{kind}"
-                    raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
-                u, v, w = basis
-                viewport, (lens, ignored) = optics[image.camera]
-                camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
-        except LucidaError as error:
-            raise error.in_file(str(folder / f"images{kind}")) from None
+        with naming(folder / f"images{kind}"), under(image.where, ": "):
+            if image.camera not in lenses:
+                problem = f"{image.camera} is not in cameras{kind}"
+                raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
+            u, v, w = basis
+            viewport, (lens, ignored) = optics[image.camera]
+            camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
         posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
@@ -175,10 +172,8 @@ def _model(given: Given) -> tuple[Path, str] | None:
 
 
 def _read(path: Path, reader: Callable[[bytes], _Content]) -> _Content:
-    try:
+    with naming(path):
         return reader(read_file(path, LARGEST_FILE_BYTES))
-    except LucidaError as error:
-        raise error.in_file(str(path)) from None
 
 
 def _photographs(folder: Path) -> str | None:

@@ -142,7 +142,10 @@ class TestMistakes:
             ("scenes --all", "unrecognized arguments: --all; see 'lucida scenes --help'"),
             ("install-desktop here", "install-desktop: is no longer part of Lucida; start lucida"),
             ("camera a.json --undistort=out", "--undistort: is no longer part of Lucida; COLMAP's"),
-            ("lecture --results no no2 -o a.html", "no: cannot be read: no such file or directory"),
+            (
+                "lecture --results no no2 -o a.html",
+                "--results: no: cannot be read: no such file or directory",
+            ),
         ],
     )
     def test_mistake(self, capsys, in_an_empty_folder, line, told):

@@ -239,7 +239,9 @@ def test_a_lost_webgl_context_is_reported_and_comes_back(page, tab, moved):
     image = page.image("raster", SIZE)
     right = _screenshots(tab)
     tab.evaluate("lucida.set({distance: 1})")
-    reports = "[...document.querySelectorAll('figure p')].filter((p) => /is lost/.test(p.innerText))"
+    reports = (
+        "[...document.querySelectorAll('figure p')].filter((p) => /is lost/.test(p.innerText))"
+    )
     tab.evaluate("losing.forEach((context) => context.loseContext())")
     page.until(f"{reports}.length === 2")
     refused = "lucida.pixels('raster', [8, 8]).catch((error) => error.message)"
