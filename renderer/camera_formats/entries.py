@@ -11,7 +11,7 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats, listed, number
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, errors_as
 from renderer.frame import check_size
 from renderer.intrinsics import PixelOrigin, matrix
 
