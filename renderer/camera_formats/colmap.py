@@ -60,7 +60,9 @@ def read(given: Given, options: Options) -> CameraSet:
     lenses = _read(folder / f"cameras{kind}", read_lenses)
     images = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
-    cloud = _read(points, read_points) if isfile(points) else (None, None)
+    # COLMAP's guide makes an empty points3D.txt for known poses.
+    has_points = isfile(points) and (kind == ".bin" or points.stat().st_size)
+    cloud = _read(points, read_points) if has_points else (None, None)
     origin = options.pixel_origin or "corner"
     optics = {}
     for number, found in lenses.items():
@@ -90,7 +92,11 @@ def read(given: Given, options: Options) -> CameraSet:
         "camera from world, y down, z forward",
         "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
     )
-    notes = tuple(f"{other} is another model: give its folder to see it" for other in others)
+    unseen = sorted(lenses.keys() - {image.camera for image in images})
+    notes = (
+        *(f"camera {number} is not used: no image has it" for number in unseen),
+        *(f"{other} is another model: give its folder to see it" for other in others),
+    )
     return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
 
 
