@@ -145,7 +145,8 @@ def run(arguments: argparse.Namespace) -> int:
         size = arguments.size or EXPORT_SIZE
         with common.progress_bar("export") as progress:
             written = export_lecture(lecture, path, folder, size, progress)
-        common.say(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
+        pictures = common.counted((len(written), "picture"))
+        common.say(f"{arguments.export}: {pictures}, {size[0]}x{size[1]}")
         return 0
     if arguments.results is not None:
         return _results(arguments, lecture)
@@ -190,11 +191,11 @@ def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     from renderer.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
-    for problem in problems:
-        print(f"lucida: {problem}", file=sys.stderr)
     if not answers:
         remedy = "give files of lucida lecture --answers, or of lucida check --json"
-        raise LucidaError("--results", "have no answers", remedy)
+        raise LucidaError("--results", "; ".join(problems) or "have no answers", remedy)
+    for problem in problems:
+        print(f"lucida: {problem}", file=sys.stderr)
     results = class_results(answers, [step.title for step in lecture.steps], problems)
     with atomic_write(arguments.output) as file:
         file.write(page(results).encode())

@@ -88,8 +88,8 @@ class TextError(LucidaError):
         super().__init__("", problem, remedy)
         self.line = line
 
-    def within(self, prefix: str) -> TextError:
-        self.field = super().within(prefix).field
+    def within(self, prefix: str, sign: str = ".") -> TextError:
+        self.field = super().within(prefix, sign).field
         return self
 
 

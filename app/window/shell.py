@@ -30,11 +30,12 @@ from app.widgets.surface import Target
 from app.widgets.theme import Fonts
 from app.widgets.toasts import Toasts
 from app.window.exporting import Exports
-from app.window.files import Files, file_name
+from app.window.files import Files
 from app.window.palette import CommandPalette
 from app.window.palette_entries import entries
 from app.window.platform import toggle_full_screen
 from app.window.shortcut_sheet import help_sheet
+from renderer.atomic import file_stem
 from renderer.errors import LucidaError, describe
 from renderer.scene_export import ENDINGS
 
@@ -109,7 +110,7 @@ class Shell:
             self.toasts.add(f"{self.exports.name} is still being written.", good=False)
             return
         camera, size = both.camera(state), image_size(host)
-        name = file_name(state.scene.name) + ENDINGS[0]
+        name = (file_stem(state.scene.name) or "scene") + ENDINGS[0]
         self.files.ask_name(
             f"Export the scene and its camera: {EXPORTED}",
             name,
