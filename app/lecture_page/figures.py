@@ -165,7 +165,8 @@ def _has_more(step: Step, state: AppState) -> bool:
     """Return True if images show more than a figure draws, and ask for nothing to be changed."""
     pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
     return (
-        outside.parameters
+        outside.half_line > 0
+        or outside.meetings > 0
         or (pair.straight_lines and "lens" not in step.highlight)
         or pair.footprint
         or bool(pair.parallels)
