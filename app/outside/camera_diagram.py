@@ -49,8 +49,8 @@ class Content:
 
     camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
     of the bundle's rays. marked: the marked pixel's ray. grid_parts: the most parts of a side of
-    the grid. notation: of the labels. base: the number of the first row and column. number_steps:
-    of rows and of columns from one number to the next; None: they are not numbered. meetings: the t
+    the grid. notation: of the labels. base: the number of the first row and column. number_step:
+    see pixel_numbers(); None: rows and columns are not numbered. meetings: the t
     of all meetings of the marked pixel's line with objects. pointed: the t under the mouse.
     """
 
@@ -63,7 +63,7 @@ class Content:
     grid_parts: int = MOST_GRID_LINES
     notation: Notation = "book"
     base: int = 1
-    number_steps: tuple[int, int] | None = None
+    number_step: int | None = None
     meetings: tuple[float, ...] = ()
     pointed: float | None = None
 
@@ -110,9 +110,9 @@ def plane_items(content: Content) -> list[Item]:
     if options.grid:
         lines = grid(camera, size, content.grid_parts)
         items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
-    if content.number_steps is not None and has_plane(camera):
+    if content.number_step is not None and has_plane(camera):
         pixel = None if content.marked is None else content.marked.pixel
-        items += pixel_numbers(camera, size, pixel, content.base, content.number_steps)
+        items += pixel_numbers(camera, size, pixel, content.base, content.number_step)
     return items
 
 

@@ -110,7 +110,7 @@ class Sketcher:
         both.need_size(state.images)
         scale = framebuffer_scale()
         extent = ImVec2(size[0] / scale, size[1] / scale)
-        scope = scope_of(host, size, ImVec2(0, 0), extent, view.framing, view.extensions.points)
+        scope = scope_of(host, size, ImVec2(0, 0), extent, view.extensions.points)
         looking = scope.camera.fitted(shape).fitted(size) if shape else scope.shown
         assert both.textures is not None
         screen = OutsideScreen(looking, size, nearest(looking, scope))

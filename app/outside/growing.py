@@ -1,8 +1,8 @@
 """The key formula as it grows: the viewing ray of a pixel, term by term, head to tail. Pure.
 
 Perspective: -d **w**, u **u** and v **v** lead from the eye to the pixel's centre; their sum is the
-direction. Parallel grows out of it: the direction freezes to -**w**, then the origin slides over
-the viewport by u **u** and v **v**. With a lens, the pixel's ideal point comes first, and the
+direction. Parallel: the direction is -**w**, and the origin slides over the viewport by u **u** and
+v **v**. With a lens, the pixel's ideal point comes first, and the
 terms lead there.
 
 A position counts stages: 2.5 is half of the third one.
@@ -35,7 +35,6 @@ from app.outside.frustum import (
     ideal_point,
     image_point,
     pixel_corners,
-    rectangle,
     ways,
 )
 from app.outside.options import LENS_STAGES, STAGES
@@ -47,12 +46,7 @@ from renderer.camera_checks import three
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it
 GROWS = 0.7  # of a stage's time; then it rests, for the class to look
-CHANGES_HANDS = 0.4  # of the first parallel stage: then the direction in perspective turns
 # With a lens, for directions that have a length, and for those that reach the plane at distance 1.
-_LENS_TERMS = (
-    ("X, Y, Z", r"-d Z\,\mathbf{w}", r"d X\,\mathbf{u}", r"-d Y\,\mathbf{v}"),
-    ("a, b", r"-d\,\mathbf{w}", r"d a\,\mathbf{u}", r"-d b\,\mathbf{v}"),
-)
 _LENS_TEXTS = (
     ("-d Z vec(w)", "d X vec(u)", "-d Y vec(v)"),
     ("-d vec(w)", "d a vec(u)", "-d b vec(v)"),
@@ -100,16 +94,6 @@ class Growth:
 def stages_of(camera: Camera) -> tuple[str, ...]:
     """Return the stages of a camera's formula."""
     return STAGES if camera.lens is None else LENS_STAGES
-
-
-def terms(camera: Camera, notation: Notation = "book") -> dict[str, str]:
-    """Return the symbol of each stage, as LaTeX."""
-    w = r"-\mathbf{w}" if camera.is_parallel else r"-d\,\mathbf{w}"
-    symbols = ["(i, j)", "u, v", w, r"u\,\mathbf{u}", r"v\,\mathbf{v}", r"\mathbf{r}(t)"]
-    if camera.lens is not None:
-        symbols[2:5] = _LENS_TERMS[camera.lens.model == "brown"]
-    stages = stages_of(camera)
-    return {stage: latex(term, notation) for stage, term in zip(stages, symbols, strict=True)}
 
 
 def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
@@ -177,10 +161,7 @@ def _parallel(camera: Camera, x: float, y: float, part: dict[str, float]) -> Ite
     yield Vector("u", "u", "u vec(u)", eye, slid)
     origin = slid + part["v"] * y * v
     yield Vector("v", "v", "v vec(v)", slid, origin)
-    grown = min(part["w"] / CHANGES_HANDS, 1.0)
-    turned = max(part["w"] - CHANGES_HANDS, 0.0) / (1 - CHANGES_HANDS)
-    way = (1 - turned) * (x * u + y * v) - w
-    yield Vector("d", "ray", "vec(d)", origin, origin + grown * way)
+    yield Vector("d", "ray", "vec(d)", origin, origin - part["w"] * w)
 
 
 def _eased(share: float) -> float:
@@ -260,7 +241,7 @@ def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
     left, back = 1 - share, camera.distance * w
     moved = replace(camera, eye=three(eye + share * back))
     bare = replace(options, image=False, grid=False, volume=False, points=())
-    items = _thin_basis(diagram(replace(content, options=bare, hits=(), number_steps=None)))
+    items = _thin_basis(diagram(replace(content, options=bare, hits=(), number_step=None)))
     items += plane_items(replace(content, camera=moved))
 
     def ray(one: Pixel) -> tuple[Floats, Floats]:
@@ -325,9 +306,6 @@ def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) 
         items.append(Dot("ideal", "ray", reached, 4.0, on_plane=True, layer=5))
     if now.lit == "undistort":
         items.append(Label("ideal", "ray", "(a, b)", now.ideal, away=now.center, strong=True))
-    if camera.is_parallel and part["w"] > 0:
-        ahead = polyline(rectangle(camera, 1.0), True)  # the viewport, were this in perspective
-        items.append(Segments("perspective", "plane", ahead, 1.4, 0.7, 0.3, dashed=True, layer=2))
     return items
 
 

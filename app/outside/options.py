@@ -8,11 +8,6 @@ from typing import Annotated, Literal
 from app.state.bounds import AtMost, Range
 from renderer.camera import Camera
 
-# Parts of the drawing by name, and "scene": all objects but floors and skies.
-Sight = Literal[
-    "scene", "eye", "u", "v", "w", "image plane", "pixel", "ray", "hit", "volume", "t < 0",
-    "t = 0", "t = 1", "target", "up", "formula",
-]  # fmt: skip
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Point = tuple[Coordinate, Coordinate, Coordinate]
 # Of the key formula as it grows: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
@@ -25,9 +20,9 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 @dataclass(frozen=True)
 class OutsideOptions:
     """The outside view. camera: the free camera that looks at the scene and the other camera;
-    None: one that shows what `see` names, or both. see: names of parts of the drawing. bundle: rows
-    and columns of the bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do:
-    move the eye or the image plane, turn the basis, or turn up, from which the basis then follows.
+    None: one that shows both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
+    gizmo: what the handles in the view do: move the eye or the image plane, turn the basis, or turn
+    up, from which the basis then follows.
     target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
     from; None: neither. formula:
     how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None: it is not drawn.
@@ -56,7 +51,6 @@ class OutsideOptions:
     up: Point = (0.0, 1.0, 0.0)
     answers: bool = True
     formula: Annotated[float, Range(0, len(LENS_STAGES))] | None = None
-    see: tuple[Sight, ...] = ()
     pixels: bool = False
     points: Annotated[tuple[Point, ...], AtMost(16)] = ()
     points_grown: Annotated[float, Range(0, 2)] = 2.0

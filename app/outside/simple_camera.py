@@ -14,6 +14,7 @@ from app.outside.frustum import Size, image_point, pixel_corners, plane_corners
 from app.state.options import Pixel
 from renderer.camera import Camera, Floats
 
+MOST_NUMBERED = 12  # rows or columns that are all numbered
 AXES = 0.55  # the length of the world's axes, in distances of the image plane
 
 
@@ -117,19 +118,21 @@ def simple_ray(
 
 
 def pixel_numbers(
-    camera: Camera, size: Size, marked: Pixel | None, base: int, steps: tuple[int, int]
+    camera: Camera, size: Size, marked: Pixel | None, base: int, step: int
 ) -> list[Item]:
     """Return the numbers of rows, at the left of the image plane, and of columns, above it.
 
-    base: the number of the first ones. steps: of rows and of columns from one number to the next.
+    base: the number of the first ones. step: the least from one number to the next. Larger images
+    than MOST_NUMBERED have only the first, the last and the marked pixel numbered.
     """
     left, _, _, top = camera.viewport
     items: list[Item] = []
-    for axis, (count, step) in enumerate(zip(size[::-1], steps, strict=True)):
-        chosen = {*range(0, count, step), count - 1}
-        if marked is not None:
-            near = {k for k in chosen if 0 < abs(k - marked[axis]) < step}
-            chosen = (chosen - near) | {marked[axis]}
+    for axis, count in enumerate(size[::-1]):
+        chosen = {0}
+        if max(size) <= MOST_NUMBERED:
+            chosen = set(range(0, count, step))
+        for extra in (count - 1, *(() if marked is None else (marked[axis],))):
+            chosen = {k for k in chosen if abs(k - extra) >= step} | {extra}
         for k in sorted(chosen):
             row, column = (k, 0) if axis == 0 else (0, k)
             x, y = (float(one) for one in camera.image_point(row, column, size))

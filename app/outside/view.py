@@ -5,6 +5,7 @@ It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -31,7 +32,6 @@ from app.outside.gizmo import Gizmo
 from app.outside.growing import grown_diagram
 from app.outside.hosted import Hosted
 from app.outside.looking import (
-    Framing,
     Scopes,
     camera_for_all,
     nearest,
@@ -47,10 +47,8 @@ from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import Edges, LabelPlacer
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen, image_plane
-from app.outside.scrubber import Scrubber
 from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
-from app.pair.rulers import MOST_NUMBERED
 from app.state.app_state import AppState
 from app.state.options import Pixel
 from app.widgets import theme
@@ -67,7 +65,7 @@ OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
-NUMBER_SPACE = 1.1  # the least distance of their numbers, in sizes of the type
+NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
 
 
 class OutsideView(DockedView):
@@ -93,7 +91,6 @@ class OutsideView(DockedView):
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
-        self.scrubber = Scrubber(self.name)
         self._widening = Widening()
         self._meetings = Memo(_meetings)
 
@@ -113,10 +110,6 @@ class OutsideView(DockedView):
     @property
     def extra(self) -> tuple[Item, ...]:
         return self.extensions.lines
-
-    @property
-    def framing(self) -> Framing:
-        return self._scopes.framing
 
     @property
     def size_px(self) -> Size | None:
@@ -162,10 +155,7 @@ class OutsideView(DockedView):
         if scope is None or size is None or not changed or state.view != target.view:
             return None
         options = target.of(OutsideOptions)
-        end = options.camera
-        if end is None and options.see:
-            end = self.framing.camera(host, size, scope.extent)
-        end = end or camera_for_all(host, size, scope.extent, self.extensions.points)
+        end = options.camera or camera_for_all(host, size, scope.extent, self.extensions.points)
         return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
@@ -178,14 +168,13 @@ class OutsideView(DockedView):
         if min(size) < SMALLEST_PX:
             self.unseen(host)  # nobody waits for what is not drawn
             return
-        self.scrubber.follow(host)
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         pixels = self._pixels.shown(host)
-        self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
+        self.show("pixels", pixels)
         scope = self._follow_mouse(host, size, origin, extent)
         self._widening.follow(host, scope, self.extensions.answers)
         texture = self._texture(host, scope.shown, size, scope)
@@ -354,7 +343,7 @@ class OutsideView(DockedView):
             end_parameter(camera, host.focus.framed), tuple(hits), marked,
             int(side_px / (GRID_PX * screen.unit_px)), state.options.notation,
             state.options.indexing.value,
-            None if host.has_tools or not options.grid else _number_steps(size, side_px), found,
+            None if host.has_tools or not options.grid else _number_step(size, side_px), found,
         )  # fmt: skip
 
 
@@ -362,16 +351,13 @@ def _meetings(scene: Scene, *ray: float) -> tuple[float, ...]:
     return line_meetings(scene, np.array(ray[:3]), np.array(ray[3:]))
 
 
-def _number_steps(size: Size, side_px: float) -> tuple[int, int]:
-    """Return the steps from one number of a row, and of a column, to the next. Only of small images
-    all are numbered.
+def _number_step(size: Size, side_px: float) -> int:
+    """Return the least step from one number of a row, or of a column, to the next.
 
     side_px: of the image plane's longer side.
     """
     text_px = NUMBER_SPACE * theme.type_px() * framebuffer_scale()
-    most = max(1, int(side_px / text_px))
-    rows, columns = (-(-count // most) if count <= MOST_NUMBERED else count for count in size[::-1])
-    return rows, columns
+    return math.ceil(max(size) * text_px / max(side_px, 1.0))
 
 
 def _pointed(content: Content, scope: Scope) -> float | None:
