@@ -10,6 +10,7 @@ A position counts stages: 2.5 is half of the third one.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
@@ -121,8 +122,10 @@ def shares(position: float, stages: tuple[str, ...] = STAGES) -> dict[str, float
 
 
 def stage_at(position: float, stages: tuple[str, ...] = STAGES) -> str:
-    """Return the stage at a position; "" at the end, when nothing is to be pointed out."""
-    return stages[int(position)] if position < len(stages) else ""
+    """Return the last stage that has begun at a position; "" at the end, when nothing is to
+    be pointed out.
+    """
+    return stages[max(math.ceil(position) - 1, 0)] if position < len(stages) else ""
 
 
 def growth(camera: Camera, size: Size, pixel: Pixel, position: float) -> Growth:

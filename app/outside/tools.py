@@ -31,6 +31,7 @@ from renderer.camera import Camera
 PAD = 6  # around the switches
 GAP = 4  # between them
 TRIAD_ROOM = 110  # width that the switches leave to the axes
+LARGEST_SHARE = 0.2  # of the view's height, for switches in more than one row
 
 
 class _Entry(NamedTuple):
@@ -89,7 +90,7 @@ def _legend(
     """Draw the switches in the view's upper left corner, those of the handles and the view below.
     Return the options and what is covered.
 
-    In a view without room for them one button opens all of them.
+    The switches take one row, or two. In a view without room for them one button opens all of them.
     camera: the one in the scene.
     """
     switches = [
@@ -111,23 +112,27 @@ def _legend(
     pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
     high = imgui.get_frame_height()
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
-    above = extent.x - pad - theme.px(TRIAD_ROOM) - _width(switches)
-    below = extent.x - 2 * pad - _width(tools + views)
-    if min(above, below) < 0:
+    above = _rows(switches, extent.x - pad - theme.px(TRIAD_ROOM))
+    below = _rows(tools + views, extent.x - 2 * pad)
+    is_low = 2 * (high + theme.px(GAP)) > LARGEST_SHARE * extent.y
+    if len(below) > 1 or len(above) > (1 if is_low else 2):
         options = _popup(options, [switches, tools, views])
         width = pad + imgui.get_item_rect_max().x - origin.x
         return options, _Covered((width, high + 2 * pad), (0.0, 0.0))
     changed, upper = options, 0.0
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
-    for number, entry in enumerate(switches):
-        if number:
-            imgui.same_line(0, theme.px(GAP))
-        if chip(*entry[:4]):
-            changed = entry.clicked()
-        if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
-            changed = _bundle_fields(changed)
-            imgui.end_popup()
-        upper = imgui.get_item_rect_max().x - origin.x
+    for line, row in enumerate(above):
+        top = origin.y + pad + line * (high + theme.px(GAP))
+        imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, top))
+        for number, entry in enumerate(row):
+            if number:
+                imgui.same_line(0, theme.px(GAP))
+            if chip(*entry[:4]):
+                changed = entry.clicked()
+            if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
+                changed = _bundle_fields(changed)
+                imgui.end_popup()
+            upper = max(upper, imgui.get_item_rect_max().x - origin.x)
+    upper_high = len(above) * (high + theme.px(GAP)) - theme.px(GAP) + 2 * pad
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + extent.y - pad - high))
     lower = 0.0
     for entry in tools + views:
@@ -136,12 +141,21 @@ def _legend(
         lower = imgui.get_item_rect_max().x - origin.x
         imgui.same_line(0, theme.px(GAP))
     imgui.new_line()
-    return changed, _Covered((upper, high + 2 * pad), (lower, high + 2 * pad))
+    return changed, _Covered((upper, upper_high), (lower, high + 2 * pad))
 
 
-def _width(entries: Iterable[_Entry]) -> float:
-    """Return the width of the entries in a row."""
-    return sum(_chip_width(one.name, one.color is not None) + theme.px(GAP) for one in entries)
+def _rows(entries: list[_Entry], room: float) -> list[list[_Entry]]:
+    """Return the entries in rows that are at most `room` wide."""
+    rows: list[list[_Entry]] = [[]]
+    wide = 0.0
+    for entry in entries:
+        width = _chip_width(entry.name, entry.color is not None)
+        if rows[-1] and wide + width > room:
+            rows.append([])
+            wide = 0.0
+        rows[-1].append(entry)
+        wide += width + theme.px(GAP)
+    return rows
 
 
 def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:

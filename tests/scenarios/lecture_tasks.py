@@ -101,6 +101,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     assert isinstance(task, HideExercise)
     lecture_of(d).give(lecture, BUILTIN, number)
     d.settle()
+    d.until(lambda: d.window.state.options.marked_size is not None)
     begun = d.window.state
     assert chosen(begun) == (task.item,)
 
