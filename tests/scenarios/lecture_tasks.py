@@ -31,7 +31,7 @@ def _looking(d: Driver) -> Camera | None:
 def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     lecture = load_lecture(BUILTIN)
     titles = [step.title for step in lecture.steps]
-    lecture_of(d).give(lecture, BUILTIN, titles.index("Exercise: a pixel's ray"))
+    lecture_of(d).give(lecture, BUILTIN, (titles.index("Exercise: a pixel's ray"), 0))
     d.settle()
     session = lecture_of(d).session
     assert session is not None
@@ -99,9 +99,10 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     )
     task = step.exercise
     assert isinstance(task, HideExercise)
-    lecture_of(d).give(lecture, BUILTIN, number)
+    lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
-    d.until(lambda: d.window.state.options.marked_size is not None)
+    d.ctx.yield_(12)  # the mark finds its image's size
+    d.settle()
     begun = d.window.state
     assert chosen(begun) == (task.item,)
 
@@ -153,7 +154,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
 def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
     lecture = load_lecture(BUILTIN)
     number = [step.title for step in lecture.steps].index("Image order: ray tracing")
-    lecture_of(d).give(lecture, BUILTIN, number)
+    lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
     assert shown(d) == {LECTURE, STEPPER, OUTSIDE}
     stepper, outside = d.window.view(StepperView), d.window.view(OutsideView)
