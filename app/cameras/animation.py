@@ -35,7 +35,6 @@ Number = TypeVar("Number", float, Floats)
 
 INVISIBLE_PX = 0.2  # what parallel rays may move in the picture when they take over
 _PINHOLE = Lens("brown")  # the same as none
-SAME_FRAME = 1e-5  # in sizes of a frame: the most that two equal ones differ
 LEAST_DEPTH = 1e-6  # of a focus in front of the eye, in distances to the image plane
 
 
@@ -223,31 +222,14 @@ def lens_between(start: Lens | None, end: Lens | None, s: float) -> Lens | None:
 
 def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:
     """Return a point in front of every perspective eye: the focus, or else the middle of one of the
-    image planes; None if there is none. Cameras of different kinds that have the same frame keep
-    it: its middle.
+    image planes; None if there is none.
     """
-    if one.is_parallel != two.is_parallel:
-        frames, w = [_frame(c) for c in (one, two)], np.asarray(one.w)
-        apart = frames[1] - frames[0]
-        across = apart - (apart @ w)[:, None] / (w @ w) * w
-        if np.abs(across).max() < SAME_FRAME * np.ptp(frames[0], axis=0).max():
-            found: Floats = frames[one.is_parallel].mean(axis=0)
-            return found
     middle = [np.asarray(c.eye) - c.distance * np.asarray(c.w) for c in (one, two)]
     for point in (focus, *middle):
         depths = [depth_of(c, point) / c.distance for c in (one, two) if not c.is_parallel]
         if all(depth > LEAST_DEPTH for depth in depths):
             return point
     return None
-
-
-def _frame(camera: Camera) -> Floats:
-    """Return two opposite corners of a camera's viewport in the world, (2, 3)."""
-    left, right, bottom, top = camera.viewport
-    corners = np.array([[left, bottom], [right, top]]) @ np.array([camera.u, camera.v])
-    ahead = 0.0 if camera.is_parallel else camera.distance
-    frame: Floats = np.asarray(camera.eye) + corners - ahead * np.asarray(camera.w)
-    return frame
 
 
 def _pose(camera: Camera, focus: Floats) -> Pose:

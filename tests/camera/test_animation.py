@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from app.cameras.animation import INVISIBLE_PX, Passage
 from app.cameras.presets import PRESETS, preset_view
-from app.outside.frustum import plane_corners
 from app.state.app_state import is_orthonormal
 from renderer.camera import Camera
 from renderer.focus import scene_focus
@@ -218,18 +217,3 @@ def test_between_a_view_that_is_fitted_and_one_that_is_not_nothing_is_fitted() -
     for fits in ((True, True), (True, False), (False, True), (False, False)):
         ends = (View(camera, fit) for camera, fit in zip((one, two), fits, strict=True))
         assert Passage(*ends, (0, 0, 0), BOUNDS, SIZE).at(0.5).fit is all(fits)
-
-
-def test_a_frame_that_both_cameras_have_stays_while_the_eye_recedes() -> None:
-    camera = Camera.look_at((0.7, 2.3, 8.0), (0.4, 2.0, 2.0), distance=5.4, aspect=1.6)
-    middle = np.asarray(camera.eye) - camera.distance * np.asarray(camera.w)
-    parallel = replace(camera, eye=tuple(middle.tolist()), distance=1.0, projection="parallel")
-    passage = Passage(View(camera), View(parallel), (0.0, 0.0, -9.0), np.zeros((1, 3)), (480, 270))
-    frame = plane_corners(camera)
-    depths = []
-    for part in np.linspace(0.05, 0.95, 10).tolist():
-        between = passage.at(part).camera
-        assert not between.is_parallel
-        assert np.allclose(plane_corners(between), frame, atol=1e-6)
-        depths.append(between.distance)
-    assert depths == sorted(depths) and depths[-1] > 20 * camera.distance
