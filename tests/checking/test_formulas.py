@@ -63,7 +63,8 @@ def test_formulas_run_in_the_starter(
             if body:
                 wanted.append(its.run(known, (mistake,) if mistake else ()) if is_whole else None)
                 made.append(body)
-    assert len(made) > len(programs(task))
+    if task.name in KINDS:  # a course may leave to the student all that its mistakes are about
+        assert len(made) > len(programs(task))
     text = starter([task])
     head = text[text.index("(", text.index(f"def {task.function}(")) :].partition("\n")[0]
     tried = [f"def formula{k}{head}\n{body}" for k, body in enumerate(made)]
