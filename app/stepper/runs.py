@@ -1,11 +1,10 @@
 """The stepper's recordings of the current scene, camera and canvas, made in the background.
 
-Older recordings are shown until the new ones are ready.
+Those of the last camera are shown until the new ones are complete.
 """
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -16,34 +15,19 @@ from renderer.camera import Camera, Size
 from renderer.memo import Memo, same
 from renderer.scene.model import Scene
 
-SOON_S = 0.4  # longer runs are shown while they run
-
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """The recordings of one canvas, in object order and in image order. begun_s: on
-    time.monotonic()'s clock."""
+    """The recordings of one canvas, in object order and in image order."""
 
     scene: Scene
     camera: Camera
     size: Size
     runs: dict[Order, Recording]
-    begun_s: float
 
     @property
-    def complete(self) -> bool:
-        return all(run.complete or run.truncated for run in self.runs.values())
-
-    @property
-    def is_late(self) -> bool:
-        return time.monotonic() - self.begun_s > SOON_S
-
-    def is_of(self, scene: Scene, camera: Camera, size: Size) -> bool:
-        return same((self.scene, self.camera, self.size), (scene, camera, size))
-
-    def cancel(self) -> None:
-        for run in self.runs.values():
-            run.cancel()
+    def cancelled(self) -> bool:
+        return not all(run.complete or run.truncated for run in self.runs.values())
 
 
 class Runs:
@@ -63,42 +47,40 @@ class Runs:
         return self._background.busy
 
     def of(self, scene: Scene, camera: Camera, size: Size) -> Pair | None:
-        """Return the recordings to show; None before the first steps of a scene.
+        """Return complete recordings of a scene and a canvas, of this camera or an earlier one;
+        None before there are any.
 
-        Those of the last camera are shown until the new ones are complete, or take long.
         error: the reason if there are none, such as an invalid canvas.
         """
         outcome = self._background.poll()
         if outcome is not None:
             self.error = outcome.error
-            if outcome.value is not None and outcome.value.complete:
+            if outcome.value is not None and not outcome.value.cancelled:
                 self._shown = outcome.value
-        self._background.ask(self._record, scene, camera, size)
         going, shown = self._under_way, self._shown
-        # Only the camera may be another one.
-        alike = shown is not None and shown.is_of(scene, shown.camera, size)
-        if going is not None and going.is_of(scene, camera, size):
-            if (going.is_late or not alike) and all(len(run) for run in going.runs.values()):
-                self._shown = going
-                return going
-        elif going is not None and not going.complete and going.is_late:
-            going.cancel()  # asked in each frame: it may become slow after the next was wanted
-        return shown if alike else None
+        if going is not None and not same((going.scene, going.size), (scene, size)):
+            self._cancel()  # asked in each frame: it may begin after another one was wanted
+        self._background.ask(self._record, scene, camera, size)
+        if shown is not None and same((shown.scene, shown.size), (scene, size)):
+            return shown
+        return None
 
     def close(self) -> None:
-        if self._under_way is not None:
-            self._under_way.cancel()
+        self._cancel()
         self._background.close()
+
+    def _cancel(self) -> None:
+        if self._under_way is not None:
+            for run in self._under_way.runs.values():
+                run.cancel()
 
     def _record(self, scene: Scene, camera: Camera, size: Size) -> Pair:
         """Record both runs, on the thread."""
         runs = {order: Recording(self._model(scene), camera, size, order) for order in Order}
-        pair = Pair(scene, camera, size, runs, time.monotonic())
-        self._under_way = pair
-        # Triangle by triangle may take long, and nothing is shown before each has a step.
-        runs[Order.IMAGE].run()
-        runs[Order.RASTER].run()
-        return pair
+        self._under_way = Pair(scene, camera, size, runs)
+        for run in runs.values():
+            run.run()
+        return self._under_way
 
 
 def _model(scene: Scene) -> Model:

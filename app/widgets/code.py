@@ -1,4 +1,4 @@
-"""A few lines of Python on the screen, one of them lit.
+"""A few lines of Python on the screen, some of them lit.
 
 Names have the same colours as in the formulas. Hovering over a called function shows its source.
 """
@@ -13,37 +13,37 @@ from collections.abc import Mapping, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.explaining.breaking import broken
 from app.widgets import theme
 
+SMALLEST_PX = 6.0
 LINE = 1.18  # a line's height, in parts of the type's
 NAMED = ("ray", "hit", "closest")
 
 
-def code(lines: Sequence[str], lit: int, width_px: float, called: Mapping[str, str]) -> None:
+def code(
+    lines: Sequence[str], lit: Mapping[int, float], width_px: float, called: Mapping[str, str]
+) -> None:
     """Draw the lines in the current font, which has a fixed width.
 
-    lit: the number of the line about to run.
-    width_px: of the highlight; longer lines go on in the next row.
+    lit: for the numbers of the highlighted lines, their opacity; one for the line about to run.
+    width_px: of the highlight.
     called: sources of functions, by name.
     """
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter, line_px = imgui.calc_text_size("0").x, LINE * imgui.get_font_size()
     bar, margin = 0.7 * letter, 0.5 * (line_px - imgui.get_text_line_height())
-    letters, names = letters_in(width_px, imgui.get_font_size()), tuple(called)
-    rows = [(number, row) for number, line in enumerate(lines) for row in broken(line, letters)]
-    for place, (number, text) in enumerate(rows):
-        low = corner + ImVec2(0, place * line_px)
-        if number == lit:
-            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE), theme.u32(theme.RAY)
+    for number, text in enumerate(lines):
+        low = corner + ImVec2(0, number * line_px)
+        if part := lit.get(number, 0.0):
+            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE, part), theme.u32(theme.RAY, part)
             draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
             draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
-        for column, word in code_words(text, names):
+        for column, word in code_words(text, tuple(called)):
             at = low + ImVec2(2 * bar + column * letter, margin)
             draw.add_text(at, theme.u32(_color(word)), word)
             if word in called:
                 _call(draw, at, word, called[word])
-    imgui.dummy((width_px, len(rows) * line_px))
+    imgui.dummy((width_px, len(lines) * line_px))
 
 
 def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
@@ -62,9 +62,15 @@ def letters_in(width_px: float, size_px: float) -> int:
     return max(12, int((width_px - 0.9 * size_px) / math.ceil(0.5 * size_px)))
 
 
-def row_count(lines: Sequence[str], letters: int) -> int:
-    """Return the number of rows of the lines, each so many letters long."""
-    return sum(len(broken(line, letters)) for line in lines)
+def fitting_px(lines: Sequence[str], room: ImVec2, largest_px: float) -> float:
+    """Return the largest type size at which code() draws the lines unbroken in the room."""
+    size = theme.whole_px(largest_px)
+    longest = max(map(len, lines))
+    while size > SMALLEST_PX and (
+        letters_in(room.x, size) < longest or len(lines) * LINE * size > room.y
+    ):
+        size = theme.whole_px(size - 1)
+    return size
 
 
 def _color(word: str) -> ImVec4:
