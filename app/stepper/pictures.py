@@ -92,8 +92,8 @@ class LoopPictures:
                 lines, lit = written(lines, lit, state)
             texture, base = self._texture(name, moment.canvas, host), state.options.indexing.value
             marks, canvas = Marks(moment.pixel), options.canvas
-            below = options.picture != "program"
-            drawn = Drawn(lines, lit, texture, canvas, marks, base, below)
+            in_words = options.picture != "program"
+            drawn = Drawn(lines, lit, texture, canvas, marks, base, in_words)
             draw_program(drawn, corner, size, host.fonts)
         if options.picture == "rays" and camera == host.renderers.camera(state):
             part, end = options.parts[1], end_parameter(camera, host.focus.framed)
@@ -124,7 +124,7 @@ class LoopPictures:
 
 def _places(low: ImVec2, room: ImVec2, count: int) -> list[tuple[ImVec2, ImVec2]]:
     """Return the places of programs: side by side, or one above the other in an upright room."""
-    gap = 1.5 * imgui.get_font_size()
+    gap = imgui.get_font_size()
     across = ImVec2(1, 0) if room.x > room.y else ImVec2(0, 1)
     long = (max(room.x, room.y) - gap * (count - 1)) / count
     each = ImVec2(long, room.y) if across.x else ImVec2(room.x, long)

@@ -61,9 +61,9 @@ def whole_program(camera: Camera) -> tuple[Line, ...]:
             "left + (j + 0.5) / width * (right - left)",
             "top - (i + 0.5) / height * (top - bottom)",
         )
-    ray = "eye", "x * u + y * v - distance * w"
+    ray = "eye", "x*u + y*v - distance*w"
     if camera.is_parallel:
-        ray = "eye + x * u + y * v", "-w"
+        ray = "eye + x*u + y*v", "-w"
     return (
         Line("def render(scene, canvas):", "once"),
         Line("    height, width = size(canvas)", "once"),

@@ -15,7 +15,6 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.widgets import theme
 
-SMALLEST_PX = 6.0
 LINE = 1.18  # a line's height, in parts of the type's
 NAMED = ("ray", "hit", "closest")
 
@@ -23,7 +22,7 @@ NAMED = ("ray", "hit", "closest")
 def code(
     lines: Sequence[str], lit: Mapping[int, float], width_px: float, called: Mapping[str, str]
 ) -> None:
-    """Draw the lines in the current font, which has a fixed width.
+    """Draw the lines in the current font.
 
     lit: for the numbers of the highlighted lines, their opacity; one for the line about to run.
     width_px: of the highlight.
@@ -39,7 +38,7 @@ def code(
             draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
             draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
         for column, word in code_words(text, tuple(called)):
-            at = low + ImVec2(2 * bar + column * letter, margin)
+            at = low + ImVec2(2 * bar + imgui.calc_text_size(text[:column]).x, margin)
             draw.add_text(at, theme.u32(_color(word)), word)
             if word in called:
                 _call(draw, at, word, called[word])
@@ -62,15 +61,10 @@ def letters_in(width_px: float, size_px: float) -> int:
     return max(12, int((width_px - 0.9 * size_px) / math.ceil(0.5 * size_px)))
 
 
-def fitting_px(lines: Sequence[str], room: ImVec2, largest_px: float) -> float:
-    """Return the largest type size at which code() draws the lines unbroken in the room."""
-    size = theme.whole_px(largest_px)
-    longest = max(map(len, lines))
-    while size > SMALLEST_PX and (
-        letters_in(room.x, size) < longest or len(lines) * LINE * size > room.y
-    ):
-        size = theme.whole_px(size - 1)
-    return size
+def code_size(lines: Sequence[str]) -> ImVec2:
+    """Return the room that code() needs for the lines, in the current font."""
+    width = max(imgui.calc_text_size(line).x for line in lines) + 2.4 * imgui.calc_text_size("0").x
+    return ImVec2(width, len(lines) * LINE * imgui.get_font_size())
 
 
 def _color(word: str) -> ImVec4:
