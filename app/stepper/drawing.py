@@ -32,7 +32,6 @@ class Drawn:
     """What is drawn of a program.
 
     in_words: the program is prose.
-    called: the sources of functions, which are shown under the mouse.
     """
 
     lines: tuple[str, ...]
@@ -42,7 +41,6 @@ class Drawn:
     marks: Marks
     base: int
     in_words: bool = False
-    called: Mapping[str, str] | None = None
 
 
 def written(lines: tuple[str, ...], lit: Lit, state: AppState) -> tuple[tuple[str, ...], Lit]:
@@ -87,7 +85,7 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
         if best.code_px.y < best.larger * needed.y - 1:  # a small window: around the lit line
             lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
             imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
-        code(lines, drawn.lit, max(best.code_px.x, best.larger * needed.x), drawn.called or {})
+        code(lines, drawn.lit, max(best.code_px.x, best.larger * needed.x))
     imgui.end_child()
     imgui.set_cursor_screen_pos(low)
     imgui.dummy(total)

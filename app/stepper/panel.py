@@ -5,31 +5,17 @@ Takes moments, returns wishes. controls.py has the buttons above.
 
 from __future__ import annotations
 
-import functools
-import inspect
-
 from imgui_bundle import ImVec2, imgui
 
 from app.state.app_state import AppState
-from app.state.options import Notation
 from app.stepper.drawing import Drawn, draw_program, written
-from app.stepper.loop_parts import (
-    Canvas,
-    DepthBuffer,
-    color_at,
-    intersect,
-    viewing_ray,
-)
 from app.stepper.model import Moment
 from app.stepper.numbers import numbers
-from app.stepper.raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 from app.stepper.recording import MOST_STEPS, Order, Recording
-from app.stepper.source import shown_code
 from app.widgets.canvas import Marks
 from app.widgets.rows import follow
 from app.widgets.sliders import slider_int
 from app.widgets.theme import Fonts
-from renderer.pixels import Indexing
 
 TITLES = {Order.RASTER: "Object order: rasterization", Order.IMAGE: "Image order: ray tracing"}
 SLIDER_EM = 12.0  # the least width of the slider next to a title
@@ -54,7 +40,7 @@ def run_panel(
     corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
     drawn = Drawn(
         lines, lit, texture, recording.size, Marks(moment.pixel, moment.box, corners),
-        options.indexing.value, called=_called(options.notation, options.indexing),
+        options.indexing.value,
     )  # fmt: skip
     low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     high = PROGRAM * room.y
@@ -78,16 +64,3 @@ def _slider(recording: Recording, moment: Moment) -> int | None:
         imgui.SliderFlags_.always_clamp,
     )  # fmt: skip
     return step if changed else None
-
-
-@functools.cache
-def _called(notation: Notation, indexing: Indexing) -> dict[str, str]:
-    """Return the sources of the functions that the loops call."""
-    parts = (
-        viewing_ray, intersect, color_at, Canvas, DepthBuffer,
-        prepared, triangles, project, box_around, edge, t_of, shade,
-    )  # fmt: skip
-    return {
-        part.__name__: shown_code(inspect.getsource(part).rstrip(), notation, indexing)
-        for part in parts
-    }

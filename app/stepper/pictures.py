@@ -28,14 +28,13 @@ from app.stepper.programs import (
     whole_program,
 )
 from app.stepper.questions import draw_questions
+from app.stepper.runs import Prepared
 from app.widgets import theme
-from app.widgets.background import Background
 from app.widgets.canvas import Marks, color_picture
 from app.widgets.uploads import Uploads
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import describe
 from renderer.memo import Memo
-from renderer.scene.model import Scene
 
 
 class LoopPictures:
@@ -43,37 +42,32 @@ class LoopPictures:
 
     def __init__(self, context: moderngl.Context, wake: Callable[[], None]) -> None:
         self._uploads = Uploads(context)
-        self._background: Background[tuple[tuple[object, ...], Hits]] = Background(
-            "lucida-loops", wake
-        )
-        self._model = Memo(_model)  # of the thread
-        self._found: tuple[tuple[object, ...], Hits] | None = None
-        self._error: Exception | None = None
+        self._hits = Prepared("lucida-loops", _hits, wake)
         self._runs = Memo(_runs)
         self._moment = Memo(_moment, 4)
         self._put = {name: Memo(_put) for name in ("first", "second")}
 
     @property
     def busy(self) -> bool:
-        return self._background.busy
+        return self._hits.busy
 
     def release(self) -> None:
-        self._background.close()
+        self._hits.close()
         self._uploads.release()
 
     def draw(self, host: Host, outside: OutsideView, source: str) -> None:
         """Draw the picture into the rest of the window, and its ray in the outside view."""
         self._uploads.begin_frame()
         state, options = host.state, host.state.of(StepperOptions)
-        camera = state.view.for_size(options.canvas)
-        hits = self._hits(state.scene, camera, options.canvas)
+        made = self._hits.of(state.scene, state.view.for_size(options.canvas), options.canvas)
         low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
-        if self._error is not None:
-            imgui.text_colored(theme.ERROR, describe(self._error))
+        if self._hits.error is not None:
+            imgui.text_colored(theme.ERROR, describe(self._hits.error))
             return
-        if hits is None:
+        if made is None:
             host.animate()
             return
+        camera, hits = made.camera, made.value
         runs = self._runs(hits, options.picture, camera)
         first = state.marked or (options.canvas[1] // 2, options.canvas[0] // 2)
         moments = [
@@ -101,18 +95,6 @@ class LoopPictures:
             outside.show(source, items, picture=self._uploads.get("first"))
         else:
             outside.show(source)
-
-    def _hits(self, scene: Scene, camera: Camera, size: Size) -> Hits | None:
-        if outcome := self._background.poll():
-            self._error = outcome.error
-            self._found = outcome.value or self._found
-        self._background.ask(self._find, scene, camera, size)
-        if self._found is None or self._found[0] != (scene, camera, size):
-            return None
-        return self._found[1]
-
-    def _find(self, scene: Scene, camera: Camera, size: Size) -> tuple[tuple[object, ...], Hits]:
-        return (scene, camera, size), hits_of(self._model(scene), camera, size)
 
     def _texture(self, name: str, canvas: Floats, host: Host) -> int:
         exposure_ev = host.state.images.exposure_ev
@@ -156,5 +138,5 @@ def _put(
     uploads.put(name, color_picture(canvas, exposure_ev))
 
 
-def _model(scene: Scene) -> Model:
-    return Model(scene)
+def _hits(model: Model, camera: Camera, size: Size, is_wanted: Callable[[], bool]) -> Hits:
+    return hits_of(model, camera, size)

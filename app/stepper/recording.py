@@ -67,7 +67,6 @@ class Recording:
         self.source: Source = source_of(order.renderer)
         self.complete = False  # run to its end
         self.truncated = False  # stopped after MOST_STEPS
-        self._cancelled = False
         self._steps = 0
         # Of each step its line. Of each variable, from which step on it has which value.
         self.lines = Column("u1")
@@ -84,12 +83,9 @@ class Recording:
         """Return the number of steps so far."""
         return self._steps
 
-    def cancel(self) -> None:
-        """End the run soon. From any thread."""
-        self._cancelled = True
-
-    def run(self) -> None:
-        """Run to the end, to MOST_STEPS, or until cancel()."""
+    def run(self, is_wanted: Callable[[], bool] = lambda: True) -> None:
+        """Run to the end, to MOST_STEPS, or until it is no longer wanted."""
+        self._is_wanted = is_wanted
         recorder = _Recorder(self)
         before = sys.gettrace()
         sys.settrace(recorder.enter)
@@ -97,7 +93,7 @@ class Recording:
             self.order.renderer(self.model, self.camera, self.size)
             self.complete = True
         except RunCancelledError:
-            self.truncated = not self._cancelled
+            self.truncated = self._steps >= MOST_STEPS
         finally:
             sys.settrace(before)
 
@@ -123,7 +119,7 @@ class _Recorder:
         if self._failed:  # unwinding is not a step
             return self._line
         to, step = self._to, self._to._steps
-        if to._cancelled or step >= MOST_STEPS:
+        if step >= MOST_STEPS or not (step % _BREAK_EVERY or to._is_wanted()):
             raise RunCancelledError
         line = self._shown[frame.f_lineno - to.source.first_line]
         values = frame.f_locals

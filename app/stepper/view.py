@@ -24,7 +24,7 @@ from app.stepper.options import StepperOptions
 from app.stepper.outside_items import run_items
 from app.stepper.pictures import LoopPictures
 from app.stepper.recording import Order, Recording
-from app.stepper.runs import Pair, Runs
+from app.stepper.runs import Made, Prepared, recordings
 from app.widgets import theme
 from app.widgets.canvas import color_picture, depth_picture
 from app.widgets.uploads import Uploads
@@ -32,6 +32,7 @@ from renderer.errors import describe
 from renderer.memo import Memo
 
 STEPPER = "Stepper"
+Pair = dict[Order, Recording]
 LEAST_EM = 18.0  # the width and height of an algorithm; more than there is room for scrolls
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 
@@ -42,7 +43,7 @@ class StepperView(DockedView):
 
     def __init__(self, outside: OutsideView) -> None:
         self._outside = outside
-        self._runs: Runs | None = None
+        self._runs: Prepared[Pair] | None = None
         self._uploads: Uploads | None = None
         self._pictures: LoopPictures | None = None
         self.playing = self._seen = False
@@ -64,7 +65,7 @@ class StepperView(DockedView):
         return not self.playing and not any(one is not None and one.busy for one in both)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._runs = Runs(host.animate)
+        self._runs = Prepared("lucida-stepper", recordings, host.animate)
         self._uploads = Uploads(context)
         self._pictures = LoopPictures(context, host.animate)
 
@@ -103,29 +104,29 @@ class StepperView(DockedView):
             host.apply(host.state.with_options(stepper=options))
         state = host.state
         camera = state.view.for_size(options.canvas)
-        pair = self._runs.of(state.scene, camera, options.canvas)
+        made = self._runs.of(state.scene, camera, options.canvas)
         if self._runs.error is not None:
             imgui.text_colored(theme.ERROR, describe(self._runs.error))
             return
-        if pair is None:
+        if made is None:
             imgui.text_colored(theme.DIM, "preparing the scene for the stepper ...")
             host.animate()
             return
         orders = [one for one in Order if options.order in ("both", _key(one))]
-        steps = self._moved(host, pair, orders, options, wish)
-        self._panels(host, pair, orders, steps)
-        self._show_outside(host, pair, orders)
+        steps = self._moved(host, made, orders, options, wish)
+        self._panels(host, made, orders, steps)
+        self._show_outside(host, made, orders)
 
     # The runs' steps.
 
     def _moved(
-        self, host: Host, pair: Pair, orders: list[Order], options: StepperOptions, wish: Wish
+        self, host: Host, made: Made[Pair], orders: list[Order], options: StepperOptions, wish: Wish
     ) -> tuple[int, int]:
         """Return the steps after this frame's wishes."""
         if wish == "play":
             self.playing = not self.playing
             self._before_s, self._owed = time.monotonic(), 0.0
-            at_end = all(options.steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders)
+            at_end = all(options.steps[_at(one)] >= len(made.value[one]) - 1 for one in orders)
             if self.playing and at_end:
                 options = replace(options, steps=(0, 0))
         elif wish:
@@ -135,10 +136,10 @@ class StepperView(DockedView):
             host.animate()
         steps = list(options.steps)
         for order in orders:
-            run, at = pair.runs[order], _at(order)
+            run, at = made.value[order], _at(order)
             if (wish and wish != "play") or taken:
                 steps[at] = _after(run, min(steps[at], len(run) - 1), wish, taken)
-        if all(steps[_at(one)] >= len(pair.runs[one]) - 1 for one in orders):
+        if all(steps[_at(one)] >= len(made.value[one]) - 1 for one in orders):
             self.playing = False
         self._keep(host, steps)
         return steps[0], steps[1]
@@ -161,7 +162,9 @@ class StepperView(DockedView):
 
     # The panels.
 
-    def _panels(self, host: Host, pair: Pair, orders: list[Order], steps: tuple[int, int]) -> None:
+    def _panels(
+        self, host: Host, made: Made[Pair], orders: list[Order], steps: tuple[int, int]
+    ) -> None:
         wanted, self.moments = list(steps), {}
         room, spacing = imgui.get_content_region_avail(), imgui.get_style().item_spacing
         count, least = len(orders), LEAST_EM * imgui.get_font_size()
@@ -170,7 +173,7 @@ class StepperView(DockedView):
         high = room.y if beside else (room.y - spacing.y * (count - 1)) / count
         size = ImVec2(width if beside else room.x, max(high, least))
         for number, order in enumerate(orders):
-            run = pair.runs[order]
+            run = made.value[order]
             moment = self.moments[order] = self._moment(run, steps[_at(order)])
             if number and beside:
                 imgui.same_line()
@@ -198,25 +201,19 @@ class StepperView(DockedView):
 
     # In the outside view.
 
-    def _show_outside(self, host: Host, pair: Pair, orders: list[Order]) -> None:
+    def _show_outside(self, host: Host, made: Made[Pair], orders: list[Order]) -> None:
         """Show the current step there: rays, objects, and the canvas on the image plane. Point out
         its pixel in images of the canvas's size, unless the mouse points at something else.
         """
         shown = tuple(self.moments[o] for o in orders if o in self.moments)
-        end = end_parameter(pair.camera, host.focus.framed)
+        end = end_parameter(made.camera, host.focus.framed)
         last = orders[-1]
-        is_live = pair.camera == host.renderers.camera(host.state) and last in self.moments
+        is_live = made.camera == host.renderers.camera(host.state) and last in self.moments
         self._outside.show(
             STEPPER,
-            self._items(pair.camera, pair.size, shown, end),
+            self._items(made.camera, made.size, shown, end),
             picture=self._uploads.get(last.name) if is_live and self._uploads else None,
         )
-        pixel = self.moments[last].pixel if is_live else None
-        mine = not imgui.is_any_item_hovered() or imgui.is_window_hovered(
-            imgui.HoveredFlags_.child_windows
-        )
-        if pixel is not None and mine and pair.size == host.renderers.size:
-            host.hover(STEPPER, pixel)
 
 
 def _put(

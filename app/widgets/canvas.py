@@ -125,28 +125,14 @@ def _draw_marks(
 
 
 def _triangle(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, points: list[ImVec2]) -> None:
-    """Draw the triangle's sides, as far as they are on the canvas, and the names of its corners."""
-    black, width = theme.rgb("#000000"), theme.line_px(1.5)
-    sides = [_within(low, high, points[k - 1], points[k]) for k in range(len(points))]
-    for color, thick in ((theme.u32(black, 0.6), width + 2), (theme.u32(theme.RAY), width)):
-        for side in filter(None, sides):
-            draw.add_line(*side, color, thick)
-    em = imgui.get_font_size()
+    """Draw the triangle's sides and the names of its corners, as far as they are on the canvas."""
+    black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
+    width = theme.line_px(1.5)
+    draw.push_clip_rect(low, high, True)
+    for color, thick in ((black, width + 2), (theme.u32(theme.RAY), width)):
+        for number, point in enumerate(points):
+            draw.add_line(points[number - 1], point, color, thick)
     for name, point in zip("abc", points, strict=True):
-        x = min(max(point.x + 3, low.x + 2), high.x - 0.6 * em)
-        y = min(max(point.y - 0.5 * em, low.y), high.y - em)
-        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # otherwise the name is too far away
-            draw.add_text((x + 1, y + 1), theme.u32(black), name)
-            draw.add_text((x, y), theme.u32(theme.rgb("#ffffff")), name)
-
-
-def _within(low: ImVec2, high: ImVec2, a: ImVec2, b: ImVec2) -> tuple[ImVec2, ImVec2] | None:
-    """Return the part of a line inside a rectangle. Source: Liang and Barsky, 1984."""
-    enter, leave, way = 0.0, 1.0, b - a
-    for start, step, least, most in zip(a, way, low, high, strict=True):
-        if step:
-            first, second = sorted(((least - start) / step, (most - start) / step))
-            enter, leave = max(enter, first), min(leave, second)
-        elif not least <= start <= most:
-            return None
-    return (a + way * enter, a + way * leave) if enter <= leave else None
+        draw.add_text(point + ImVec2(4, 1), black, name)
+        draw.add_text(point + ImVec2(3, 0), white, name)
+    draw.pop_clip_rect()

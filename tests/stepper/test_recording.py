@@ -23,13 +23,15 @@ from renderer.scene.model import Scene
 def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:
     scene = load_scene("columns")
     run = Recording(Model(scene), scene.view.for_size((64, 48)), (64, 48), Order.IMAGE)
-    thread = threading.Thread(target=run.run, daemon=True)
+    wanted = threading.Event()
+    wanted.set()
+    thread = threading.Thread(target=run.run, args=(wanted.is_set,), daemon=True)
     thread.start()
     while len(run) < 2000:
         assert thread.is_alive()
     for step in range(0, len(run), 97):
         assert moment_at(run, step).step == step
-    run.cancel()
+    wanted.clear()
     thread.join()
     assert not run.complete and not run.truncated
     assert len(run) < 400_000
