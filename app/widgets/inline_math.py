@@ -35,7 +35,8 @@ class Setting:
         scale = framebuffer_scale()
         corner = ImVec2(round(x * scale), round((baseline - self.ascent) * scale)) / scale
         far = corner + ImVec2(self.width, self.ascent + self.descent)
-        draw.add_image(imgui.ImTextureRef(self.picture.texture_id()), corner, far)
+        texture = imgui.ImTextureRef(self.picture.texture_id())
+        draw.add_image(texture, corner, far, (0, 0), (1, 1), theme.u32(ImVec4(1, 1, 1, 1)))
 
 
 def inline_math(

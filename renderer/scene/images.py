@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.errors import LucidaError, one_line, shortened
+from renderer.errors import LucidaError, one_line, quoted, shortened
 from renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE, TEXTURES
 from renderer.scene.reading import check_bytes, read_file
 
@@ -117,7 +117,7 @@ def read_image(name: str, folder: Path, has_opacity: bool = False) -> FoundImage
 
 def shown(name: str) -> str:
     """Return an image's name for messages."""
-    return repr(shortened(one_line(name), _SHOWN))
+    return quoted(shortened(name, _SHOWN))
 
 
 @dataclass

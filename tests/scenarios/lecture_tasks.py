@@ -35,7 +35,7 @@ def _looking(d: Driver) -> Camera | None:
 def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
     lecture = load_lecture(BUILTIN)
     number = [step.title for step in lecture.steps].index("Any camera")
-    lecture_of(d).give(lecture, BUILTIN, number)
+    lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
     outside, seen = d.window.view(OutsideView), set[float]()
 
@@ -72,7 +72,7 @@ def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
 def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     lecture = load_lecture(BUILTIN)
     titles = [step.title for step in lecture.steps]
-    lecture_of(d).give(lecture, BUILTIN, titles.index("Exercise: a pixel's ray"))
+    lecture_of(d).give(lecture, BUILTIN, (titles.index("Exercise: a pixel's ray"), 0))
     d.settle()
     session = lecture_of(d).session
     assert session is not None
@@ -140,7 +140,9 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     )
     task = step.exercise
     assert isinstance(task, HideExercise)
-    lecture_of(d).give(lecture, BUILTIN, number)
+    lecture_of(d).give(lecture, BUILTIN, (number, 0))
+    d.settle()
+    d.ctx.yield_(12)  # the mark finds its image's size
     d.settle()
     begun = d.window.state
     assert chosen(begun) == (task.item,)
@@ -193,7 +195,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
 def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
     lecture = load_lecture(BUILTIN)
     number = [step.title for step in lecture.steps].index("Image order: ray tracing")
-    lecture_of(d).give(lecture, BUILTIN, number)
+    lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
     assert shown(d) == {LECTURE, STEPPER, OUTSIDE}
     stepper, outside = d.window.view(StepperView), d.window.view(OutsideView)
