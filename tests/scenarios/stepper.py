@@ -158,25 +158,3 @@ def drive_the_same_lines_in_julia_and_the_depth_buffer(d: Driver) -> None:
     d.ctx.yield_(2)
     assert d.window.state.options.language == "python"
     leave(d)
-
-
-def drive_a_lecture_s_pictures(d: Driver) -> None:
-    """Without tools, the view shows programs that run, and the ray in the outside view."""
-    enter(d, canvas=(12, 12), picture="rays", parts=(0.0, 2.0))
-    d.window.change(d.window.state.with_options(images={"resolution": (12, 12)}))
-    d.window.has_tools = False
-    try:
-        d.settle()
-        assert strokes(d, "ray") > 0
-        for picture, parts in (
-            ("loops", (1.5, 0.5)),
-            ("program", (0, 0.5)),
-            ("questions", (2.5, 0)),
-        ):
-            options = {"picture": picture, "parts": parts}
-            d.window.change(d.window.state.with_options(stepper=options))
-            d.settle()
-            assert strokes(d, "ray") == 0
-    finally:
-        d.window.has_tools = True
-    leave(d)
