@@ -35,11 +35,6 @@ class Order(Enum):
     IMAGE = "image order"
 
     @property
-    def has_depth(self) -> bool:
-        """True if the run has a depth buffer: object order."""
-        return self is Order.RASTER
-
-    @property
     def renderer(self) -> Callable[..., Any]:
         return _RENDERERS[self]
 

@@ -191,9 +191,8 @@ class StepperView(DockedView):
         """Return the canvas or the depth buffer, uploaded if it has changed."""
         assert self._uploads is not None
         name, exposure_ev = run.order.name, state.images.exposure_ev
-        shows_depth = run.order.has_depth and state.of(StepperOptions).depth
         farthest = float(run.depth_t.upto(len(run.depth_t)).max(initial=0.0))
-        depth = farthest if shows_depth else None
+        depth = farthest if state.of(StepperOptions).depth else None
         self._put[run.order](self._uploads, name, moment, depth, exposure_ev, theme.used())
         texture = self._uploads.get(name)
         assert texture is not None

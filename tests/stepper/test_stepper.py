@@ -68,7 +68,7 @@ def test_lines_are_run_in_the_loops_order(order: Order) -> None:
     assert lines[0] == 1 and source.lines[lines[-1]] == "    return canvas"
     assert set(lines) == set(range(1, len(source.lines)))
     outer, inner = source.pixels, source.objects
-    if order.has_depth:
+    if order is Order.RASTER:
         outer, inner = inner, outer
     assert source.lines[outer.header].startswith("    ") and outer.runs(inner.header)
     assert not inner.runs(outer.header)
