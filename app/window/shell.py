@@ -235,7 +235,7 @@ class Shell:
         """Return what to keep; None until the window's first scene is there."""
         if self.files.awaits_first:
             return None
-        state = window.state
+        state = window.present
         arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
         return session_of(state, arrangement, window.view(LectureView).kept(state))
 
@@ -283,7 +283,11 @@ class Shell:
         keeper = self._keeper
         if keeper is None:
             return
-        io, state, answered = imgui.get_io(), window.state, window.view(LectureView).take_answered()
+        io, state, answered = (
+            imgui.get_io(),
+            window.present,
+            window.view(LectureView).take_answered(),
+        )
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()

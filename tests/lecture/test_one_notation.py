@@ -29,13 +29,13 @@ from app.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
 from app.probe.model import Probe
 from app.state.options import Notation
 from app.stepper import loop_parts, raster_parts
-from app.stepper.listing import shown_lines
 from app.stepper.recording import Order
-from app.stepper.source import shown_code, source_of
+from app.stepper.source import shown_code, shown_lines, source_of
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
-STEPS = load_lecture(BUILTIN).steps
+LECTURE = load_lecture(BUILTIN)
+STEPS = LECTURE.builds
 NOTATIONS: tuple[Notation, ...] = ("book", "code")
 Found = Iterator[tuple[str, str, str]]  # where, the kind of text, the text
 
@@ -165,9 +165,10 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
 
 
 def test_the_first_step_with_a_letter_twice_says_so():
-    said = [n for n, step in enumerate(STEPS) if any(isinstance(b, TwiceUsed) for b in step.blocks)]
-    assert [STEPS[n].title for n in said] == ["A simple camera"]
-    assert len(in_notation(STEPS[said[0]].blocks, "code")) == len(STEPS[said[0]].blocks) - 1
+    said = [b for b in LECTURE.builds if any(isinstance(block, TwiceUsed) for block in b.blocks)]
+    assert {build.title for build in said} == {"A simple camera"}
+    assert said[-1].build + 1 == LECTURE.count(said[-1].number)
+    assert len(in_notation(said[0].blocks, "code")) == len(said[0].blocks) - 1
 
 
 def test_a_word_and_its_symbol_are_one_in_code():
