@@ -102,8 +102,8 @@ def seen(camera: Camera, point: np.ndarray) -> np.ndarray:
 def test_between_the_projections_the_plane_of_the_focus_stands_still(
     camera: Camera, part: float, back: bool, fit: bool
 ) -> None:
-    """The eye draws back, and so does an image plane before the focus; one behind it comes no nearer
-    than the focus. What is as far off as the focus keeps its size.
+    """The eye draws back, and so does an image plane before the focus; one behind it comes no
+    nearer than the focus. What is as far off as the focus keeps its size.
     """
     other = switched_projection(camera, FOCUS)
     ends = (other, camera) if back else (camera, other)
