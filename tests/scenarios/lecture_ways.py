@@ -82,7 +82,7 @@ def _spoil(d: Driver) -> None:
         images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
         outside={"bundle": (2, 2), "volume": False},
         stepper={"steps": (3, 3), "canvas": (4, 3)},
-        laboratory={"page": "array", "zoom": 3.0},
+        laboratory={"page": "array", "progress": 3.0},
     )
     d.window.change(changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))))
     for name in ("Raster", "Camera", "Outside"):
