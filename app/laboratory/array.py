@@ -10,10 +10,10 @@ from app.outside.figure import Color, Figure
 
 ROWS, COLUMNS = 3, 4
 LIT, ORANGE = (1, 2), (1.0, 0.6, 0.0)  # row and column from 0
-CELL, CORNER = 2.9, (8.6, 6.6)
+CELL, CORNER = 2.8, (8.8, 7.2)
 BYTE, MEMORY_Y = 2.45, 20.6
 JULIA = ("canvas = zeros(RGB{Float32}, height, width)", "canvas[2, 3] = RGB(1, 0.6, 0)")
-NUMPY = ("canvas = np.zeros((height, width, 3), np.float32)", "canvas[1, 2] = 1, 0.6, 0")
+NUMPY = ("canvas = np.zeros((3, 4, 3), np.float32)", "canvas[1, 2] = 1, 0.6, 0")
 
 
 def array(page: Page) -> Figure:
@@ -25,10 +25,10 @@ def array(page: Page) -> Figure:
     turns = _turns(numpy)
     for (line, assigned), opacity in zip((JULIA, NUMPY), turns, strict=True):
         code = sheet.part((0.2, 1.2), opacity)
-        code.word(line, (0, 0), mono=True, align=0.0)
-        code.word(assigned, (0, 1.7), opacity=lit, mono=True, align=0.0)
+        code.word(line, (0, 0), 1.25, mono=True, align=0.0)
+        code.word(assigned, (0, 1.9), 1.25, opacity=lit, mono=True, align=0.0)
     for number, name in enumerate(("height = 3", "width = 4")):
-        sheet.word(name, (22.4, 7.2 + 1.6 * number), 1.0, look.dim, mono=True, align=0.0)
+        sheet.word(name, (22.2, 7.6 + 1.9 * number), 1.25, look.dim, mono=True, align=0.0)
     grid, memory = sheet.part(CORNER), sheet.part((0.3, MEMORY_Y), stored)
     for row, column in np.ndindex(ROWS, COLUMNS):
         color = mixed(BLACK, ORANGE, lit if (row, column) == LIT else 0.0)
@@ -37,19 +37,19 @@ def array(page: Page) -> Figure:
         at = BYTE * float(between(numpy, places)), 0.0
         _cell(memory, at, BYTE, color)
         texts = f"{row + 1},{column + 1}", f"{row},{column}"
-        _number(memory, texts, (at[0] + BYTE / 2, BYTE + 0.8), numpy, look.text)
+        _number(memory, texts, (at[0] + BYTE / 2, BYTE + 0.9), numpy, look.text)
     for count, marked, first, step in (
-        (COLUMNS, LIT[1], (CELL / 2, -0.8), (CELL, 0.0)),
-        (ROWS, LIT[0], (-0.9, CELL / 2), (0.0, CELL)),
+        (COLUMNS, LIT[1], (CELL / 2, -0.9), (CELL, 0.0)),
+        (ROWS, LIT[0], (-1.0, CELL / 2), (0.0, CELL)),
     ):
         for number in range(count):
             color = mixed(look.dim, look.text, lit if number == marked else 0.0)
             at = first[0] + number * step[0], first[1] + number * step[1]
             _number(grid, (str(number + 1), str(number)), at, numpy, color)
-    grid.word("column", (COLUMNS * CELL / 2, -2.2), 1.0, look.dim)
+    grid.word("column", (COLUMNS * CELL / 2, -2.4), 1.25, look.dim)
     names = "column after column (Julia)", "row after row (NumPy)"
     for name, opacity in zip(names, turns, strict=True):
-        memory.word(f"in memory: {name}", (0, -2.2), 1.1, opacity=opacity, align=0.0)
+        memory.word(f"in memory: {name}", (0, -1.3), 1.25, opacity=opacity, align=0.0)
     _arrows(grid, stored, numpy)
     return sheet.figure()
 
@@ -68,7 +68,7 @@ def _cell(sheet: Sheet, at: Point, side: float, color: Color) -> None:
 def _number(sheet: Sheet, texts: tuple[str, str], at: Point, numpy: float, color: Color) -> None:
     """Write a number as Julia counts it, or as NumPy does."""
     for text, opacity in zip(texts, _turns(numpy), strict=True):
-        sheet.word(text, at, 1.0, color, opacity)
+        sheet.word(text, at, 1.25, color, opacity)
 
 
 def _turns(numpy: float) -> tuple[float, float]:

@@ -39,7 +39,7 @@ def devices(page: Page) -> Figure:
     for number, (caption, draw) in enumerate(drawings.items()):
         part = sheet.part(place(number), reached(page.progress, number))
         draw(part)
-        part.word(caption, (ROOM[0] / 2, ROOM[1] + 0.9), 1.3, strong=True)
+        part.word(caption, (ROOM[0] / 2, ROOM[1] + 0.9), 1.4, strong=True)
     turned = reached(page.progress, 3)
     if turned:
         _virtual(sheet.part(between(turned, (place(2), place(3)))), turned)
@@ -123,10 +123,10 @@ def _virtual(sheet: Sheet, turned: float) -> None:
             grown.line(ends, look.text, 0.06)
     sheet.shape(between(turned, (LENS, circle(EYE, 0.55))), mixed(look.ground, look.text, turned))
     sheet.part(opacity=turned).word(
-        "virtual camera", (ROOM[0] / 2, ROOM[1] + 0.9), 1.3, strong=True
+        "virtual camera", (ROOM[0] / 2, ROOM[1] + 0.9), 1.4, strong=True
     )
-    grown.word("eye", (EYE[0], EYE[1] + 1.6), 1.1)
-    grown.word("frame", (12.9, 4.9), 1.1)
+    grown.word("eye", (EYE[0], EYE[1] + 1.6), 1.3)
+    grown.word("frame", (13.2, 4.9), 1.3)
 
 
 def _even(points: Floats) -> Floats:

@@ -27,7 +27,7 @@ def dimension(page: Page) -> Figure:
     image, axes = sheet.part(opacity=flat), sheet.part(ORIGIN, 1 - 0.75 * lost)
     for name, way in AXES.items():
         axes.arrow((0.0, 0.0), way, look.dim)
-        axes.word(name, 1.17 * np.array(way), 1.1, look.dim)
+        axes.word(name, 1.17 * np.array(way), 1.3, look.dim)
     sheet.word("3D", (23.5, 1.4), 1.8, strong=True)
     image.word("2D", (8.3, 1.4), 1.8, strong=True)
     middle = _cell(*PIXEL).mean(axis=0)
@@ -38,7 +38,7 @@ def dimension(page: Page) -> Figure:
         image.outline(_cell(*cell), width=0.1)
     sheet.fill(_cell(*PIXEL), look.u, slid)
     image.disc(EYE, 0.35, look.text)
-    sheet.word("eye", EYE + np.array((0.0, 1.5)), 1.2, opacity=drawn)
+    sheet.word("eye", EYE + np.array((0.0, 1.5)), 1.3, opacity=drawn)
     _points(sheet, middle, slid)
     return sheet.figure()
 

@@ -86,25 +86,25 @@ _DOT = 0.22, 0.22, 0.22
 DISPLAYS: tuple[DisplayKind, ...] = (
     DisplayKind(
         "Tube",
-        "beams, line by line; dots fade",
+        "beams; dots that fade",
         _fading,
         ((0.25, 0.27, *_DOT), (0.75, 0.27, *_DOT), (0.5, 0.73, *_DOT)),
     ),
     DisplayKind(
         "DLP",
-        "mirrors; colours in turn",
+        "colours in turn",
         _mirrored,
         ((0.5, 0.5, 0.46, 0.46, 0.03),),
     ),
     DisplayKind(
         "LCD",
-        "white light behind filters",
+        "light behind filters",
         _held,
         _stripes(0.29, 0.92, 0.02),
     ),
     DisplayKind(
         "LED",
-        "shining stripes, on or off",
+        "stripes that shine",
         _switched,
         _stripes(0.22, 0.74, 0.09),
     ),
@@ -115,14 +115,14 @@ def displays(page: Page) -> Figure:
     """Draw the same few pixels on four displays, each with the light of the gray pixel over a
     cycle. They appear one by one.
     """
-    sheet, phase = page.sheet((32, 27.6)), page.options.phase % 1.0
+    sheet, phase = page.sheet((32, 28.8)), page.options.phase % 1.0
     for number, display in enumerate(DISPLAYS):
-        corner = 1.0 + 16.0 * (number % 2), 13.9 * (number // 2)
+        corner = 1.0 + 16.0 * (number % 2), 14.5 * (number // 2)
         part = sheet.part(corner, reached(page.progress, number))
-        part.word(display.title, (0.0, 0.8), 1.3, strong=True, align=0.0)
-        part.word(display.way, (0.0, 2.2), 1.0, page.look.dim, align=0.0)
-        _pixels(part.part((0.0, 3.1)), display, phase)
-        _lanes(part.part((0.0, 3.5 + SIDE * len(COLORS))), display, phase)
+        part.word(display.title, (0.0, 0.9), 1.5, strong=True, align=0.0)
+        part.word(display.way, (0.0, 2.7), 1.35, page.look.dim, align=0.0)
+        _pixels(part.part((0.0, 3.8)), display, phase)
+        _lanes(part.part((0.0, 4.2 + SIDE * len(COLORS))), display, phase)
     return sheet.figure()
 
 

@@ -34,14 +34,14 @@ def boxes(page: str, size: Size, shape: Size) -> tuple[Point, tuple[Box, ...]]:
             (26.0, 25.6), (26.0, 17.4))  # fmt: skip
         rooms: tuple[Box, ...] = (((0.0, 0.0), room),)
     elif page == "exposure":
-        extent = (36.0, 24.0) if wide else (24.0, 37.0)
-        step = (18.2, 0.0) if wide else (0.0, 18.5)
+        extent = (36.0, 24.0) if wide else (24.0, 37.6)
+        step = (18.2, 0.0) if wide else (0.0, 18.8)
         room = (17.8, 20.4) if wide else (24.0, 14.8)
         rooms = ((0.0, 0.0), room), (step, room)
     else:
         extent = (32.0, 25.0) if wide else (24.0, 28.0)
-        margin = 1.8 if page == "raster" else 0.0
-        room = extent[0] - 2 * margin, extent[1] - 3.8 - margin
+        margin = 2.0 if page == "raster" else 0.0
+        room = extent[0] - 2 * margin, extent[1] - 4.2 - margin
         rooms = (((margin, margin), room),)
     return extent, tuple(_inside(corner, room, shape) for corner, room in rooms)
 
@@ -78,13 +78,13 @@ def function(page: Page) -> Figure:
         sheet.outline(circle(at, 0.6), ink, wide)
     top, left = corner[1] + height + 1.2, corner[0] + 0.2
     three = reached(page.progress, 1)
-    room = (0.55 * width, extent[1] - top - 2.4)
+    room = (0.6 * width, extent[1] - top - 2.4)
     _spectrum(sheet, exposed, (left, top), room)
-    sheet.word("schematic", (left + room[0] / 2, top + room[1] + 1.5), 1.0, look.dim)
+    sheet.word("schematic", (left + room[0] / 2, top + room[1] + 1.5), 1.2, look.dim)
     for name, x, align in ((f"{FIRST_NM:.0f} nm", left, 0.0),
                            (f"{LAST_NM:.0f} nm", left + room[0], 1.0)):  # fmt: skip
-        sheet.word(name, (x, top + room[1] + 1.5), 1.0, look.dim, align=align)
-    x = left + room[0] + 2.0
+        sheet.word(name, (x, top + room[1] + 1.5), 1.2, look.dim, align=align)
+    x = left + room[0] + 1.6
     bar = corner[0] + width - x - 4.4
     for channel, (name, value) in enumerate(zip("rgb", exposed.tolist(), strict=True)):
         y = top + (channel + 0.5) * room[1] / 3
@@ -138,14 +138,14 @@ def raster(page: Page) -> Figure:
             x = corner[0] + unit * number
             sheet.line([(x, corner[1]), (x, corner[1] + height)], look.dim, 0.05)
     for number in _numbered(columns):
-        sheet.word(str(number + 1), (corner[0] + unit * (number + 0.5), corner[1] - 0.8), 1.0)
+        sheet.word(str(number + 1), (corner[0] + unit * (number + 0.5), corner[1] - 0.9), 1.25)
     for number in _numbered(rows):
         at = corner[0] - 0.4, corner[1] + unit * (number + 0.5)
-        sheet.word(str(number + 1), at, 1.0, align=1.0)
+        sheet.word(str(number + 1), at, 1.25, align=1.0)
     middle = extent[0] / 2
-    sheet.word(f"{columns} x {rows} pixels", (middle, extent[1] - 2.4), 1.3, strong=True)
+    sheet.word(f"{columns} x {rows} pixels", (middle, extent[1] - 2.9), 1.4, strong=True)
     text = f"3 numbers each: {3 * rows * columns:,} numbers"
-    sheet.word(text, (middle, extent[1] - 0.8), 1.1)
+    sheet.word(text, (middle, extent[1] - 1.0), 1.25)
     return sheet.figure()
 
 
@@ -181,10 +181,10 @@ def exposure(page: Page) -> Figure:
 
 
 def _caption(sheet: Sheet, kind: Kind, corner: Point, room: Point) -> None:
-    y = corner[1] + room[1] + 1.5
+    y = corner[1] + room[1] + 1.4
     middle = corner[0] + room[0] / 2
-    sheet.word(kind.title, (middle, y), 1.3, strong=True)
-    sheet.word(kind.each, (middle, y + 1.5), 1.05, sheet.look.dim)
+    sheet.word(kind.title, (middle, y), 1.5, strong=True)
+    sheet.word(kind.each, (middle, y + 1.8), 1.5, sheet.look.dim)
 
 
 def _kept(page: Page, kind: Kind) -> Bytes:

@@ -43,7 +43,7 @@ def projectors(page: Page) -> Figure:
         at, color = np.add(CENTER, OUTSIDE[3 - sum(channels)]), sum_of(channels)
         sheet.word(name, at, 1.3, mixed(WALL, color, overlapping), float(overlapping > 0),
                    strong=True, rim=False)  # fmt: skip
-    sheet.word("white", CENTER, 1.0, BLACK, float(page.progress >= 1), strong=True, rim=False)
+    sheet.word("white", CENTER, 1.15, BLACK, float(page.progress >= 1), strong=True, rim=False)
     return sheet.figure()
 
 

@@ -15,8 +15,9 @@ COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1
 CELL, CORNER = 1.3, np.array((15.6, 2.9))
 ROW_Y = 10.4  # of the row of pixels below the corner, before it is in its image
-ACROSS = ("j - 0.5", "(j - 0.5) / W", "u = (j - 0.5) / W - 0.5")
-DOWN = ("i - 0.5", "/ H", "- 0.5", "v = - ( )")
+ACROSS = ("j - 0.5", "/ W", "- 0.5 = u")
+DOWN = ("i - 0.5", "/ H", "- 0.5", "v")
+TEXT = 1.2
 
 
 def numbers(pixel: int) -> list[tuple[float, float, float]]:
@@ -31,8 +32,8 @@ def numbers(pixel: int) -> list[tuple[float, float, float]]:
 def ruler(page: Page) -> Figure:
     """Draw a row of pixels. Builds 1, 2 and 3 go on to u; build 4 does the same with a column."""
     down, look = reached(page.progress, 4), page.look
-    extent = between(down, [(28.6, 15.0), (30.6, 26.2)])
-    sheet = page.sheet((extent[0], extent[1]), between(down, [(1.6, 11.2), (0.0, 0.0)]))
+    extent = between(down, [(22.4, 15.2), (30.6, 26.4)])
+    sheet = page.sheet((extent[0], extent[1]), between(down, [(8.2, 11.2), (0.0, 0.0)]))
     sheet = sheet.part(CORNER)
     image, row_y = sheet.part(opacity=down), float(between(down, (ROW_Y, CELL * (PIXEL[0] - 1))))
     row, names = sheet.part((0.0, row_y)), sheet.part((0.0, (1 - down) * ROW_Y))
@@ -46,8 +47,8 @@ def ruler(page: Page) -> Figure:
         if down:
             _cell(image, _square(number, PIXEL[1] - 1), is_marked, 1.0)
         _name(image, number, (-0.8, CELL * (number + 0.5)), is_marked)
-    names.word("j", (CELL * COUNT + 0.9, -0.8), 1.1, look.dim)
-    image.word("i", (-0.8, -0.6), 1.1, look.dim)
+    names.word("j", (CELL * COUNT + 0.9, -0.8), TEXT, look.dim)
+    image.word("i", (-0.8, -0.6), TEXT, look.dim)
     _across(sheet, page.progress, row_y + CELL / 2, page.notation)
     _down(image, page.notation)
     return sheet.figure()
@@ -65,8 +66,8 @@ def _across(sheet: Sheet, progress: float, row_y: float, notation: Notation) -> 
         _ticks(part, (0.0, y), (CELL, 0.0), color)
         part.disc((x, y), 0.3, look.mark)
         for value, at in zip(values, (0.0, x, CELL * COUNT), strict=True):
-            part.word(short(value), (at, y + 1.1), 1.0, color, strong=at == x)
-        part.word(plain(name, notation), (-1.2, y), 1.0, color, align=1.0)
+            part.word(short(value), (at, y + 1.1), TEXT, color, strong=at == x)
+        part.word(plain(name, notation), (-1.2, y), TEXT, color, align=1.0)
 
 
 def _down(sheet: Sheet, notation: Notation) -> None:
@@ -74,12 +75,12 @@ def _down(sheet: Sheet, notation: Notation) -> None:
     y, look, (*rulers, last) = CELL * (PIXEL[0] - 0.5), sheet.look, numbers(PIXEL[0])
     upward = -last[0], -last[1], -last[2]
     for number, (name, values) in enumerate(zip(DOWN, (*rulers, last, upward), strict=True)):
-        x, color = -2.9 - 3.35 * number, look.v if number == 3 else look.text
+        x, color = -2.9 - 3.2 * number, look.v if number == 3 else look.text
         _ticks(sheet, (x, 0.0), (0.0, CELL), color)
         sheet.disc((x, y), 0.3, look.mark)
         for value, at in zip(values, (0.0, y, CELL * COUNT), strict=True):
-            sheet.word(short(value), (x - 0.5, at), 0.95, color, strong=at == y, align=1.0)
-        sheet.word(plain(name, notation), (x, -1.5), 1.0, color)
+            sheet.word(short(value), (x - 0.45, at), TEXT, color, strong=at == y, align=1.0)
+        sheet.word(plain(name, notation), (x, -1.6), TEXT, color)
 
 
 def _ticks(sheet: Sheet, first: Point, step: Point, color: Color) -> None:
@@ -105,7 +106,7 @@ def _cell(sheet: Sheet, corners: Floats, is_marked: bool, dotted: float) -> None
 def _name(sheet: Sheet, number: int, at: Point, is_marked: bool) -> None:
     """Write a pixel's number."""
     color = sheet.look.text if is_marked else mixed(sheet.look.dim, sheet.look.ground, 0.2)
-    sheet.word(str(number + 1), at, 1.0, color, strong=is_marked)
+    sheet.word(str(number + 1), at, TEXT, color, strong=is_marked)
 
 
 def short(value: float) -> str:

@@ -14,7 +14,6 @@ from app.laboratory.sheet import Look, Sheet, between, circle, rectangle
 from app.outside.figure import WHITE, Color, Figure, Line, Polygon
 from renderer.camera import Size
 from renderer.images.display import Bytes
-from renderer.scene.reading import size_text
 
 SIDE_PX, PIXELS = 512, 128  # of the drawing, and of its raster image
 SAMPLES = 4  # a side of a pixel
@@ -35,11 +34,12 @@ def raster_and_vector(page: Page) -> Figure:
     picture = bitmap(drawing, (PIXELS, PIXELS))
     as_pixels = Sheet(drawing.size, page.look, (1, 1))
     as_pixels.picture(picture, (0, 0), (1, 1))
-    sheet = page.sheet((32, 19.2) if page.is_wide else (16, 38.4))
-    step = (16.5, 0.0) if page.is_wide else (0.0, 19.2)
+    beside = 3 * page.size[0] > 2.6 * page.size[1]
+    sheet = page.sheet((32, 19.8) if beside else (16, 39.6))
+    step = (16.5, 0.0) if beside else (0.0, 19.8)
     captions = (
-        ("Raster", f"{PIXELS} x {PIXELS} pixels, {size_text(picture.nbytes)}"),
-        ("Vector", f"{len(drawing.parts)} shapes, each a few numbers"),
+        ("Raster", f"{PIXELS} x {PIXELS} pixels"),
+        ("Vector", f"{len(drawing.parts)} shapes"),
     )
     middle = between(min(page.progress, 1.0), ((0.5, 0.5), FOCUS))
     first = np.clip(middle - 0.5 / zoom, 0, 1 - 1 / zoom) * SIDE_PX
@@ -50,8 +50,8 @@ def raster_and_vector(page: Page) -> Figure:
         scale = PANE * sheet.unit / SIDE_PX * zoom
         sheet.inset(figure, (left, top), (PANE, PANE), (first[0], first[1]), scale)
         sheet.outline(rectangle((left, top), (PANE, PANE)), page.look.line)
-        sheet.word(title, (left + PANE / 2, top + 16.1), 1.3, strong=True)
-        sheet.word(caption, (left + PANE / 2, top + 17.8), 1.0, page.look.dim)
+        sheet.word(title, (left + PANE / 2, top + 16.2), 1.5, strong=True)
+        sheet.word(caption, (left + PANE / 2, top + 18.3), 1.35, page.look.dim)
     return sheet.figure()
 
 

@@ -31,6 +31,7 @@ from app.outside.figure import (
 
 FONTS = "Roboto, Helvetica, Arial, sans-serif"
 MONO = "Roboto Mono, Consolas, Menlo, monospace"
+MONO_WIDTH = 0.5  # of a letter, in parts of its size
 ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 BLACK = (0.0, 0.0, 0.0)
 CASING, PALEST = 2.0, 0.45  # it is wider than a line by so many units; paler lines have none
@@ -111,7 +112,9 @@ def _text(part: Label, ground: str) -> str:
     x, y = _number(part.center[0]), _number(part.center[1] + BASELINE * part.size)
     bold = ' font-weight="bold"' if part.strong else ""
     look = f'{_name(part)} x="{x}" y="{y}" font-size="{_number(part.size)}"{bold}'
-    look += f' font-family="{MONO}"' if part.mono else ""
+    if part.mono:  # as wide as in the window
+        wide = _number(MONO_WIDTH * part.size * len(part.text))
+        look += f' font-family="{MONO}" textLength="{wide}" lengthAdjust="spacingAndGlyphs"'
     look += f' text-anchor="{ANCHORS[part.align]}"' if part.align != 0.5 else ""
     rim = f' fill="none" stroke="{ground}" stroke-width="{_number(RIM * part.size)}"'
     text = "".join(
