@@ -120,7 +120,7 @@ def displays(page: Page) -> Figure:
         corner = 1.0 + 16.0 * (number % 2), 14.5 * (number // 2)
         part = sheet.part(corner, reached(page.progress, number))
         part.word(display.title, (0.0, 0.9), 1.5, strong=True, align=0.0)
-        part.word(display.way, (0.0, 2.7), 1.35, page.look.dim, align=0.0)
+        part.word(display.way, (0.0, 2.7), 1.45, page.look.dim, align=0.0)
         _pixels(part.part((0.0, 3.8)), display, phase)
         _lanes(part.part((0.0, 4.2 + SIDE * len(COLORS))), display, phase)
     return sheet.figure()

@@ -51,7 +51,7 @@ def raster_and_vector(page: Page) -> Figure:
         sheet.inset(figure, (left, top), (PANE, PANE), (first[0], first[1]), scale)
         sheet.outline(rectangle((left, top), (PANE, PANE)), page.look.line)
         sheet.word(title, (left + PANE / 2, top + 16.2), 1.5, strong=True)
-        sheet.word(caption, (left + PANE / 2, top + 18.3), 1.35, page.look.dim)
+        sheet.word(caption, (left + PANE / 2, top + 18.3), 1.65, page.look.dim)
     return sheet.figure()
 
 

@@ -7,7 +7,7 @@ from app.laboratory.page import Page
 from app.laboratory.sheet import reached, rectangle
 from app.outside.figure import Figure
 
-LONGEST, LEFT, STEP = 13.4, 12.9, 4.7
+LONGEST, LEFT, STEP = 12.0, 14.4, 4.7
 
 
 def storage(page: Page) -> Figure:
@@ -15,14 +15,14 @@ def storage(page: Page) -> Figure:
     sheet, look = page.sheet((32, 20.6)), page.look
     largest = KINDS[-1].storage_bytes(LECTURE_SIZE)
     width, height = LECTURE_SIZE
-    sheet.word(f"{width} x {height} pixels", (0, 1.0), 1.35, look.dim, align=0.0)
+    sheet.word(f"{width} x {height} pixels", (0, 1.0), 1.6, look.dim, align=0.0)
     for number, kind in enumerate(KINDS):
         part = reached(page.progress, number)
         middle, count = 4.4 + STEP * number, kind.storage_bytes(LECTURE_SIZE)
         length = part * LONGEST * count / largest
         row = sheet.part((0, middle), part)
         row.word(kind.title, (0, -0.8), 1.4, strong=True, align=0.0)
-        row.word(kind.each, (0, 1.0), 1.35, look.dim, align=0.0)
+        row.word(kind.each, (0, 1.0), 1.6, look.dim, align=0.0)
         row.fill(rectangle((LEFT, -1.3), (length, 2.6)), look.w)
         row.word(short(count), (LEFT + length + 0.5, 0), 1.5, strong=True, align=0.0)
     return sheet.figure()
