@@ -14,13 +14,18 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from app.commands import COMMANDS, WITHOUT_FILE, view
+from app.commands import COMMANDS, WITHOUT_FILE, scenes, view
 from app.commands.arguments import TRACEBACK_VARIABLE, Parser
 from app.window.process import interrupt_between_imports, open_streams
 from renderer.errors import LucidaError, one_line, shortened
 
 FAILED = 2
 INTERRUPTED = 128 + signal.SIGINT
+# Commands and options that left, and what to use instead.
+LEFT = {
+    "install-desktop": "start lucida in a terminal",
+    "--undistort": "COLMAP's image_undistorter undistorts the photographs of a data set",
+}
 BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have
 
 
@@ -59,6 +64,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _dispatch(arguments: list[str]) -> int:
+    _check_has_not_left(arguments)
     command = next((c for c in COMMANDS if arguments[:1] == [c.NAME]), view)
     if command is view:
         _check_is_no_command(arguments)
@@ -67,6 +73,18 @@ def _dispatch(arguments: list[str]) -> int:
     command.configure(parser)
     parser.set_defaults(commands=COMMANDS)  # for the completion, which describes all of them
     return int(command.run(parser.parse_args(arguments)))
+
+
+def _check_has_not_left(arguments: list[str]) -> None:
+    """Raise LucidaError for a command or an option of an earlier version."""
+    for argument in arguments:
+        name = argument.partition("=")[0]
+        if name in LEFT and (name.startswith("-") or argument is arguments[0]):
+            raise LucidaError(name, "is no longer part of Lucida", LEFT[name])
+    if arguments[:1] == [scenes.NAME] and arguments[1:] and not arguments[1].startswith("-"):
+        raise LucidaError(
+            scenes.NAME, "takes no file", f"lucida scene {arguments[1]} describes one"
+        )
 
 
 def _check_is_no_command(arguments: list[str]) -> None:

@@ -8,6 +8,7 @@ import secrets
 import shutil
 import stat
 import time
+import unicodedata
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -42,6 +43,15 @@ def check_writable(path: str | Path) -> Path:
     if mode is not None and not os.access(target, os.W_OK):
         raise LucidaError("", "is write-protected", "write elsewhere or change its rights", source)
     return target
+
+
+def file_stem(name: str, others: str = " -_") -> str:
+    """Return a file's name, without ending, for the name of a scene or an image: letters with their
+    combining marks, digits and `others`; "-" for any other character.
+    """
+    return "".join(
+        c if c.isalnum() or c in others or unicodedata.category(c)[0] == "M" else "-" for c in name
+    )
 
 
 @contextlib.contextmanager

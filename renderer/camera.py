@@ -35,7 +35,7 @@ from renderer.camera_checks import (
     three,
     volume,
 )
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, not_together
 from renderer.frame import DISPLAY, check_size
 from renderer.intrinsics import (
     Intrinsics,
@@ -157,7 +157,7 @@ class Camera:
         u = right / np.linalg.norm(right)
         if fov_y_deg is not None:
             if distance is not None:
-                raise LucidaError("fov_y_deg", "is given beside distance", "give one of the two")
+                raise not_together("fov_y_deg", "distance")
             fov = number("fov_y_deg", fov_y_deg)
             if not 0 < fov < 180:
                 raise LucidaError("fov_y_deg", f"{fov:g} is not between 0 and 180", "give e.g. 40")
@@ -195,8 +195,7 @@ class Camera:
         """
         if world_from_camera is not None:
             if camera_from_world is not None:
-                problem = "is given beside camera_from_world"
-                raise LucidaError("world_from_camera", problem, "give one of the two")
+                raise not_together("world_from_camera", "camera_from_world")
             camera_from_world = as_camera_from_world(world_from_camera)
         pose = np.eye(4) if camera_from_world is None else camera_from_world
         fields = camera_fields(K, pose, check_size(size), axes, pixel_origin)

@@ -34,11 +34,11 @@ class LucidaError(ValueError):
     def __repr__(self) -> str:
         return f"LucidaError({shortened(str(self), LONGEST_PART)!r})"
 
-    def within(self, prefix: str) -> LucidaError:
+    def within(self, prefix: str, sign: str = ".") -> LucidaError:
         """Return the same error with its field under `prefix`: "w" within "camera" is
         "camera.w".
         """
-        field = f"{prefix}.{self.field}" if self.field else prefix
+        field = sign.join(part for part in (prefix, self.field) if part)
         return LucidaError(field, self.problem, self.remedy, self.source)
 
     def in_file(self, source: str) -> LucidaError:
@@ -61,12 +61,21 @@ class LucidaError(ValueError):
 
 
 @contextlib.contextmanager
-def under(field: str) -> Iterator[None]:
+def under(field: str, sign: str = ".") -> Iterator[None]:
     """Put the fields of errors raised inside under `field`; see LucidaError.within."""
     try:
         yield
     except LucidaError as error:
-        raise error.within(field) from None
+        raise error.within(field, sign) from None
+
+
+@contextlib.contextmanager
+def errors_as(field: str) -> Iterator[None]:
+    """Give errors raised inside this field."""
+    try:
+        yield
+    except LucidaError as error:
+        raise LucidaError(field, error.problem, error.remedy) from None
 
 
 def one_line(text: str) -> str:
@@ -75,6 +84,11 @@ def one_line(text: str) -> str:
     Bytes of a file name that are not UTF-8 (lone surrogates in Python) become \xff.
     """
     return visible(" ".join(text.split()))
+
+
+def quoted(text: str) -> str:
+    """Return a name on one line, between quotation marks."""
+    return f"'{one_line(text)}'"
 
 
 def visible(text: str) -> str:
@@ -103,3 +117,8 @@ def describe(error: Exception) -> str:
     if isinstance(error, MemoryError):
         return "not enough memory; try a smaller image or model"
     return one_line(f"{type(error).__name__}: {error}")
+
+
+def not_together(field: str, other: str, remedy: str = "give one of the two") -> LucidaError:
+    """Return the error of two values that exclude each other."""
+    return LucidaError(field, f"cannot be used together with {other}", remedy)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, errors_as, not_together
 
 if TYPE_CHECKING:
     from renderer.lenses import Lens
@@ -137,7 +137,7 @@ def _check_beside(given: dict[str, Any]) -> None:
     for one, others in (("target", "uvw"), ("up", "uvw"), ("fov", ("distance",))):
         for other in others:
             if one in given and other in given:
-                raise LucidaError(f"--{other}", f"is given beside --{one}", "give one of the two")
+                raise not_together(f"--{other}", f"--{one}")
 
 
 def _looking(view: View, given: dict[str, Any]) -> View:
@@ -157,8 +157,6 @@ def _as_wide(view: View, fov_deg: float) -> View:
     if camera.is_parallel:
         problem = "is nothing that a parallel projection has"
         raise LucidaError("--fov", problem, "give --viewport, or --projection perspective")
-    try:
+    with errors_as("--fov"):
         camera = replace(camera, distance=distance_for(camera, fov_deg))
-    except LucidaError as error:
-        raise LucidaError("--fov", error.problem, error.remedy) from None
     return replace(view, camera=camera)

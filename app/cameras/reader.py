@@ -22,6 +22,7 @@ from renderer.errors import LucidaError
 from renderer.lenses import Lens
 from renderer.scene import view_from_toml
 from renderer.scene.model import View
+from renderer.scene.reading import naming
 from renderer.scene.tables import parse_toml
 from renderer.scene.views import view_from_table
 
@@ -41,7 +42,7 @@ def read_copied(text: str, now: View) -> TakenCamera:
     if len(text) > MOST_CHARACTERS:
         remedy = "copy a camera first; a set of cameras is opened as a file"
         raise LucidaError(SOURCE, "holds no camera but a long text", remedy)
-    try:
+    with naming(SOURCE):
         if opengl.has_matrices(text):
             return _from_others(text, "opengl", now)
         if re.search(r"\bCamera\s*[.(]", text):
@@ -53,8 +54,6 @@ def read_copied(text: str, now: View) -> TakenCamera:
         for entry in FORMATS:
             if entry.module.recognises(_given(text)):
                 return _from_others(text, entry.name, now)
-    except LucidaError as error:
-        raise error.in_file(SOURCE) from None
     raise LucidaError(
         SOURCE,
         "holds no camera",

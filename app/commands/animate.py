@@ -107,8 +107,8 @@ def run(arguments: argparse.Namespace) -> int:
     shots = [Shot(camera, arguments.size) for camera in cameras]
     make_film(Film(path, scene, shots, look, write), arguments, "frames")
     print(
-        f"{one_line(arguments.output)}: {len(cameras)} frames, {width}x{height}, "
-        f"{len(cameras) / arguments.fps:.4g} s"
+        f"{one_line(arguments.output)}: {common.counted((len(cameras), 'frame'))}, "
+        f"{width}x{height}, {len(cameras) / arguments.fps:.4g} s"
     )
     return 0
 

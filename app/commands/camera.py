@@ -21,7 +21,7 @@ from app.commands.given_camera import (
     source_of,
     with_remedy,
 )
-from renderer.errors import LucidaError, one_line, visible
+from renderer.errors import LucidaError, errors_as, not_together, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -146,10 +146,8 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
 def _format(option: str, name: str) -> Format:
     from renderer.camera_formats import format_named
 
-    try:
+    with errors_as(option):
         return format_named(name)
-    except LucidaError as error:
-        raise LucidaError(option, error.problem, error.remedy) from None
 
 
 def _target(arguments: argparse.Namespace) -> Format | None:
@@ -160,7 +158,7 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     if arguments.to is None and output is None:
         return None
     if arguments.json:
-        raise LucidaError("--json", "is given beside --to or -o", "it says what INPUT is")
+        raise not_together("--json", "--to or -o", "it says what INPUT is")
     if arguments.to is None:
         ending = Path(output).suffix.lower()
         names = [entry.name for entry in FORMATS if ending in entry.endings]
@@ -191,7 +189,7 @@ def _input(arguments: argparse.Namespace) -> tuple[str, str | int]:
     for option, value in (("--image", arguments.image), ("--frame", arguments.frame)):
         if value is not None:
             if which:
-                raise LucidaError(option, f"is given beside #{which}", "give one of the two")
+                raise not_together(option, f"#{which}")
             return file, value
     return file, which
 

@@ -16,7 +16,7 @@ from app.commands import arguments as common
 from app.commands.asked_tasks import SIZE, all_tasks, asked_for, named, possible
 from app.commands.check_reports import pictures_of, write_json, write_page
 from app.commands.given_camera import add_view_option
-from renderer.errors import LucidaError, one_line, visible
+from renderer.errors import LucidaError, not_together, one_line, visible
 
 if TYPE_CHECKING:
     from app.checking.calls import Limits
@@ -195,8 +195,9 @@ def _check_arguments(arguments: argparse.Namespace) -> None:
     from renderer.atomic import check_writable
 
     if (arguments.file is None) == (arguments.command is None):
-        problem = "is missing" if arguments.file is None else "is given beside --command"
-        raise LucidaError("FILE", problem, "give a Python file, or --command")
+        if arguments.file is not None:
+            raise not_together("FILE", "--command")
+        raise LucidaError("FILE", "is missing", "give a Python file, or --command")
     if arguments.file is not None:
         _check_link(Path(arguments.file))
     for path in (arguments.json, arguments.html):

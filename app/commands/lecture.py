@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,8 +27,8 @@ It starts in presentation mode, for a hall: capitals are 1/50 of the window's he
 
 EPILOG = """\
 in the lecture:
-  Page Down, Right    uncover; next step    Page Up, Left       take back; previous step
-  Shift+Page Down     uncover all of it
+  Page Down, Right    on; ends a movement   Page Up, Left       back
+  R                   play the present build again
   End                 continue at the step where it was left last time, until you change steps
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              takes back changes, then the way to the step
@@ -37,6 +38,7 @@ A file is read again whenever it is saved. docs/lectures.md describes the format
 examples:
   lucida lecture
   lucida lecture my-lecture.toml
+  lucida lecture my-lecture.toml --step 3.2
   lucida lecture my-lecture.toml --check
   lucida lecture --export slides --size 1280x720
   lucida lecture --export lecture.html
@@ -71,6 +73,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write a page (-o) of a class's mistakes, from --answers or check --json",
     )
     parser.add_argument(
+        "--step",
+        type=_place,
+        default=(0, 0),
+        metavar="N",
+        help="begin at a step, or its build: N.B",
+    )
+    parser.add_argument(
         "--no-answers",
         action="store_true",
         help="with --export OUT.html or OUT.pdf: leave out answers and solutions",
@@ -88,6 +97,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="the window's size in pixels (--export: "
         f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]})",
     )
+
+
+def _place(text: str) -> tuple[int, int]:
+    """Return step and build from 0 of a text such as 3 or 3.2."""
+    numbers = re.fullmatch(r"([1-9]\d{0,3})(?:\.([1-9]\d?))?", text)
+    if numbers is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is no step; give 3, or 3.2 for a build of it")
+    return int(numbers[1]) - 1, int(numbers[2] or 1) - 1
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -128,7 +145,8 @@ def run(arguments: argparse.Namespace) -> int:
         size = arguments.size or EXPORT_SIZE
         with common.progress_bar("export") as progress:
             written = export_lecture(lecture, path, folder, size, progress)
-        common.say(f"{arguments.export}: {len(written)} pictures, {size[0]}x{size[1]}")
+        pictures = common.counted((len(written), "picture"))
+        common.say(f"{arguments.export}: {pictures}, {size[0]}x{size[1]}")
         return 0
     if arguments.results is not None:
         return _results(arguments, lecture)
@@ -139,7 +157,7 @@ def run(arguments: argparse.Namespace) -> int:
         from app.lecture.answer_log import AnswerLog
 
         log = AnswerLog(Path(arguments.answers))
-    return run_lecture(path, lecture, arguments.size, log=log)
+    return run_lecture(path, lecture, arguments.size, log, arguments.step)
 
 
 def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
@@ -173,11 +191,11 @@ def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     from renderer.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
-    for problem in problems:
-        print(f"lucida: {problem}", file=sys.stderr)
     if not answers:
         remedy = "give files of lucida lecture --answers, or of lucida check --json"
-        raise LucidaError("--results", "have no answers", remedy)
+        raise LucidaError("--results", "; ".join(problems) or "have no answers", remedy)
+    for problem in problems:
+        print(f"lucida: {problem}", file=sys.stderr)
     results = class_results(answers, [step.title for step in lecture.steps], problems)
     with atomic_write(arguments.output) as file:
         file.write(page(results).encode())

@@ -15,6 +15,7 @@ from app.commands.many import look_of, make_film
 from app.films.encoding import image_writer
 from app.films.film import Film
 from app.films.frames import Look, Shot
+from renderer.atomic import file_stem
 from renderer.camera import Camera, Size
 from renderer.camera_formats import Options, PosedCamera, read_cameras
 from renderer.errors import LucidaError, one_line
@@ -78,7 +79,8 @@ def render_all(arguments: argparse.Namespace) -> int:
     names = file_names(found.cameras)
     make_film(Film(Path(arguments.output), scene, shots, look, None, names), arguments, "images")
     print(
-        f"{one_line(arguments.output)}: {len(shots)} images, {arguments.channel}, "
+        f"{one_line(arguments.output)}: {common.counted((len(shots), 'image'))}, "
+        f"{arguments.channel}, "
         f"{arguments.renderer}, {time.perf_counter() - start_s:.1f} s"
     )
     return 0
@@ -88,10 +90,7 @@ def file_names(cameras: Sequence[PosedCamera]) -> list[str]:
     """Return names of files without an ending: those of the photographs, or else of the cameras;
     numbers if they are not all different.
     """
-    names = [
-        "".join(c if c.isalnum() or c in "._- " else "-" for c in Path(one.image or one.name).stem)
-        for one in cameras
-    ]
+    names = [file_stem(Path(one.image or one.name).stem, "._- ") for one in cameras]
     if "" in names or len({name.lower() for name in names}) < len(names):
         return [f"{number:06d}" for number in range(len(cameras))]
     return names

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _named(scene: Scene) -> list[str]:
     """Return a line for each model file that a scene reads, and each camera of its models."""
-    from renderer.errors import one_line
+    from renderer.errors import one_line, quoted
     from renderer.scene.outside import model_files, outside
 
     lines = []
@@ -69,7 +69,7 @@ def _named(scene: Scene) -> list[str]:
     for named in scene.views:
         camera = named.view.camera
         seen = f"{camera.projection} from {_vector(list(camera.eye))}"
-        lines.append(f"  camera {one_line(named.name)!r}: {seen}")
+        lines.append(f"  camera {quoted(named.name)}: {seen}")
     return lines
 
 
@@ -176,7 +176,7 @@ def _material(material: Material) -> dict[str, Any]:
 def as_text(told: dict[str, Any]) -> str:
     """Return the same as text."""
     from app.commands.arguments import counted
-    from renderer.errors import one_line
+    from renderer.errors import one_line, quoted
 
     objects, lights = told["objects"], told["lights"]
     shining = sum(not light["hidden"] for light in lights)
@@ -184,10 +184,10 @@ def as_text(told: dict[str, Any]) -> str:
     lines = [f"{told['name']}: {count}; {_box(told['bounds'])}"]
     for entry in objects:
         triangles = counted((entry["triangles"], "triangle")) if entry["triangles"] else "exact"
-        name = repr(one_line(entry["name"])) if entry["name"] else "-"
+        name = quoted(entry["name"]) if entry["name"] else "-"
         file = f" {one_line(entry['file'])}" if entry["file"] else ""
         material = entry["material_name"]
-        made = f"material {one_line(material)!r}" if material else _color(entry["material"])
+        made = f"material {quoted(material)}" if material else _color(entry["material"])
         made += _surface(entry["material"])
         lines.append(
             f"  {entry['id']:<3} {entry['type']}{file} {name}: {triangles}{_hidden(entry)}"
@@ -196,7 +196,7 @@ def as_text(told: dict[str, Any]) -> str:
     for number, light in enumerate(lights):
         place = "at" if light["type"] == "point" else "along"
         where = light.get("position") or light.get("direction")
-        name = f" {one_line(light['name'])!r}" if light["name"] else ""
+        name = f" {quoted(light['name'])}" if light["name"] else ""
         shown = f"{light['type']}{name} {place} {_vector(where)}, color {_vector(light['color'])}"
         lines.append(f"  light {'-' if light['hidden'] else number}: {shown}{_hidden(light)}")
     camera = told["camera"]

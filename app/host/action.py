@@ -37,6 +37,10 @@ class Around(Protocol):
 class Window(Host, Protocol):
     """The window for actions, which may ask more than views. shell: the parts around the views."""
 
+    @property
+    def present(self) -> AppState:
+        """The current state, without a movement to it."""
+
     def focus_object(self) -> None: ...
     def undo(self) -> None: ...
     def redo(self) -> None: ...

@@ -116,6 +116,18 @@ class Host(Protocol):
         of the outside camera if that is visible.
         """
 
+    def move(
+        self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
+    ) -> None:
+        """Make a state the current one, as an undo step, and show states between for some seconds.
+
+        They are never in the history: any change, and any press of the mouse, ends the movement.
+        loop: begin it again and again. start: None for the state that is shown.
+        """
+
+    def end_movement(self) -> bool:
+        """End such a movement. Return True if one was under way that would have ended by itself."""
+
     @property
     def travelling(self) -> bool:
         """True while such a transition is under way."""

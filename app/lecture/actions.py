@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.host.action import SHIFT, Action, Key, Window
+from app.host.action import Action, Key, Window
 from app.lecture.view import LectureView
 
 
@@ -42,11 +42,11 @@ LECTURE = (
     ),
     Action(
         "Lecture",
-        "Show all of the step",
-        lambda w: w.view(LectureView).show_all(w),
-        "Shift+Page Down",
-        (SHIFT | int(Key.page_down),),
-        can=lambda w: w.view(LectureView).covers,
+        "Play again",
+        lambda w: w.view(LectureView).play(w),
+        "R",
+        (int(Key.r),),
+        can=_restorable,
     ),
     Action(
         "Lecture",

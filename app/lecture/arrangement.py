@@ -36,12 +36,11 @@ class Arrangement:
 
 def _places(step: Step) -> dict[str, str]:
     """Return the dock spaces of a step's views: a large one for the main view, one below for a
-    second, or a small one below the text. The camera's panel is left of them; below them if only
+    second. The camera's panel is left of them; below them if only
     its section Lens is pointed out, which needs less room than a picture.
     """
     pictures = [name for name in step.views if name != "camera"]
-    second = layout.INSTRUMENTS if step.low else layout.LOWER_SPACE
-    spaces = dict(zip(pictures, (layout.MAIN, second), strict=False))
+    spaces = dict(zip(pictures, (layout.MAIN, layout.LOWER_SPACE), strict=False))
     if "camera" in step.views:
         is_below = step.highlight == ("lens",) and len(pictures) == 1
         spaces["camera"] = layout.LOWER_SPACE if is_below else layout.CAMERA_SPACE

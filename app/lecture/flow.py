@@ -13,7 +13,6 @@ from typing import Protocol
 
 from app.explaining.breaking import breakable, broken, narrowed
 from app.lecture.text import (
-    Answer,
     Block,
     Code,
     DisplayedFormula,
@@ -24,7 +23,6 @@ from app.lecture.text import (
     Paragraph,
     Question,
     Words,
-    stages,
 )
 
 # In parts of the text's size.
@@ -51,14 +49,13 @@ class PieceSize:
 class Piece:
     """A word, several, or a formula. size: of its text. style: "text", "bold", "vector" (a bold
     word alone, which may be one), "italic", "code" or "math" (of LaTeX). display: a formula by
-    itself. link: what a click asks for.
+    itself.
     """
 
     text: str
     style: str
     size: float
     display: bool = False
-    link: str = ""
 
 
 @dataclass(frozen=True)
@@ -66,26 +63,23 @@ class Placed:
     """A piece in its place: its left edge and its baseline.
 
     kind: of the block it is in.
-    stage: how much must be uncovered before it shows.
     """
 
     piece: Piece
     x: float
     baseline: float
     kind: str
-    stage: int = 0
 
 
 @dataclass(frozen=True)
 class Backdrop:
-    """The ground of a block, "code" or "question": left, top, right, bottom. stage: a piece's."""
+    """The ground of a block, "code" or "question": left, top, right, bottom."""
 
     kind: str
     left: float
     top: float
     right: float
     bottom: float
-    stage: int = 0
 
 
 @dataclass(frozen=True)
@@ -106,9 +100,9 @@ class Measure(Protocol):
 
 def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) -> Laid:
     """Lay out the blocks in a column. size: of the text."""
-    column = _Column(width, size, measure, stages(blocks))
+    column = _Column(width, size, measure)
     for number, block in enumerate(blocks):
-        if number and not isinstance(block, Answer):  # which goes on in the question's box
+        if number:
             column.y += PARAGRAPH * size
         column.block(block)
     right = max((p.x + measure(p.piece).width for p in column.pieces), default=0.0)
@@ -116,14 +110,13 @@ def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) 
 
 
 class _Column:
-    """Fills downwards from y. stages: of all blocks, the last is the answer's."""
+    """Fills downwards from y."""
 
-    def __init__(self, width: float, size: float, measure: Measure, stages: int) -> None:
+    def __init__(self, width: float, size: float, measure: Measure) -> None:
         self.y = 0.0
         self.pieces: list[Placed] = []
         self.boxes: list[Backdrop] = []
         self._width, self._size, self._measure = width, size, measure
-        self._stages, self._stage, self._items = stages, 0, 0
 
     def block(self, block: Block) -> None:
         size = self._size
@@ -132,15 +125,12 @@ class _Column:
                 self._lines(line, 0.0, HEADING_SIZE * size, "heading", bold=True)
             case Paragraph(line=line):
                 self._lines(line, 0.0, size, "text")
-            case Question(line=line) | Answer(line=line):
-                self._stage = self._stages if isinstance(block, Answer) else 0
+            case Question(line=line):
                 top = self.y
                 self.y += 0.35 * size
                 self._lines(line, ASIDE * size, size, "question")
                 self.y += 0.35 * size
-                box = Backdrop("question", 0.0, top, self._width, self.y, self._stage)
-                self.boxes.append(box)
-                self._stage = 0
+                self.boxes.append(Backdrop("question", 0.0, top, self._width, self.y))
             case ItemList():
                 self._listing(block)
             case Code(text=text):
@@ -159,14 +149,10 @@ class _Column:
         for number, item in enumerate(items):
             if number:
                 self.y += ITEM * size
-            if block.covered:
-                self._items += 1
-                self._stage = self._items
             first = len(self.pieces)
             self._lines(item, indent, size, "item")
             baseline = self.pieces[first].baseline if len(self.pieces) > first else self.y
             self._put(marks[number], indent - widths[number], baseline, "mark")
-        self._stage = 0
 
     def _formula(self, latex: str) -> None:
         """Lay out a formula; in several rows, broken at its signs, if it is too wide."""
@@ -240,7 +226,7 @@ class _Column:
         self.y = baseline + below + air
 
     def _put(self, piece: Piece, x: float, baseline: float, kind: str) -> None:
-        self.pieces.append(Placed(piece, x, baseline, kind, self._stage))
+        self.pieces.append(Placed(piece, x, baseline, kind))
 
 
 def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
@@ -255,7 +241,7 @@ def _atoms(line: Line, size: float, bold: bool) -> Iterator[list[Piece]]:
         is_whole = span.code and len(span.text) <= WHOLE_CODE
         for part in [span.text] if is_whole else re.findall(r"\s+|\S+", span.text):
             if not part.isspace():
-                atom.append(Piece(part, _style(span, bold), size, link=span.link))
+                atom.append(Piece(part, _style(span, bold), size))
             elif atom:
                 yield atom
                 atom = []

@@ -1,4 +1,4 @@
-"""The foot of the lecture's column: previous step, position, next step, the outline, reset."""
+"""The foot of the lecture's column: back, position, next step, the outline, reset."""
 
 from __future__ import annotations
 
@@ -6,47 +6,38 @@ from imgui_bundle import ImVec2, imgui
 
 from app.lecture.session import LectureSession
 
-BACK, NEXT, SHOW_ALL = "back", "next", "Show all"
+BACK, NEXT = "back", "next"
 RESTORE = "Reset step"
-BRIEF = "All", "Reset"  # their names where all buttons would not be in one row
+BRIEF = "Reset"  # its name where all buttons would not be in one row
 END = "End the lecture"
 STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
 
 
 def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
-    """Draw the foot. Return the number of the step to go to, BACK, NEXT, SHOW_ALL, RESTORE, END, or
-    None.
+    """Draw the foot. Return the number of the step to go to, BACK, NEXT, RESTORE, END, or None.
 
     is_as_given: state and views are the step's own, so that there is nothing to reset.
     """
-    number, count = session.number, len(session.lecture.steps)
-    uncovered, covers = session.uncovered, session.uncovered < session.step.stages
-    size, asked = imgui.get_font_size(), None
-    show_all, restore, rows = _labels(imgui.get_content_region_avail().x)
-    imgui.begin_disabled(number == uncovered == 0)
+    count, size, asked = len(session.lecture.steps), imgui.get_font_size(), None
+    is_first, is_last = session.ends
+    restore, rows = _label(imgui.get_content_region_avail().x)
+    imgui.begin_disabled(is_first)
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
         asked = BACK
     imgui.end_disabled()
-    imgui.set_item_tooltip(f"{'Cover the last again' if uncovered else 'Previous step'} (Page Up)")
+    imgui.set_item_tooltip("Back (Page Up)")
     imgui.same_line()
-    if imgui.button(f"{number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
+    if imgui.button(f"{session.number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
         imgui.open_popup("outline")
     imgui.set_item_tooltip("All steps")
     imgui.same_line()
-    imgui.begin_disabled(number == count - 1 and not covers)
+    imgui.begin_disabled(is_last)
     if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
         asked = NEXT
     imgui.end_disabled()
-    more = f"{session.step.stages - uncovered} more to uncover" if covers else "Next step"
-    imgui.set_item_tooltip(f"{more} (Page Down)")
+    imgui.set_item_tooltip("On (Page Down)")
     if rows == 1:
         imgui.same_line()
-    imgui.begin_disabled(not covers)
-    if imgui.button(f"{show_all}###all"):
-        asked = SHOW_ALL
-    imgui.end_disabled()
-    imgui.set_item_tooltip("Uncover all of this step (Shift+Page Down)")
-    imgui.same_line()
     imgui.begin_disabled(is_as_given)
     if imgui.button(f"{restore}###restore"):
         asked = RESTORE
@@ -58,7 +49,7 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
 
 def foot_height(width: float) -> float:
     """Return the height of the foot in a column of that width."""
-    rows = _labels(width)[2]
+    rows = _label(width)[1]
     spacing = imgui.get_style().item_spacing.y
     return float(rows * imgui.get_frame_height_with_spacing() + spacing)
 
@@ -86,12 +77,11 @@ def _walking_px() -> float:
     return (2 * STEP_EM + PLACE_EM) * imgui.get_font_size() + 2 * imgui.get_style().item_spacing.x
 
 
-def _labels(width: float) -> tuple[str, str, int]:
-    """Return the names of the last two buttons in a foot of that width, and the number of rows."""
+def _label(width: float) -> tuple[str, int]:
+    """Return the name of the last button in a foot of that width, and the number of rows."""
     style = imgui.get_style()
-    for labels in ((SHOW_ALL, RESTORE), BRIEF):
-        texts = sum(imgui.calc_text_size(name).x for name in labels)
-        others = texts + 4 * style.frame_padding.x + 2 * style.item_spacing.x
-        if _walking_px() + others <= width:
-            return (*labels, 1)
-    return SHOW_ALL, RESTORE, 2
+    for name in (RESTORE, BRIEF):
+        other = imgui.calc_text_size(name).x + 2 * style.frame_padding.x + style.item_spacing.x
+        if _walking_px() + other <= width:
+            return name, 1
+    return RESTORE, 2

@@ -8,7 +8,7 @@ from __future__ import annotations
 from app.lecture.hiding import HideExercise, Ids
 from app.lecture.model import Lecture
 from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, errors_as
 from renderer.scene.model import Scene
 
 SIZE = (960, 720)  # of the images that answers are tried in
@@ -45,10 +45,8 @@ def _check(task: HideExercise) -> None:
     if task.check(task.scene, ids_seen(task.scene, camera, SIZE), alone).right:
         problem = f"{task.hidden!r} is hidden before anything is moved"
         raise LucidaError("object", problem, "put the object elsewhere in the scene")
-    try:
+    with errors_as("answer"):
         there = task.solved(task.scene)
-    except LucidaError as error:
-        raise LucidaError("answer", error.problem, error.remedy) from None
     judged = task.check(there, ids_seen(there, camera, SIZE), alone)
     if not judged.right:
         problem = f"is not correct: {judged.text}"

@@ -9,7 +9,7 @@ from app.lecture.view import LectureView
 SYNONYMS = {
     "Next step": "slide",
     "Previous step": "slide previous",
-    "Show all of the step": "reveal uncover answer bullets",
+    "Play again": "animation movement repeat",
     "Lecture": "slides lesson tutorial course",
 }
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from app.lecture.exercises import AskedExercise
 from app.lecture.hiding import HideExercise
-from app.lecture.text import Block, stages
+from app.lecture.text import Block
 from renderer.scene.model import Scene, View
 from renderer.scene.noting import Noted
 
@@ -17,38 +18,39 @@ Exercise = AskedExercise | HideExercise
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """A step of a lecture.
+    """A step of a lecture, at one of its builds.
 
+    number, build: from 0.
     part: the part of the lecture that it belongs to.
+    before: the part of the text that the build before shows already.
     views: the names of the views to show, the main one first.
-    low: the second is a small one, below the text.
     options: changes of the default options, by part.
-    links: changes that a link in the text makes, by its name.
     pixel: the marked one, (row, column), 0-based.
     highlight: the names of controls to point out.
-    line: where the step begins in the file.
+    exercise: of the step's last build; otherwise None.
+    move_s: how long the movement from the build before takes; 0 for a cut.
+    loop: the movement begins again until the next key.
+    line: where it begins in the file.
     """
 
+    number: int
+    build: int
     title: str
     part: str
     text: str
-    blocks: tuple[Block, ...]  # with the answer to its question
+    blocks: tuple[Block, ...]
+    before: tuple[Block, ...]
     notes: tuple[Block, ...]  # for the lecturer
     scene: Scene
     view: View
     views: tuple[str, ...]
-    low: bool
     options: dict[str, Any]
-    links: dict[str, dict[str, Any]]
     pixel: tuple[int, int] | None
     highlight: tuple[str, ...]
     exercise: Exercise | None
+    move_s: float
+    loop: bool
     line: int
-
-    @property
-    def stages(self) -> int:
-        """The number of times that Page Down uncovers something before it goes on."""
-        return stages(self.blocks)
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +67,7 @@ class Written:
 class Lecture:
     """A lecture.
 
+    builds: of all steps, one after another, as they are shown.
     source: its file.
     formulas: all of them, in the file's order.
     outside: files outside its folder that the user has agreed to.
@@ -74,26 +77,42 @@ class Lecture:
 
     title: str
     author: str
-    steps: tuple[Step, ...]
+    builds: tuple[Step, ...]
     source: str
     formulas: tuple[Written, ...] = ()
     outside: tuple[Path, ...] = ()
     files: Noted = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps, each at its first build."""
+        return tuple(one for one in self.builds if one.build == 0)
+
+    def place(self, number: int, build: int = 0) -> int:
+        """Return the place of a step's build among all builds; the nearest one if it has left."""
+        wanted = min(max(number, 0), self.builds[-1].number), build
+        later = (place for place, one in enumerate(self.builds) if (one.number, one.build) > wanted)
+        return max(0, next(later, len(self.builds)) - 1)
+
+    def count(self, number: int) -> int:
+        """Return the number of builds that a step has."""
+        return sum(one.number == number for one in self.builds)
+
     def outline(self) -> list[tuple[str, list[int]]]:
         """Return the parts in order, each with the numbers of its steps, from 0."""
         parts: list[tuple[str, list[int]]] = []
-        for number, step in enumerate(self.steps):
+        for step in self.steps:
             if not parts or parts[-1][0] != step.part:
                 parts.append((step.part, []))
-            parts[-1][1].append(number)
+            parts[-1][1].append(step.number)
         return parts
 
     def explaining(self, step: Step) -> str:
         """Return the title of the step before an exercise that explains it."""
-        before = self.steps[: self.steps.index(step)]
-        return next((one.title for one in reversed(before) if one.exercise is None), step.title)
+        asking = {one.number for one in self.builds if one.exercise is not None}
+        before = self.steps[: step.number]
+        return next((one.title for one in reversed(before) if one.number not in asking), step.title)
 
     def nearest(self, title: str, number: int) -> int:
         """Return the number of the nearest step of that title; if there is none, the same number.

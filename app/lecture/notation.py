@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 from app.explaining import symbols
+from app.lecture.model import Step
 from app.lecture.text import (
     Block,
     Code,
@@ -69,21 +70,26 @@ def _span(span: Span, notation: Notation) -> Span:
     return span._replace(text=symbols.vector(span.text, notation)) if span.bold else span
 
 
-def explained(texts: Iterable[tuple[Block, ...]]) -> tuple[tuple[Block, ...], ...]:
-    """Return a lecture's texts. The first that has a letter as a vector and as a number says so."""
-    out = list(texts)
-    for number, blocks in enumerate(out):
-        if twice := sorted(_vectors(blocks) & _scalars(blocks)):
-            letter = twice[0]
-            line = (
-                Words("Bold and upright, a letter is a vector; in italics, a number: "),
-                Words(letter, bold=True),
-                Words(" is not "),
-                Math(letter),
-                Words("."),
-            )
-            out[number] = (*blocks, TwiceUsed(line))
-            break
+def explained(builds: Sequence[Step]) -> tuple[Step, ...]:
+    """Return a lecture's builds. The first text that has a letter as a vector and as a number says
+    so, also in the later builds of its step.
+    """
+    out = list(builds)
+    found: Step | None = None
+    for place, build in enumerate(out):
+        twice = sorted(_vectors(build.blocks) & _scalars(build.blocks))
+        if not twice or (found is not None and build.number != found.number):
+            continue
+        letter = twice[0]
+        line = (
+            Words("Bold and upright, a letter is a vector; in italics, a number: "),
+            Words(letter, bold=True),
+            Words(" is not "),
+            Math(letter),
+            Words("."),
+        )
+        found = build
+        out[place] = replace(build, blocks=(*build.blocks, TwiceUsed(line)))
     return tuple(out)
 
 

@@ -6,17 +6,23 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+import msgspec
 
 from app.checking.task_file import check_known
 from app.lecture import text as texts
+from app.lecture.inheriting import inherited
 from app.lecture.model import Lecture, Step, Written
 from app.lecture.notation import explained
+from app.lecture.old_format import REMEDY, fields_of, old_builds
 from app.lecture.reading_exercises import exercise_of, pixel_of
 from app.lecture.schema import (
+    DEFAULT_VIEWS,
     HIGHLIGHTS,
     PANEL,
     VIEWS,
+    BuildTable,
     LectureFile,
     StepTable,
 )
@@ -40,8 +46,12 @@ from renderer.scene.views import load_view, view_from_table
 
 BUILTIN = Path(__file__).parents[1] / "lectures" / "images-rays-cameras.toml"
 STEPS = 1000
+BUILDS = 20  # of a step
+MOVE_S = 60
 PIECES = 20_000  # of a lecture's texts: formulas, and runs of words in one style; a slide has ten
 TITLE_LETTERS = 300
+Blocks = tuple[texts.Block, ...]
+Table = TypeVar("Table", StepTable, BuildTable)
 _STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.MULTILINE)
 
 
@@ -115,6 +125,7 @@ class _LectureReader:
         self._indexing = Indexing.LECTURE
         self._notation: Notation | None = None
         self._notes: list[str] = []
+        self._old = ""  # the line about the first field of an older format
         self._at = ""  # the field of the step that is being read
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
@@ -129,7 +140,7 @@ class _LectureReader:
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
                 self._keep(name, self._own_scene(scene, name))
-        steps: list[Step] = []
+        builds: list[Step] = []
         written: list[Written] = []
         part, pieces = "", 0
         for number, table in enumerate(file.steps):
@@ -138,7 +149,7 @@ class _LectureReader:
             part = entry.part or part
             self._at = field
             with under(field):
-                steps.append(self._step(entry, part, self._places.line(field)))
+                builds += self._builds(entry, part, number)
             pieces += pieces_written(table)
             if pieces > PIECES:
                 raise LucidaError(
@@ -147,15 +158,12 @@ class _LectureReader:
                     "divide it into several lectures",
                 )
             written += formulas_written(table, field, self._places, self._source)
-        texts_of = explained(step.blocks for step in steps)
-        steps = [
-            step if step.blocks is blocks else replace(step, blocks=blocks)
-            for step, blocks in zip(steps, texts_of, strict=True)
-        ]
+        if self._old:
+            self._notes.insert(0, self._old)
         return Lecture(
             file.title,
             file.author,
-            tuple(steps),
+            explained(builds),
             self._source,
             tuple(written),
             notes=tuple(self._notes),
@@ -165,15 +173,13 @@ class _LectureReader:
         """Yield the files that the lecture names itself: models, scenes, views."""
         entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
         names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
-        for step in file.steps:
-            if isinstance(step, dict):
-                scene = step.get("scene")
+        builds = [build for step in file.steps for build in _builds_of(step)]
+        for table in (*file.steps, *builds):
+            if isinstance(table, dict):
+                scene = table.get("scene")
                 inside = scene in file.scenes or scene in BUILTIN_SCENES
-                names += [None if inside else scene, step.get("camera")]
-                names += files_named(step.get("options"))
-                links = step.get("links")
-                for table in links.values() if isinstance(links, dict) else ():
-                    names += files_named(table)
+                names += [None if inside else scene, table.get("camera")]
+                names += files_named(table.get("options"))
         return (self._folder / name for name in names if isinstance(name, str))
 
     def _keep(self, name: str, scene: Scene) -> None:
@@ -192,52 +198,100 @@ class _LectureReader:
             raise LucidaError("", "is not a table", f"write it as [scenes.{name}]")
         return scene_from_tables(table, self._folder, name)
 
-    def _step(self, table: StepTable, part: str, line: int) -> Step:
+    def _builds(self, table: StepTable, part: str, number: int) -> list[Step]:
+        """Return all builds of a step; the step's own fields are the first."""
         _check_title("title", table.title, "the step's title")
         if table.part:
             _check_title("part", table.part, "the part's title")
-        with under("text"):
-            blocks = texts.parse(table.text)
+        if len(table.builds) >= BUILDS:
+            raise LucidaError("builds", f"holds {len(table.builds)}", f"give fewer than {BUILDS}")
         with under("notes"):
             notes = texts.parse(table.notes)
-        if table.answer:
-            blocks = texts.with_answer(blocks, table.answer)
-        if table.reveal:
-            blocks = texts.with_covered_items(blocks)
+        with under("text"):
+            texts.parse(table.text)
+        given = self._present(table)
+        first = self._build(given)
+        first = replace(first, number=number, part=part, notes=notes)
+        builds = [
+            replace(first, blocks=blocks, before=before)
+            for before, blocks in self._old_builds(table, first.blocks)
+        ]
+        for place, entry in enumerate(table.builds):
+            self._at = f"steps[{number}].builds[{place}]"
+            build: BuildTable = to_struct(entry, BuildTable, f"builds[{place}]")
+            with under(f"builds[{place}]"):
+                _check_build(build)
+                given = inherited(given, self._present(build), builds[-1].view)
+                at = self._build(given)
+            before = () if build.instead else builds[-1].blocks
+            builds.append(
+                replace(
+                    at,
+                    number=number,
+                    part=part,
+                    notes=notes,
+                    before=before,
+                    move_s=build.move_s,
+                    loop=build.loop,
+                )
+            )
+        last = builds[-1]
+        if table.exercise is not None:
+            with under("exercise"):
+                task = exercise_of(table.exercise, last.scene, last.view, self._indexing)
+            builds[-1] = replace(last, exercise=task)
+        return [replace(one, build=build) for build, one in enumerate(builds)]
+
+    def _old_builds(self, table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
+        """Return the texts of a step that may be of an older format, with what stays before."""
+        old = fields_of(table)
+        if not old or table.builds:
+            return [((), blocks)]
+        if not self._old:
+            field = f"{self._at}.{old[0]}"
+            self._old = f"{self._source}:{self._places.line(field)}: {field}: {REMEDY}"
+        return old_builds(table, blocks)
+
+    def _build(self, table: StepTable) -> Step:
+        """Return a step at a build, from its table there. The caller knows the rest."""
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
-            options = self._options(table.options, "options")
-        with under("links"):
-            links = self._links(table.links, texts.links(blocks))
+            options = self._options(table.options)
         resolution = options.get("images", {}).get("resolution")
-        exercise = None
-        if table.exercise is not None:
-            with under("exercise"):
-                exercise = exercise_of(table.exercise, scene, view, self._indexing)
+        pixel = table.pixel
         return Step(
-            table.title,
-            part,
-            table.text,
-            blocks,
-            notes,
-            scene,
-            view,
-            _views(self._present_views(table.views)),
-            table.low,
-            options,
-            links,
-            None if table.pixel is None else pixel_of(table.pixel, resolution, self._indexing),
-            _highlight(table.highlight),
-            exercise,
-            line,
+            number=0,
+            build=0,
+            title=table.title,
+            part="",
+            text=table.text,
+            blocks=texts.parse(table.text),
+            before=(),
+            notes=(),
+            scene=scene,
+            view=view,
+            views=_views(table.views),
+            options=options,
+            pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
+            highlight=_highlight(table.highlight),
+            exercise=None,
+            move_s=0.0,
+            loop=False,
+            line=self._places.line(self._at),
         )
 
-    def _present_views(self, names: list[str]) -> list[str]:
-        """Return the views that have not left; the default ones if all of them have."""
-        kept, lines = without_removed_views(names)
-        self._note("views", lines)
-        return kept or StepTable(title="").views
+    def _present(self, table: Table) -> Table:
+        """Return a table without options and views that have left."""
+        options, lines = without_removed(table.options)
+        self._note("options", lines)
+        views = table.views
+        if views is not None:
+            views, lines = without_removed_views(views)
+            self._note("views", lines)
+        return msgspec.structs.replace(
+            table, options=options, views=views if views or table.views is None else DEFAULT_VIEWS
+        )
 
     def _note(self, field: str, lines: list[str]) -> None:
         """Keep lines about a field of the present step, with their place in the file."""
@@ -245,11 +299,9 @@ class _LectureReader:
         where = f"{self._source}:{self._places.line(field)}: {field}"
         self._notes += [f"{where}: {line}" for line in lines]
 
-    def _options(self, tables: dict[str, Any], field: str) -> dict[str, Any]:
+    def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
         """Return the step's options. Pixels are counted in the same way in all steps."""
-        present, lines = without_removed(tables)
-        self._note(field, lines)
-        options = with_files(options_from_table(present), self._folder)
+        options = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
         if self._notation is not None:
             options = {"notation": self._notation} | options
@@ -262,19 +314,6 @@ class _LectureReader:
                 "leave it out; pixels_from, beside the title, holds for the whole lecture",
             )
         return options
-
-    def _links(self, tables: dict[str, Any], named: tuple[str, ...]) -> dict[str, Any]:
-        """Return the links. named: those in the text."""
-        for name in named:
-            if name not in tables:
-                raise LucidaError(
-                    name, "is missing", f"give options, e.g. links.{name}.shadows = true"
-                )
-        links = {}
-        for name, table in tables.items():
-            with under(name):
-                links[name] = self._options(table, f"links.{name}")
-        return links
 
     def _scene(self, name: str) -> Scene:
         if name not in self._scenes:
@@ -298,6 +337,24 @@ class _LectureReader:
             return load_view(self._folder / camera)
         except LucidaError as error:
             raise error.of_file_in("camera") from None
+
+
+def _builds_of(table: Any) -> list[Any]:
+    """Return the tables of a step's builds, which have not been checked yet."""
+    entries = table.get("builds") if isinstance(table, dict) else None
+    return entries if isinstance(entries, list) else []
+
+
+def _check_build(build: BuildTable) -> None:
+    if build.text and build.instead:
+        raise LucidaError("instead", "is given beside text", "give one of them")
+    if not 0 <= build.move_s <= MOVE_S:
+        raise LucidaError("move_s", f"{build.move_s:g} is out of range", f"give 0 to {MOVE_S}")
+    if build.loop and not build.move_s:
+        raise LucidaError("loop", "has no movement to repeat", "give move_s above 0")
+    for name in ("text", "instead"):
+        with under(name):
+            texts.parse(getattr(build, name))
 
 
 def _objects_of(table: Any) -> list[Any]:

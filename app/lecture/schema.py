@@ -17,6 +17,7 @@ from renderer.scene.schema import Numbers3, StrictTable
 # What a step can show. A view of the window has the name with a capital.
 VIEWS = tuple(name for room in ROOMS for name in room.views)
 PANEL = "camera"  # may stand beside them
+DEFAULT_VIEWS = ["raster"]
 
 # What a step can point out: fields of the camera's panel, and views.
 HIGHLIGHTS = (
@@ -37,29 +38,49 @@ HIGHLIGHTS = (
 class StepTable(StrictTable):
     """[[steps]].
 
-    answer: to the last question of the text, uncovered last.
-    low: the second view is a small one below the text.
-    links: options that a click on a link in the text shows, by its name.
     notes: for the lecturer, in the notes window of an exported page.
-    reveal: the items of the text's lists are uncovered one by one.
     pixel: the marked pixel, row and column, counted as the lecture does.
+    exercise: asked in the last build.
+    reveal, answer, links, low: of the format before builds, see old_format.py.
     """
 
     title: str
     part: str = ""
     text: str = ""
-    answer: str = ""
     notes: str = ""
-    reveal: bool = False
     scene: str = ""
     camera: dict[str, Any] | str | None = None
-    views: list[str] = field(default_factory=lambda: ["raster"])
-    low: bool = False
+    views: list[str] = field(default_factory=DEFAULT_VIEWS.copy)
     options: dict[str, Any] = field(default_factory=dict)
-    links: dict[str, dict[str, Any]] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
     highlight: list[str] = field(default_factory=list)
     exercise: dict[str, Any] | None = None
+    builds: list[Any] = field(default_factory=list)
+    reveal: bool = False
+    answer: str = ""
+    links: dict[str, Any] = field(default_factory=dict)
+    low: bool = False
+
+
+class BuildTable(StrictTable):
+    """[[steps.builds]]: what changes in a step. What it leaves out stays as in the build before.
+
+    text: added below the text so far. instead: takes the place of that text.
+    camera, options: the fields that change.
+    move_s: how long the window shows states between the last build and this one.
+    loop: the movement begins again until the next key.
+    """
+
+    text: str = ""
+    instead: str = ""
+    scene: str = ""
+    camera: dict[str, Any] | str | None = None
+    views: list[str] | None = None
+    options: dict[str, Any] = field(default_factory=dict)
+    pixel: tuple[int, int] | None = None
+    highlight: list[str] | None = None
+    move_s: float = 0.5
+    loop: bool = False
 
 
 class RayTable(StrictTable, tag_field="kind", tag="ray"):

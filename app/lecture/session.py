@@ -31,15 +31,19 @@ class LectureSession:
     """
 
     def __init__(
-        self, lecture: Lecture, path: Path, number: int = 0, left: KeptLecture | None = None
+        self,
+        lecture: Lecture,
+        path: Path,
+        at: tuple[int, int] = (0, 0),
+        left: KeptLecture | None = None,
     ) -> None:
-        self.lecture, self.path, self.number = lecture, path, number
+        self.lecture, self.path = lecture, path
+        self._at = lecture.place(*at)
         self.left = left
-        if left is None or left.file != _file(path) or self.left_at(left) == number:
+        if left is None or left.file != _file(path) or self.left_at(left) == at[0]:
             self.left = None
         self.error = ""
         self._answers: dict[str, Answers] = {}
-        self._uncovered: dict[int, int] = {}  # by steps
         self.watch = FilesWatch({path.absolute(): stamp(path), **lecture.files})
         self._fingerprint = fingerprint(path)
 
@@ -62,8 +66,7 @@ class LectureSession:
 
     def go_on(self, kept: KeptLecture) -> None:
         """Go to the step at which a sitting ended, with its answers."""
-        self.number, self.left = self.left_at(kept), None
-        self._uncovered[self.number] = kept.uncovered
+        self._at, self.left = self.lecture.place(self.left_at(kept), kept.build), None
         changed = self.differs_from(kept)
         for title, answers in kept.answers.items():
             verdict = None if changed else answers.verdict
@@ -88,62 +91,62 @@ class LectureSession:
             state.step == self.place and state.scene is self.step.scene,
             answers,
             tuple(stored(str(file)) for file in self.lecture.outside),
-            self.uncovered,
+            self.step.build,
         )
 
     @property
     def step(self) -> Step:
-        return self.lecture.steps[self.number]
+        """The current step at its current build."""
+        return self.lecture.builds[self._at]
 
     @property
-    def place(self) -> tuple[str, int]:
-        """The lecture and the step, as states name them."""
-        return self.lecture.source, self.number
+    def number(self) -> int:
+        """The number of the current step, from 0."""
+        return self.step.number
+
+    @property
+    def place(self) -> tuple[str, int, int]:
+        """The lecture, the step and the build, as states name them."""
+        return self.lecture.source, self.step.number, self.step.build
 
     @property
     def answers(self) -> Answers:
         """The answers to the current step."""
         return self._answers.setdefault(self.step.title, Answers())
 
-    def go(self, number: int) -> bool:
-        """Go to a step, the first or the last for a number beyond. Return True if it is another.
-
-        An earlier step shows all that it covers.
-        """
-        number = min(max(number, 0), len(self.lecture.steps) - 1)
-        if number < self.number:
-            self._uncovered[number] = self.lecture.steps[number].stages
-        moved, self.number = number != self.number, number
-        if moved:
-            self.left = None
-        return moved
-
     @property
-    def uncovered(self) -> int:
-        """The part of the current step that is uncovered."""
-        return min(self._uncovered.get(self.number, 0), self.step.stages)
+    def ends(self) -> tuple[bool, bool]:
+        """True if this is the first build of the lecture; if it is the last one."""
+        return self._at == 0, self._at == len(self.lecture.builds) - 1
 
-    def uncover(self, stages: int) -> bool:
-        """Uncover more of the step, or cover it again by a negative number. Return True if that
-        changes it.
-        """
-        before = self.uncovered
-        self._uncovered[self.number] = min(max(before + stages, 0), self.step.stages)
-        return self.uncovered != before
+    def go(self, number: int, build: int = 0) -> bool:
+        """Go to a build of a step, or to the nearest one. Return True if it is another."""
+        return self._to(self.lecture.place(number, build))
+
+    def walk(self, builds: int) -> bool:
+        """Go some builds on, or back. Return True if that leads to another one."""
+        return self._to(min(max(self._at + builds, 0), len(self.lecture.builds) - 1))
+
+    def _to(self, place: int) -> bool:
+        if place == self._at:
+            return False
+        if self.lecture.builds[place].number != self.number:
+            self.left = None
+        self._at = place
+        return True
 
     def take(self, lecture: Lecture) -> None:
         """Continue in a newer version, at the same step. Replies to questions that are no longer
         the same, or count pixels in another way, are dropped; what was typed stays.
         """
-        uncovered = self.uncovered
         before, after = (
-            {step.title: step.exercise for step in one.steps} for one in (self.lecture, lecture)
+            {step.title: step.exercise for step in one.builds} for one in (self.lecture, lecture)
         )
         for title, answers in self._answers.items():
             if before.get(title) != after.get(title):
                 answers.verdict = None
-        self.number = lecture.nearest(self.step.title, self.number)
-        self._uncovered = {self.number: uncovered}
+        number = lecture.nearest(self.step.title, self.number)
+        self._at = lecture.place(number, self.step.build)
         self.lecture, self.error = lecture, ""
         self.watch.follow(lecture.files)
         self._fingerprint = fingerprint(self.path)

@@ -78,16 +78,6 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
     return changes
 
 
-def taken_back(changes: dict[str, Any], options: AllOptions) -> dict[str, Any]:
-    """Return changes of the same options to their values in `options`."""
-    return {
-        name: {field: getattr(getattr(options, name), field) for field in value}
-        if isinstance(value, dict)
-        else getattr(options, name)
-        for name, value in changes.items()
-    }
-
-
 def files_named(tables: Any) -> Iterator[str]:
     """Yield the files that a step's options name, even if something else is wrong with them."""
     for kind, _, part in _with_files(tables if isinstance(tables, dict) else {}):

@@ -1,9 +1,8 @@
 r"""Markdown with formulas, into blocks to draw.
 
 A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
-**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. [words](#name) is a link that
-shows other options. \$ is a dollar sign. Of a program in two languages (```python, ```julia, one
-after the other), one is shown.
+**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. \$ is a dollar sign. Of a program
+in two languages (```python, ```julia, one after the other), one is shown.
 """
 
 from __future__ import annotations
@@ -11,22 +10,21 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 from app.explaining.languages import LANGUAGES
-from renderer.errors import LucidaError, under
+from renderer.errors import LucidaError
 
 
 class Words(NamedTuple):
-    """A run of text in one style. link: the options that a click on it shows, by their name."""
+    """A run of text in one style."""
 
     text: str
     bold: bool = False
     italic: bool = False
     code: bool = False
-    link: str = ""
 
 
 class Math(NamedTuple):
@@ -58,19 +56,11 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answer:
-    """The answer to the question before it, which is uncovered last."""
-
-    line: Line
-
-
-@dataclass(frozen=True)
 class ItemList:
-    """A list; numbered from 1, or with bullets. covered: its items are uncovered one by one."""
+    """A list; numbered from 1, or with bullets."""
 
     items: tuple[Line, ...]
     numbered: bool = False
-    covered: bool = False
 
 
 @dataclass(frozen=True)
@@ -88,7 +78,7 @@ class DisplayedFormula:
     latex: str
 
 
-Block = Heading | Paragraph | Question | Answer | ItemList | Code | DisplayedFormula
+Block = Heading | Paragraph | Question | ItemList | Code | DisplayedFormula
 
 
 class TextError(LucidaError):
@@ -98,8 +88,8 @@ class TextError(LucidaError):
         super().__init__("", problem, remedy)
         self.line = line
 
-    def within(self, prefix: str) -> TextError:
-        self.field = super().within(prefix).field
+    def within(self, prefix: str, sign: str = ".") -> TextError:
+        self.field = super().within(prefix, sign).field
         return self
 
 
@@ -136,36 +126,13 @@ def parse(text: str) -> tuple[Block, ...]:
     return tuple(_blocks(text.splitlines()))
 
 
-def with_answer(blocks: tuple[Block, ...], answer: str) -> tuple[Block, ...]:
-    """Return the text with the answer to its last question. Raises LucidaError."""
-    asked = [number for number, block in enumerate(blocks) if isinstance(block, Question)]
-    if not asked:
-        raise LucidaError(
-            "answer", "answers no question", "begin a line of the text with >, or leave it out"
-        )
-    with under("answer"):
-        parsed = parse(answer)
-    if len(parsed) != 1 or not isinstance(parsed[0], Paragraph):
-        raise LucidaError("answer", "is not one paragraph", "give a sentence or two")
-    after = asked[-1] + 1
-    return (*blocks[:after], Answer(parsed[0].line), *blocks[after:])
-
-
-def with_covered_items(blocks: tuple[Block, ...]) -> tuple[Block, ...]:
-    """Return the text with its lists covered. Raises LucidaError if it has none."""
-    if not any(isinstance(block, ItemList) for block in blocks):
-        raise LucidaError(
-            "reveal", "has no list to uncover", "begin lines of the text with -, or leave it out"
-        )
-    return tuple(
-        replace(block, covered=True) if isinstance(block, ItemList) else block for block in blocks
-    )
-
-
-def stages(blocks: tuple[Block, ...]) -> int:
-    """Count what is uncovered one by one: the items of covered lists, then the answer."""
-    items = sum(len(b.items) for b in blocks if isinstance(b, ItemList) and b.covered)
-    return items + any(isinstance(block, Answer) for block in blocks)
+def extended(text: str, more: str) -> str:
+    """Return a text with more below it. A list at its end continues in a list that begins it."""
+    text, more = text.rstrip(), more.lstrip()
+    last = text.rpartition("\n\n")[2].lstrip()
+    items = _ITEM.match(last), _ITEM.match(more)
+    goes_on = items[0] and items[1] and bool(items[0][1]) == bool(items[1][1])
+    return f"{text}\n{more}" if goes_on else f"{text}\n\n{more}"
 
 
 def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
@@ -200,12 +167,6 @@ def formulas(blocks: tuple[Block, ...]) -> tuple[str, ...]:
     """Return all formulas of a text, as LaTeX."""
     parts = (part for block in blocks for part in _parts(block))
     return tuple(part.latex for part in parts if isinstance(part, Math | DisplayedFormula))
-
-
-def links(blocks: tuple[Block, ...]) -> tuple[str, ...]:
-    """Return the names that a text's links ask for."""
-    parts = (part for block in blocks for part in _parts(block))
-    return tuple(part.link for part in parts if isinstance(part, Words) and part.link)
 
 
 def pieces(blocks: tuple[Block, ...]) -> int:
@@ -328,7 +289,7 @@ def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> 
         elif kind == "slanted":
             yield from _spans(inner, number, bold, True)
         elif kind == "link":
-            yield Words(match["linked"], bold, italic, link=inner)
+            yield Words(match["linked"], bold, italic)  # a link of an older format
         else:
             yield Words(inner, bold, italic, code=kind == "code")
     if at < len(text):

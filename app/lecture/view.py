@@ -22,14 +22,14 @@ from app.lecture.answer_note import note, note_height
 from app.lecture.arrangement import Arrangement
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
-from app.lecture.foot import BACK, END, NEXT, RESTORE, SHOW_ALL, foot, foot_height
+from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.invitation import continuation, invitation
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
-from app.lecture.step_options import is_own, own, state_of, taken_back
+from app.lecture.step_options import is_own, own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.outside.growing import stage_at, stages_of
@@ -47,6 +47,7 @@ from renderer.errors import LucidaError
 from renderer.memo import Memo
 
 LECTURE = "Lecture"
+FADE_S = 0.5  # of a text that is added
 
 
 class LectureView(DockedView):
@@ -73,7 +74,8 @@ class LectureView(DockedView):
         self._arrangement = Arrangement()
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
-        self._seek = False  # it is scrolled to what was just uncovered
+        self._seek = False  # the text is scrolled to what was just added
+        self._added_s: float | None = None  # when that was, while it fades in
         self._drawn_answer = DrawnAnswer()
         self._is_own = Memo(is_own)
 
@@ -89,13 +91,17 @@ class LectureView(DockedView):
     # What actions and buttons ask for.
 
     def give(
-        self, lecture: Lecture, path: Path, number: int = 0, left: KeptLecture | None = None
+        self,
+        lecture: Lecture,
+        path: Path,
+        at: tuple[int, int] = (0, 0),
+        left: KeptLecture | None = None,
     ) -> None:
-        """Begin a lecture at a step, in the next frame.
+        """Begin a lecture at a build of a step, in the next frame.
 
         left: the sitting before, at whose step the lecturer may go on.
         """
-        self.session = LectureSession(lecture, path, number, left)
+        self.session = LectureSession(lecture, path, at, left)
         self._entered, self._put_off = False, None
 
     def resume(self, session: LectureSession) -> None:
@@ -151,10 +157,10 @@ class LectureView(DockedView):
     def is_given(self) -> bool:
         return self.session is not None
 
-    def go(self, window: Host, number: int) -> None:
-        """Go to a step, and show its own state."""
+    def go(self, window: Host, number: int, build: int = 0) -> None:
+        """Go to a build of a step, and show its own state."""
         if self.session is not None:
-            self.session.go(number)
+            self.session.go(number, build)
             self._enter(window)
 
     @property
@@ -168,53 +174,60 @@ class LectureView(DockedView):
             self.session.go_on(self.session.left)
             self._enter(window)
 
-    def advance(self, window: Host, steps: int) -> None:
-        """Uncover more of the step (1), or cover it again (-1). Walk on if that changes nothing."""
-        if self.session is None:
+    def advance(self, window: Host, builds: int) -> None:
+        """Go to the next build (1), or to the one before (-1). End a movement that is under way
+        instead.
+        """
+        if self.session is None or window.end_movement():
             return
-        if self.session.uncover(steps):
-            self._seek = self._answered = True
-            window.animate()
-        elif self.session.go(self.session.number + steps):
+        before = self.session.step
+        if not self.session.walk(builds):
+            return
+        step = self.session.step
+        if not self._entered or step.number != before.number:
             self._enter(window)
+            return
+        self._answered = self._seek = True
+        self._added_s = time.monotonic() if builds > 0 else None
+        move_s = (before if builds < 0 else step).move_s
+        self._build(window, move_s, step.loop and builds > 0)
+        if step.views != before.views:
+            self._arrange()
+
+    def play(self, window: Host) -> None:
+        """Play the movement to the present build again."""
+        if self.session is None or self.session.step.build == 0 or not self._entered:
+            return
+        step, (_, number, build) = self.session.step, self.session.place
+        lecture = self.session.lecture
+        before = lecture.builds[lecture.place(number, build - 1)]
+        own = state_of(step, window.state)
+        window.move(own, step.move_s, step.loop, start=state_of(before, own))
 
     def _enter(self, window: Host) -> None:
         """Show the step's own state. A lecture that has just begun does so in its first frame."""
         if self._entered:
             self.restore(window)
 
-    @property
-    def covers(self) -> bool:
-        """True if some of the step is not uncovered yet."""
-        return self.session is not None and self.session.uncovered < self.session.step.stages
-
-    def show_all(self, window: Host) -> None:
-        """Uncover all of the step."""
-        if self.session is not None and self.session.uncover(self.session.step.stages):
-            self._answered = True
-            window.animate()
-
-    def follow_link(self, window: Host, name: str) -> None:
-        """Show the options of a link. If they are shown already, go back to the step's own."""
-        assert self.session is not None
-        step, state = self.session.step, window.state
-        options = step.links[name]
-        changed = state.with_options(**options)
-        if changed == state:
-            changed = state.with_options(**taken_back(options, state_of(step, state).options))
-        window.change(changed)
-
     def restore(self, window: Host, **preferences: bool) -> None:
         """Restore the step's own scene, camera, options and views."""
         if self.session is None:
             return
-        state = replace(window.state, step=self.session.place)
-        state = state.with_options(preferences=preferences)
-        window.change(state_of(self.session.step, state))
-        self._entered, self._arranged = True, False
-        self._to_top = True
+        self._build(window, 0.0, **preferences)
+        self._entered = self._to_top = True
         for view in self._others:
             view.begin_anew()
+        self._arrange()
+
+    def _build(self, window: Host, move_s: float, loop: bool = False, **preferences: bool) -> None:
+        """Show the present build's own state, after a movement."""
+        assert self.session is not None
+        state = replace(window.state, step=self.session.place)
+        state = state.with_options(preferences=preferences)
+        window.move(state_of(self.session.step, state), move_s, loop)
+
+    def _arrange(self) -> None:
+        self._arranged = False
         layout.switch(layout.LECTURE)
 
     # The frame.
@@ -222,6 +235,7 @@ class LectureView(DockedView):
     @property
     def settled(self) -> bool:
         working = any(one is not None and one.busy for one in (self._reading, self.hidden_watch))
+        working = working or self._added_s is not None
         return not (self.is_entering or (self.session is not None and working))
 
     @property
@@ -259,13 +273,13 @@ class LectureView(DockedView):
             host.animate()
         self._follow_file(host, self.session)
 
-    def _follow_undo(self, place: tuple[str, int] | None, session: LectureSession) -> None:
+    def _follow_undo(self, place: tuple[str, int, int] | None, session: LectureSession) -> None:
         """Show another step's text and views if undo or redo went into its states."""
         if place is None or place[0] != session.lecture.source:
             return
-        if session.go(place[1]):
-            self._arranged = False
-            layout.switch(layout.LECTURE)
+        views = session.step.views
+        if session.go(*place[1:]) and session.step.views != views:
+            self._arrange()
 
     def _follow_file(self, host: Host, session: LectureSession) -> None:
         assert self._reading is not None
@@ -311,11 +325,10 @@ class LectureView(DockedView):
         log, is_asked = self.log, session.step.exercise is not None
         kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
         position = host.state.of(OutsideOptions).formula
-        grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
         stages = stages_of(host.renderers.camera(host.state))
         slides.lit = stage_at(position, stages) if position is not None else ""
         offer = imgui.get_frame_height_with_spacing() if session.left is not None else 0.0
-        below = foot_height(avail.x) + error + grows + kept + offer
+        below = foot_height(avail.x) + error + kept + offer
         child = ImVec2(avail.x, max(1.0, avail.y - below))
         if imgui.begin_child("step", child, imgui.ChildFlags_.nav_flattened):
             if self._to_top:
@@ -323,8 +336,6 @@ class LectureView(DockedView):
                 self._to_top = False
             self._body(host, session, slides)
         imgui.end_child()
-        if grows and "probe" not in session.step.views:  # which has its own
-            view_of(self._views, OutsideView).scrubber.draw(host)
         if session.error:
             wrapped(session.error, theme.ERROR)
         if log is not None and note(log, is_asked):
@@ -354,12 +365,13 @@ class LectureView(DockedView):
     def _body(self, host: Host, session: LectureSession, slides: Slides) -> None:
         """Draw the text, which is scrolled if it is longer than the column."""
         step = session.step
-        seek, self._seek = self._seek and imgui.get_scroll_max_y() > 0, False
         blocks, width = self._in_language(host, step), imgui.get_content_region_avail().x
-        if link := slides.take_link():
-            self.follow_link(host, link)
+        old, alpha = in_language(step.before, host.state.options.language), self._alpha(host)
         if blocks:
-            slides.text(blocks, width, stage=session.uncovered, seek=seek)
+            slides.text(blocks, width, before=old, alpha=alpha)
+        if self._seek:
+            imgui.set_scroll_here_y(1.0)
+            self._seek = False
         if step.exercise is None:
             return
         if blocks:
@@ -381,6 +393,17 @@ class LectureView(DockedView):
             self.log.exercise(session.lecture, step, answers)
         if self.log is not None and said is not None:
             self.log.hidden(session.lecture, step, said, answers.solved)
+
+    def _alpha(self, host: Host) -> float:
+        """Return the opacity of the text that was just added."""
+        if self._added_s is None:
+            return 1.0
+        alpha = (time.monotonic() - self._added_s) / FADE_S
+        if alpha >= 1 or not host.moves or host.state.preferences.reduced_motion:
+            self._added_s = None
+            return 1.0
+        host.animate()
+        return alpha
 
     def unseen(self, host: Host) -> None:
         self._drawn_answer.hide(view_of(self._views, OutsideView))
@@ -411,8 +434,6 @@ class LectureView(DockedView):
             self.leave(host)
         elif asked == RESTORE:
             self.restore(host)
-        elif asked == SHOW_ALL:
-            self.show_all(host)
         elif asked in (BACK, NEXT):
             self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):

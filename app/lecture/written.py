@@ -63,6 +63,10 @@ def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:
     for name in ("answer", "notes"):
         if step.get(name):
             yield name, step[name]
+    for number, build in enumerate(step.get("builds", ())):
+        for name in ("text", "instead"):
+            if build.get(name):
+                yield f"builds[{number}].{name}", build[name]
     exercise = step.get("exercise")
     if exercise is None:
         return

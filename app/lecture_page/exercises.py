@@ -162,7 +162,7 @@ def numbers(values: ArrayLike) -> list[float | None]:
 
 
 def form(
-    number: int, task: Exercise, data: dict[str, Any] | None, notation: Notation, answers: bool
+    number: str, task: Exercise, data: dict[str, Any] | None, notation: Notation, answers: bool
 ) -> str:
     """Return an exercise of a step as HTML. answers: with its solution."""
     asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
@@ -186,7 +186,7 @@ def form(
 
 
 def form_of(
-    number: int, asked: str, data: dict[str, Any] | None, notation: Notation, solution: str = ""
+    number: str, asked: str, data: dict[str, Any] | None, notation: Notation, solution: str = ""
 ) -> str:
     """Return a form. asked: the question and its fields. data: with the replies."""
     replies = ""
@@ -202,7 +202,7 @@ def form_of(
     )
 
 
-def _fields(number: int, task: TypedExercise, notation: Notation) -> str:
+def _fields(number: str, task: TypedExercise, notation: Notation) -> str:
     rows = []
     for place, name in enumerate(task.fields):
         shown = symbols.answer(name, notation)

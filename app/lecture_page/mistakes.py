@@ -28,7 +28,7 @@ def _painter(state: AppState) -> Iterator[RayPainter]:
         yield RayPainter(state.scene, tracer, lambda: True)
 
 
-def laboratory(number: int, state: AppState) -> str:
+def laboratory(number: str, state: AppState) -> str:
     """Return the program of a step's mistakes as HTML: each line may be made wrong, and the picture
     changes. The pictures of wrong lines are in templates.
     """

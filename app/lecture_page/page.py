@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
+from app.lecture.text import Question
 from app.lecture_page import exercises, mistakes
 from app.lecture_page.described import SIZE, alternative, title_of
 from app.lecture_page.figures import Figures, is_live
 from app.lecture_page.pictures import data_uri
 from app.lecture_page.shell import BAR, DIALOGS, overview
-from app.lecture_page.text import Links, blocks_html, plain
+from app.lecture_page.text import blocks_html, plain
 from app.mistakes.options import MistakesOptions
 from app.page.document import document
 from app.page.formulas import templates
@@ -28,13 +29,9 @@ from renderer.pixels import Indexing
 
 @dataclass(frozen=True, eq=False)
 class Still:
-    """A picture of a view in a step. link: the link of the text that shows it, or "".
-
-    pixels: uint8 (height, width, 3).
-    """
+    """A picture of a view in a build. pixels: uint8 (height, width, 3)."""
 
     view: str
-    link: str
     pixels: NDArray[np.uint8]
 
 
@@ -46,19 +43,28 @@ def page(
 ) -> str:
     """Return the page.
 
-    stills: of each step. answers: with answers and solutions. for_print: without live figures.
+    stills: of each build. answers: with answers and solutions. for_print: without live figures, and
+    only with builds that show more than another text before them.
     """
     steps: list[str] = []
     tasks: dict[str, Any] = {}
     shown: dict[str, Any] = {}
     figures = None if for_print else Figures()
-    for number, (step, pictures) in enumerate(zip(lecture.steps, stills, strict=True), start=1):
-        written = _Step(number, step, lecture.explaining(step), answers, figures)
-        steps.append(written.html(pictures))
+    builds = [one for one in lecture.builds if answers or not is_answer(one)]
+    last = {one.number: one for one in builds}
+    for place, step in enumerate(builds):
+        after = builds[place + 1] if step is not last[step.number] else None
+        printed = after is None or not shows_as(step, after)
+        if for_print and not printed:
+            continue
+        name = f"{step.number + 1}.{step.build + 1}" if step.build else str(step.number + 1)
+        explained = lecture.explaining(step)
+        written = _Step(name, step, explained, answers, figures, "" if printed else " passing")
+        steps.append(written.html(stills[lecture.place(step.number, step.build)]))
         if written.task is not None:
-            tasks[str(number)] = written.task
+            tasks[name] = written.task
         if written.figure is not None:
-            shown[str(number)] = written.figure
+            shown[name] = written.figure
     options = lecture.steps[0].options
     indexing = Indexing(int(options.get("one_based", AllOptions().one_based)))
     title = plain(lecture.title)
@@ -79,15 +85,34 @@ def page(
     return document(lecture.title, "slides.js", body, {"lucida-data": data}, style)
 
 
+def shows_as(step: Step, after: Step) -> bool:
+    """Return True if two builds of a step differ in their texts only."""
+    names = ("scene", "view", "views", "options", "pixel", "highlight")
+    return all(getattr(step, name) == getattr(after, name) for name in names)
+
+
+def is_answer(step: Step) -> bool:
+    """Return True for a build that comes after a question to the class in its step."""
+    return any(isinstance(block, Question) for block in step.before)
+
+
 class _Step:
-    """Writes a step. task, figure: the data of its exercise and of its live figure, or None.
+    """Writes a step at a build. name: its address. kind: more classes of it.
+
+    task, figure: the data of its exercise and of its live figure, or None.
     answers: with answers. figures: None for a print.
     """
 
     def __init__(
-        self, number: int, step: Step, explained_by: str, answers: bool, figures: Figures | None
+        self,
+        name: str,
+        step: Step,
+        explained_by: str,
+        answers: bool,
+        figures: Figures | None,
+        kind: str,
     ) -> None:
-        self._number, self._step, self._answers = number, step, answers
+        self._name, self._step, self._answers, self._kind = name, step, answers, kind
         self._state = state_of(step, AppState.for_scene(step.scene, step.view))
         self._notation = self._state.options.notation
         size = self._state.images.resolution or SIZE
@@ -97,9 +122,8 @@ class _Step:
 
     def html(self, stills: Sequence[Still]) -> str:
         """Return the step. stills: its pictures."""
-        number, step = self._number, self._step
-        links = Links(number, (still.link for still in stills if still.link))
-        text = blocks_html(step.blocks, self._notation, links, self._answers)
+        number, step = self._name, self._step
+        text = blocks_html(step.blocks, self._notation)
         asked = live = figure = ""
         if step.exercise is not None:
             asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
@@ -117,7 +141,8 @@ class _Step:
         is_folded = self.figure is not None and self.figure["folded"]
         views = pictures + figure if is_folded else figure + pictures
         return (
-            f'<section class="step" id="{number}" aria-labelledby="title-{number}">\n'
+            f'<section class="step{self._kind}" id="{number}" data-number="{step.number + 1}" '
+            f'aria-labelledby="title-{number}">\n'
             f'<div class="words">\n{part}<h2 id="title-{number}" tabindex="-1">'
             f'{plain(step.title)}</h2>\n<div class="text">{text}</div>\n{asked}</div>\n'
             f'<div class="views">\n{live}{views}</div>\n</section>\n'
@@ -126,20 +151,17 @@ class _Step:
     def _mistakes(self) -> tuple[str, str]:
         """Return the quiz below the text, or the laboratory among the views."""
         if self._state.of(MistakesOptions).mode == "laboratory":
-            return "", mistakes.laboratory(self._number, self._state)
+            return "", mistakes.laboratory(self._name, self._state)
         found = mistakes.quiz(self._step, self._state)
         if found is None:
             return "", ""
         html, data = found
         self.task = exercises.with_replies(data)
-        return "", exercises.form_of(self._number, html, self.task, self._notation)
+        return "", exercises.form_of(self._name, html, self.task, self._notation)
 
     def _still(self, still: Still) -> str:
-        step, state, of_link, name = self._step, self._state, "", "view"
-        if still.link:
-            state = state.with_options(**step.links[still.link])
-            of_link = f' data-of-link="{self._number}-{plain(still.link)}" hidden'
-        elif still.view == "mistakes":
+        step, state, name = self._step, self._state, "view"
+        if still.view == "mistakes":
             name += " printed"  # on the screen it is live
         elif (
             self.figure and not self.figure["folded"] and is_live(still.view, self.figure["shows"])
@@ -148,7 +170,7 @@ class _Step:
         name += f" of-{still.view}"
         height, width = still.pixels.shape[:2]
         return (
-            f'<figure class="{name}"{of_link}><img src="{data_uri(still.pixels, self._form)}" '
+            f'<figure class="{name}"><img src="{data_uri(still.pixels, self._form)}" '
             f'width="{width}" height="{height}" '
             f'alt="{plain(alternative(still.view, step, state))}">'
             f"<figcaption>{plain(title_of(still.view))}</figcaption></figure>\n"

@@ -9,7 +9,6 @@ BAR = """<nav aria-label="Steps">
 <button type="button" id="previous">Previous</button>
 <output id="place"></output>
 <button type="button" id="next">Next</button>
-<button type="button" id="show-all">Show all</button>
 </nav>
 <div class="tools">
 <button type="button" id="open-overview">Overview</button>
@@ -22,9 +21,8 @@ BAR = """<nav aria-label="Steps">
 """
 
 KEYS = (
-    ("Page Down, Right, Space", "uncover; next step"),
-    ("Page Up, Left, Shift+Space", "take back; previous step"),
-    ("Shift+Page Down", "uncover all of a step"),
+    ("Page Down, Right, Space", "on"),
+    ("Page Up, Left, Shift+Space", "back"),
     ("Home, End", "first and last step"),
     ("O", "overview"),
     ("N", "notes, in a window of its own"),

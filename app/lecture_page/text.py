@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterable
 from html import escape
 
 from app.explaining.languages import LANGUAGES
 from app.lecture.notation import in_notation
 from app.lecture.text import (
-    Answer,
     Block,
     Code,
     DisplayedFormula,
@@ -22,7 +20,6 @@ from app.lecture.text import (
     Question,
     Words,
     parse,
-    stages,
 )
 from app.lecture_page.mathml import VECTORS, displayed, inline
 from app.state.options import Notation
@@ -39,106 +36,57 @@ def written(text: str, notation: Notation) -> str:
     return blocks_html(parse(text), notation)
 
 
-class Links:
-    """Writes the links of a step's text. shown: their names that have a picture."""
-
-    def __init__(self, step: int, shown: Iterable[str] = ()) -> None:
-        self._step, self._shown = step, frozenset(shown)
-
-    def html(self, name: str, words: str) -> str:
-        """Return a button that shows the link's picture; only words if it has none."""
-        if name not in self._shown:
-            return words
-        shows = f"{self._step}-{plain(name)}"
-        return (
-            f'<button type="button" class="link" aria-pressed="false" data-shows="{shows}">'
-            f"{words}</button>"
-        )
+# A formula, and what must not begin the next line.
+BEFORE_STOP = re.compile(r"(<math\b.*?</math>)([.,;:?!)]+)", re.DOTALL)
 
 
-NO_LINKS = Links(0)
-# A link or a formula, and what must not begin the next line.
-BEFORE_STOP = re.compile(r"(<(button|math)\b(?:(?!<\2\b).)*?</\2>)([.,;:?!)]+)", re.DOTALL)
+def blocks_html(blocks: tuple[Block, ...], notation: Notation) -> str:
+    """Return a text as HTML. Neighbouring programs are one group."""
+    parts = []
+    for is_program, group in itertools.groupby(in_notation(blocks, notation), _is_program):
+        html = [_block(block) for block in group]
+        inside = "".join(html)
+        is_choice = is_program and len(html) > 1
+        parts.append(f'<div class="programs">{inside}</div>\n' if is_choice else inside)
+    return "".join(parts)
 
 
-def blocks_html(
-    blocks: tuple[Block, ...], notation: Notation, links: Links = NO_LINKS, answers: bool = True
-) -> str:
-    """Return a text as HTML.
-
-    What is uncovered one by one has its number in data-stage. answers: with the answers to the
-    questions.
-    """
-    writer = _Writer(stages(blocks), links)
-    shown = in_notation(blocks, notation)
-    if not answers:
-        shown = tuple(block for block in shown if not isinstance(block, Answer))
-    grouped = itertools.groupby(shown, _kind)
-    return "".join(writer.group(kind, list(group)) for kind, group in grouped)
+def _is_program(block: Block) -> bool:
+    return isinstance(block, Code) and block.language in LANGUAGES
 
 
-def _kind(block: Block) -> str:
-    if isinstance(block, Question | Answer):
-        return "question"
-    return "program" if isinstance(block, Code) and block.language in LANGUAGES else ""
+def _block(block: Block) -> str:
+    match block:
+        case Heading(level=level, line=line):
+            name = f"h{min(level + 2, 6)}"
+            return f"<{name}>{_line(line)}</{name}>\n"
+        case Paragraph(line=line):
+            return f"<p>{_line(line)}</p>\n"
+        case Question(line=line):
+            return f'<div class="question"><p>{_line(line)}</p>\n</div>\n'
+        case ItemList():
+            name = "ol" if block.numbered else "ul"
+            items = "".join(f"<li>{_line(item)}</li>" for item in block.items)
+            return f"<{name}>{items}</{name}>\n"
+        case Code(text=text, language=language):
+            of = f' data-language="{language}"' if language in LANGUAGES else ""
+            return f'<pre tabindex="0"{of}><code>{plain(text)}</code></pre>\n'
+        case DisplayedFormula(latex=latex):
+            return displayed(latex)
+    raise AssertionError(block)
 
 
-class _Writer:
-    """Writes blocks. stages: of all of them; the last is the answer's."""
+def _line(line: Line) -> str:
+    html = "".join(inline(span.latex) if isinstance(span, Math) else _words(span) for span in line)
+    return BEFORE_STOP.sub(r'<span class="kept">\1\2</span>', html)
 
-    def __init__(self, stages: int, links: Links) -> None:
-        self._stages, self._stage, self._links = stages, 0, links
 
-    def group(self, kind: str, blocks: list[Block]) -> str:
-        """Return neighbours of one kind."""
-        inside = "".join(map(self._block, blocks))
-        if kind == "question":
-            return f'<div class="question">{inside}</div>\n'
-        if kind == "program" and len(blocks) > 1:
-            return f'<div class="programs">{inside}</div>\n'
-        return inside
-
-    def _block(self, block: Block) -> str:
-        match block:
-            case Heading(level=level, line=line):
-                name = f"h{min(level + 2, 6)}"
-                return f"<{name}>{self._line(line)}</{name}>\n"
-            case Paragraph(line=line) | Question(line=line):
-                return f"<p>{self._line(line)}</p>\n"
-            case Answer(line=line):
-                answer = self._line(line)
-                return f'<p class="answer" data-stage="{self._stages}">{answer}</p>\n'
-            case ItemList():
-                name = "ol" if block.numbered else "ul"
-                items = "".join(self._item(item, block.covered) for item in block.items)
-                return f"<{name}>{items}</{name}>\n"
-            case Code(text=text, language=language):
-                of = f' data-language="{language}"' if language in LANGUAGES else ""
-                return f'<pre tabindex="0"{of}><code>{plain(text)}</code></pre>\n'
-            case DisplayedFormula(latex=latex):
-                return displayed(latex)
-        raise AssertionError(block)
-
-    def _item(self, line: Line, covered: bool) -> str:
-        if not covered:
-            return f"<li>{self._line(line)}</li>"
-        self._stage += 1
-        return f'<li data-stage="{self._stage}">{self._line(line)}</li>'
-
-    def _line(self, line: Line) -> str:
-        html = "".join(
-            inline(span.latex) if isinstance(span, Math) else self._words(span) for span in line
-        )
-        return BEFORE_STOP.sub(r'<span class="kept">\1\3</span>', html)
-
-    def _words(self, words: Words) -> str:
-        html = plain(words.text)
-        if words.code:
-            html = f"<code>{html}</code>"
-        if words.bold:
-            name = words.text.strip(".,:;()")
-            color = f' class="vector-{name}"' if name in VECTORS else ""
-            html = f"<strong{color}>{html}</strong>"
-        if words.italic:
-            html = f"<em>{html}</em>"
-        return self._links.html(words.link, html) if words.link else html
+def _words(words: Words) -> str:
+    html = plain(words.text)
+    if words.code:
+        html = f"<code>{html}</code>"
+    if words.bold:
+        name = words.text.strip(".,:;()")
+        color = f' class="vector-{name}"' if name in VECTORS else ""
+        html = f"<strong{color}>{html}</strong>"
+    return f"<em>{html}</em>" if words.italic else html

@@ -53,6 +53,6 @@ def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Ac
 
 WRONG_LINES = (
     *(_mode(mode, name) for mode, name in MODES.items()),
-    _asking("reveal the answer", "reveal", "R", int(Key.r), True),
-    _asking("next question", "next", "Shift+R", SHIFT | int(Key.r), False),
+    _asking("reveal the answer", "reveal", "U", int(Key.u), True),
+    _asking("next question", "next", "Shift+U", SHIFT | int(Key.u), False),
 )

@@ -72,10 +72,10 @@ def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions,
         return options, wish
     imgui.begin_disabled(not is_asked or bool(options.answer))
     shown = "hide" if options.revealed and not options.answer else "reveal"
-    if _button(f"{shown}###reveal", "which one it is (R)"):
+    if _button(f"{shown}###reveal", "which one it is (U)"):
         wish = "reveal"
     imgui.end_disabled()
-    if _button("next question", "another one (Shift+R)"):
+    if _button("next question", "another one (Shift+U)"):
         wish = "next"
     right, count = options.score
     if count:

@@ -26,15 +26,15 @@ class AppState:
     """Everything that the window shows. Scenes are compared by identity.
 
     keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see all_options.py;
-    the properties below name its parts. step: that of the lecture that the state was shown in, as
-    the lecture's source and the step's number from 0; None outside of lectures.
+    the properties below name its parts. step: of the lecture that the state was shown in: the
+    lecture's source, the numbers of the step and its build, from 0; None outside of lectures.
     """
 
     scene: Scene
     view: View
     keep_orthonormal: bool
     options: AllOptions = field(default_factory=AllOptions)
-    step: tuple[str, int] | None = None
+    step: tuple[str, int, int] | None = None
 
     @classmethod
     def for_scene(cls, scene: Scene, view: View | None = None) -> AppState:

@@ -18,7 +18,8 @@ WORDS = {
 def change(before: AppState, after: AppState) -> str:
     """Return the difference of one state from the last: `camera: eye, w`."""
     if after.step is not None and before.step != after.step:
-        return f"lecture: step {after.step[1] + 1}"
+        _, step, build = after.step
+        return f"lecture: step {step + 1}" + (f".{build + 1}" if build else "")
     if before.scene is not after.scene:
         return f"scene: {after.scene.name or 'without a name'}"
     parts = []

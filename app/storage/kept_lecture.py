@@ -49,7 +49,7 @@ class KeptLecture:
     in_step: the session's scene is the step's own.
     answers: by the steps' titles.
     outside: files outside its folder that the user has agreed to.
-    uncovered: how much of the step is uncovered.
+    build: of the step, from 0.
     """
 
     file: str = ""
@@ -59,4 +59,4 @@ class KeptLecture:
     in_step: bool = False
     answers: dict[str, Answers] = field(default_factory=dict)
     outside: tuple[str, ...] = ()
-    uncovered: int = 0
+    build: int = 0

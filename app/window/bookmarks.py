@@ -69,9 +69,7 @@ def save_for_film(window: Window) -> None:
     def store(path: str) -> str:
         with atomic_write(path) as file:
             file.write(keys_text(keys).encode())
-        return one_line(
-            f"Saved {len(keys)} cameras: lucida animate SCENE --path {path} -o film.mp4"
-        )
+        return one_line(f"Saved the cameras: lucida animate SCENE --path {path} -o film.mp4")
 
     kind = ("Key cameras", ".toml")
     window.files.save_as_dialog("Save the film's cameras", "keys.toml", kind, store)

@@ -380,11 +380,6 @@ def outside_question(name: str, files: Sequence[Path]) -> str:
     return "\n".join([f"{name} names files outside of its folder:", *named])
 
 
-def file_name(scene: str) -> str:
-    """Return the file name for a scene of that name, without an ending."""
-    return "".join(c if c.isalnum() or c in " -_" else "-" for c in scene) or "scene"
-
-
 def has_dialogs() -> bool:
     """Return True if the system has file dialogs."""
     return not sys.platform.startswith("linux") or any(map(shutil.which, LINUX_DIALOGS))

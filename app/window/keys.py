@@ -17,12 +17,12 @@ CHARACTER = 1  # the length of an event that is one
 
 
 class KeyFrames:
-    """give: passes an event to ImGui. Events: (key, code, action, modifiers) as GLFW reports them,
-    or (character,), which keeps its place between them.
+    """give: passes a key's event to ImGui, (key, code, action, modifiers) as GLFW reports it.
+    write: passes a character, which keeps its place between them.
     """
 
-    def __init__(self, give: Callable[..., None]) -> None:
-        self._give = give
+    def __init__(self, give: Callable[..., None], write: Callable[[int], None]) -> None:
+        self._give, self._write = give, write
         self._waiting: list[tuple[int, ...]] = []
         self._changed: set[int] = set()  # keys that were pressed or let go in this frame
         self._pressed = False  # whether one of them was pressed that is no modifier
@@ -43,7 +43,7 @@ class KeyFrames:
         if self._waiting or (is_key and not self._fits(event[0], event[2])):
             self._waiting.append(event)
         else:
-            self._give(*event)
+            (self._give if is_key else self._write)(*event)
 
     def _fits(self, key: int, action: int) -> bool:
         """Return True if a key's change belongs into this frame, and count it."""

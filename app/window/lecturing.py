@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.lecture import text as texts
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
 from app.lecture.schema import PANEL
@@ -40,18 +39,19 @@ def run_lecture(
     lecture: Lecture,
     size: tuple[int, int] | None,
     log: AnswerLog | None,
+    at: tuple[int, int] = (0, 0),
 ) -> int:
     """Open the window with a lecture. Return the exit status when it is closed.
 
-    path: the lecture's file, read again when it is saved. log: keeps what is answered. Without a
-    display, draw the first step once, into lucida.png, or lucida-2.png if that exists, and say so
-    in one line. Raises LucidaError.
+    path: the lecture's file, read again when it is saved. log: keeps what is answered. at: the step
+    and its build, from 0, to begin at. Without a display, draw that once, into lucida.png, or
+    lucida-2.png if that exists, and say so in one line. Raises LucidaError.
     """
     platform, picture = start_drawing(None, "the step")
     pictured = picture is not None
-    start = Start(first_state(lecture)) if pictured else begin_lecture(lecture)
+    start = Start(first_state(lecture, at)) if pictured else begin_lecture(lecture, at)
     run = WindowRun(platform, start.state, size, pictured, start=start)
-    run.window.lecture.give(lecture, path, 0, start.left)
+    run.window.lecture.give(lecture, path, at, start.left)
     run.window.lecture.log = log
     if not pictured:
         print("The lecture starts in presentation mode: F9 turns that off and on.")
@@ -77,7 +77,7 @@ def export_lecture(
     size: tuple[int, int],
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> list[Path]:
-    """Write a PNG of the window for each step into a new folder. Return the files.
+    """Write a PNG of the window for each build into a new folder. Return the files.
 
     path: the lecture's file. size: the window's (width, height). Needs no display. Raises
     LucidaError.
@@ -92,17 +92,15 @@ def export_lecture(
         raise LucidaError(
             "", f"cannot be made: {reason}", "export elsewhere", str(folder)
         ) from None
-    digits = max(2, len(str(len(lecture.steps))))
-    files = [folder / f"{n + 1:0{digits}}.png" for n in range(len(lecture.steps))]
+    files = [folder / name for name in _names(lecture)]
     for file in files:
         check_writable(file)
-    places = [(number, "") for number in range(len(files))]
 
-    def save(number: int, _link: str, _window: MainWindow, target: Target) -> None:
-        save_png(files[number], target.read())
+    def save(place: int, _window: MainWindow, target: Target) -> None:
+        save_png(files[place], target.read())
 
     try:
-        _draw_steps(lecture, path, size, places, save, progress)
+        _draw_builds(lecture, path, size, save, progress)
     except LucidaError:
         if is_new:  # nothing stays of a full disk's first picture, the folder neither
             with contextlib.suppress(OSError):
@@ -111,13 +109,23 @@ def export_lecture(
     return files
 
 
+def _names(lecture: Lecture) -> list[str]:
+    """Return the names of all builds' pictures, such as 07.png, or 07.2.png of several builds."""
+    digits = max(2, len(str(len(lecture.steps))))
+    names = []
+    for one in lecture.builds:
+        build = f".{one.build + 1}" if lecture.count(one.number) > 1 else ""
+        names.append(f"{one.number + 1:0{digits}}{build}.png")
+    return names
+
+
 def lecture_stills(
     lecture: Lecture,
     path: Path,
     size: tuple[int, int],
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> list[list[Still]]:
-    """Return pictures of the views in each step, and of those that its links show.
+    """Return pictures of the views in each build.
 
     They are in the light theme, for prints, and without tools. path, size: as in export_lecture().
     Needs no display. Raises LucidaError.
@@ -125,83 +133,69 @@ def lecture_stills(
     from app.lecture_page.page import Still
 
     seen = [
-        replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.steps
+        replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.builds
     ]
-    lecture = replace(lecture, steps=tuple(seen))
-    links = [texts.links(step.blocks) for step in lecture.steps]
-    places = [(k, link) for k, named in enumerate(links) for link in ("", *dict.fromkeys(named))]
-    stills: list[list[Still]] = [[] for _ in lecture.steps]
+    lecture = replace(lecture, builds=tuple(seen))
+    stills: list[list[Still]] = [[] for _ in lecture.builds]
 
-    def take(number: int, link: str, window: MainWindow, target: Target) -> None:
+    def take(place: int, window: MainWindow, target: Target) -> None:
         pixels = target.read()
-        for view in lecture.steps[number].views:
+        for view in lecture.builds[place].views:
             rect = window.shell.stage.rects.get(view.capitalize())
             if rect is not None:
-                picture = np.ascontiguousarray(cut(pixels, rect))
-                stills[number].append(Still(view, link, picture))
+                stills[place].append(Still(view, np.ascontiguousarray(cut(pixels, rect))))
 
-    _draw_steps(lecture, path, size, places, take, progress, for_print=True)
+    _draw_builds(lecture, path, size, take, progress, for_print=True)
     return stills
 
 
-def _draw_steps(
+def _draw_builds(
     lecture: Lecture,
     path: Path,
     size: tuple[int, int],
-    places: list[tuple[int, str]],
-    take: Callable[[int, str, MainWindow, Target], None],
+    take: Callable[[int, MainWindow, Target], None],
     progress: Callable[[float], None],
     for_print: bool = False,
 ) -> None:
-    """Draw steps in a window without a display, and take each once nothing changes any more.
+    """Draw all builds in a window without a display, and take each once nothing changes any more.
 
-    places: steps from 0, and the link of the step that is followed, or "". for_print: in the light
-    theme, without tools. Raises LucidaError.
+    take: gets the build's place among all. for_print: in the light theme, without tools. Raises
+    LucidaError.
     """
     platform = start_platform(want_display=False)
     state = first_state(lecture)
     if for_print:
         state = state.with_options(preferences={"theme": "light"})
     run = WindowRun(platform, state, size, take_picture=True)
-    run.take_picture = False  # not one picture at the end: one a step
+    run.take_picture = False  # not one picture at the end: one a build
     window = run.window
     window.has_tools = not for_print
     window.lecture.give(lecture, path)
-    window.lecture.show_all(window)
-    waiting, quiet, began_s = list(places), 0, time.monotonic()
+    place, quiet, began_s, count = 0, 0, time.monotonic(), len(lecture.builds)
 
     def drawn(target: Target) -> None:
-        """Take each place, and go on to the next."""
-        nonlocal quiet, began_s
-        if not waiting:
+        """Take each build, and go on to the next."""
+        nonlocal place, quiet, began_s
+        if place == count:
             return
         window.check()
         quiet = quiet + 1 if window.settled else 0
-        number, link = waiting[0]
+        step = lecture.builds[place]
         if quiet > QUIET_FRAMES:
-            take(number, link, window, target)
-            del waiting[0]
-            progress(1 - len(waiting) / len(places))
+            take(place, window, target)
+            place += 1
+            progress(place / count)
             quiet, began_s = 0, time.monotonic()
-            if waiting:
-                _go(window, *waiting[0])
+            if place < count:
+                window.lecture.advance(window, 1)
             else:
                 run.params.app_shall_exit = True
         elif time.monotonic() - began_s > SCREENSHOT_LIMIT_S:
             raise LucidaError(
-                f"step {number + 1}",
+                f"step {step.number + 1}",
                 f"was not complete after {SCREENSHOT_LIMIT_S:g} s",
                 "try a smaller model or --size",
             )
 
     run.on_drawn = drawn
     run.run()
-
-
-def _go(window: MainWindow, number: int, link: str) -> None:
-    """Show a step, all of it, and follow one of its links."""
-    window.lecture.go(window, number)
-    window.lecture.show_all(window)
-    if link:
-        window.lecture.restore(window)  # what another link has changed
-        window.lecture.follow_link(window, link)

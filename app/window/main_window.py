@@ -8,6 +8,7 @@ this module keeps it and hands it to the renderers. viewer.py makes the window.
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Hashable
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +21,7 @@ from app.cameras.travel import CameraTransition
 from app.host.fly import Fly
 from app.host.view import AView, DockedView
 from app.images.renderers import Renderers
+from app.lecture.movement import Movement
 from app.lecture.view import LECTURE, LectureView
 from app.outside.view import OUTSIDE, OutsideView
 from app.pair.boxes import asking_pixel, asking_size
@@ -80,6 +82,10 @@ class MainWindow:
         self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
+        self._movement: Movement | None = None
+        self._between: AppState | None = None  # the movement's state in this frame
+        self._began_s = self._move_s = 0.0
+        self._loops = False
         self.moves = smooth
         self.has_tools = True
         self._fly = Fly()
@@ -97,6 +103,11 @@ class MainWindow:
 
     @property
     def state(self) -> AppState:
+        """The present state, or the one that a movement shows on its way there."""
+        return self.history.present if self._between is None else self._between
+
+    @property
+    def present(self) -> AppState:
         return self.history.present
 
     @property
@@ -111,7 +122,7 @@ class MainWindow:
     def settled(self) -> bool:
         """True if nothing will change by itself: both images are complete and compared."""
         views = self.shell.stage.settled
-        moving = self.files.busy or self.transition.under_way
+        moving = self.files.busy or self.transition.under_way or self._movement is not None
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
@@ -132,17 +143,57 @@ class MainWindow:
         self._next_hovered = (view, pixel)
 
     def apply(self, state: AppState, gesture: Hashable = None) -> None:
-        if state == self.state:
+        if state == self.state or self._was_moving():
             return
         if gesture is None and (self._was_active or imgui.is_any_item_active()):
             gesture = ("drag", self._gesture if self._was_active else self._gesture + 1)
         self.history = self.history.change(state, gesture)
 
     def change(self, state: AppState) -> None:
-        self.history = self.history.change(state)
+        if state != self.state and not self._was_moving():
+            self.history = self.history.change(state)
 
     def amend(self, state: AppState) -> None:
-        self.history = self.history.amended(state)
+        if self._between is None:  # otherwise asked for again after the movement
+            self.history = self.history.amended(state)
+
+    def move(
+        self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
+    ) -> None:
+        start = start or self.state
+        self._movement = self._between = None
+        self.change(state)
+        if not move_s or not self.moves or state.preferences.reduced_motion:
+            return
+        focus = scene_focus(state.scene)
+        self._movement = Movement(start, state, focus, self.renderers.size)
+        self._between, self._began_s = self._movement.at(0.0), time.monotonic()
+        self._move_s, self._loops = move_s, loop
+        self.animate()
+
+    def end_movement(self) -> bool:
+        was_moving = self._movement is not None and not self._loops
+        self._movement = self._between = None
+        return was_moving
+
+    def _was_moving(self) -> bool:
+        """End a movement, which a change would come from a state of. Return True if there was
+        one."""
+        was_moving = self._movement is not None
+        self.end_movement()
+        return was_moving
+
+    def _follow_movement(self) -> None:
+        """Take the movement's state in this frame. A press of the mouse ends the movement."""
+        if self._movement is None:
+            return
+        part = (time.monotonic() - self._began_s) / self._move_s
+        is_pressed = any(imgui.is_mouse_clicked(button) for button in range(3))
+        if is_pressed or (part >= 1 and not self._loops):
+            self.end_movement()
+        else:
+            self._between = self._movement.at(part % 1)
+        self.animate()
 
     def show(self, view: str) -> None:
         if view not in self.shell.stage.rects:
@@ -209,11 +260,13 @@ class MainWindow:
             return
         self._cancel_drags()
         self.transition.stop()
+        self.end_movement()
         self.history = self.history.undo()
 
     def redo(self) -> None:
         self._cancel_drags()
         self.transition.stop()
+        self.end_movement()
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
@@ -295,6 +348,7 @@ class MainWindow:
             self._titled = titled
             set_title(title(scene, is_a_steps))
         self._over = self.shell.stage.take_hovered()
+        self._follow_movement()
         self._move_by_itself(active)
         if self.state.step is None and not self.saving.busy and self.files.follow(self.state.scene):
             hello_imgui.request_refresh()
@@ -303,6 +357,7 @@ class MainWindow:
             self.animate()
             take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
+        moving = moving or self._movement is not None
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)
@@ -354,6 +409,7 @@ class MainWindow:
 
     def end(self) -> None:
         """Once, before the context goes."""
+        self.end_movement()
         self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
             view.end()

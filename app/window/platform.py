@@ -23,7 +23,8 @@ from imgui_bundle import ImVec2, imgui  # before glfw, so that both use the same
 import glfw
 import moderngl
 
-from app.window.keys import CHARACTER, KeyFrames
+from app.window.key_names import give_key
+from app.window.keys import KeyFrames
 from renderer.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
@@ -118,17 +119,9 @@ def keep_open() -> None:
 
 
 def take_keys() -> KeyFrames:
-    """Has the current window's keyboard events wait for their frames."""
+    """Let the current window's keyboard events wait for their frames."""
     window = glfw.get_current_context()
-    address = ctypes.cast(window, ctypes.c_void_p).value or 0
-
-    def give(*event: int) -> None:
-        if len(event) == CHARACTER:
-            imgui.backends.glfw_char_callback(address, *event)
-        else:
-            imgui.backends.glfw_key_callback(address, *event)
-
-    keys = KeyFrames(give)
+    keys = KeyFrames(give_key, lambda character: imgui.get_io().add_input_character(character))
     if window:
         glfw.set_key_callback(window, lambda _window, *event: keys.take(*event))
         glfw.set_char_callback(window, lambda _window, character: keys.take(character))

@@ -30,11 +30,12 @@ from app.widgets.surface import Target
 from app.widgets.theme import Fonts
 from app.widgets.toasts import Toasts
 from app.window.exporting import Exports
-from app.window.files import Files, file_name
+from app.window.files import Files
 from app.window.palette import CommandPalette
 from app.window.palette_entries import entries
 from app.window.platform import toggle_full_screen
 from app.window.shortcut_sheet import help_sheet
+from renderer.atomic import file_stem
 from renderer.errors import LucidaError, describe
 from renderer.scene_export import ENDINGS
 
@@ -109,7 +110,7 @@ class Shell:
             self.toasts.add(f"{self.exports.name} is still being written.", good=False)
             return
         camera, size = both.camera(state), image_size(host)
-        name = file_name(state.scene.name) + ENDINGS[0]
+        name = (file_stem(state.scene.name) or "scene") + ENDINGS[0]
         self.files.ask_name(
             f"Export the scene and its camera: {EXPORTED}",
             name,
@@ -234,7 +235,7 @@ class Shell:
         """Return what to keep; None until the window's first scene is there."""
         if self.files.awaits_first:
             return None
-        state = window.state
+        state = window.present
         arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
         return session_of(state, arrangement, window.view(LectureView).kept(state))
 
@@ -282,7 +283,11 @@ class Shell:
         keeper = self._keeper
         if keeper is None:
             return
-        io, state, answered = imgui.get_io(), window.state, window.view(LectureView).take_answered()
+        io, state, answered = (
+            imgui.get_io(),
+            window.present,
+            window.view(LectureView).take_answered(),
+        )
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()

@@ -147,11 +147,13 @@ def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start
     return replace(start, state=state, fresh=fresh)
 
 
-def begin_lecture(lecture: Lecture, number: int = 0, folder: Path | None = None) -> Start:
-    """A lecture at a step, which is kept as the session. What is the user's own in the last session
-    stays; the rest ends, as the last session does when another scene is opened."""
-    options, start = _in_place(Start(first_state(lecture, number)), folder)
-    return replace(start, state=first_state(lecture, number, options))
+def begin_lecture(
+    lecture: Lecture, at: tuple[int, int] = (0, 0), folder: Path | None = None
+) -> Start:
+    """A lecture at a build of a step, which is kept as the session. What is the user's own in the
+    last session stays; the rest ends, as the last session does when another scene is opened."""
+    options, start = _in_place(Start(first_state(lecture)), folder)
+    return replace(start, state=first_state(lecture, at, options))
 
 
 def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
@@ -187,15 +189,18 @@ def _rescued(session: Session, place: SessionFile) -> Path | None:
     return session.edited.rescue(place.path.parent) or place.put_aside("unsaved")
 
 
-def first_state(lecture: Lecture, number: int = 0, options: AllOptions | None = None) -> AppState:
-    """Return the state that a lecture begins with: the step's, for the last row. options: the
-    user's.
+def first_state(
+    lecture: Lecture, at: tuple[int, int] = (0, 0), options: AllOptions | None = None
+) -> AppState:
+    """Return the state that a lecture begins with, for the last row.
+
+    at: the step and its build. options: the user's.
     """
-    step = lecture.steps[number]
+    step = lecture.builds[lecture.place(*at)]
     seen = replace(
         AppState.for_scene(step.scene, step.view),
         options=options or AllOptions(),
-        step=(lecture.source, number),
+        step=(lecture.source, step.number, step.build),
     )
     seen = seen.with_options(preferences={"presentation": True, "reduced_motion": False})
     return state_of(step, seen)

@@ -27,6 +27,7 @@ from app.widgets.focus_frame import FocusFrame
 from app.widgets.focusing import Focusing
 from app.widgets.surface import Target
 from app.window.canvas import WindowCanvas
+from app.window.clicks import ClickTime
 from app.window.keys import KeyFrames
 from app.window.main_window import MainWindow
 from app.window.memory import FreedMemory
@@ -89,6 +90,7 @@ class WindowRun:
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
         self._focus_frame = FocusFrame()
+        self._clicks = ClickTime()
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
@@ -232,6 +234,7 @@ class WindowRun:
         self.window.begin(context)
 
     def _before_frame(self) -> None:
+        self._clicks.begin_frame(time.monotonic())
         self.window.shell.stage.before_frame()
         self._focusing.before_frame()
         lock_letters()
@@ -281,6 +284,7 @@ class WindowRun:
             print(f"lucida: {self._told}", file=sys.stderr)
 
     def _after_frame(self) -> None:
+        self._clicks.end_frame(time.monotonic())
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
         self._show_window()

@@ -19,15 +19,15 @@ from renderer.camera import Camera, Size
 from renderer.camera_formats import colmap_binary, colmap_lenses, colmap_text
 from renderer.camera_formats.colmap_lenses import model_for
 from renderer.camera_formats.distortion import lens_of
-from renderer.camera_formats.entries import errors_within, in_image
+from renderer.camera_formats.entries import in_image
 from renderer.camera_formats.given import Given, Options
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole
 from renderer.camera_formats.rotations import quaternion_of, rotation_of
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.frame import check_size
 from renderer.intrinsics import viewport_of
-from renderer.scene.reading import read_file
+from renderer.scene.reading import naming, read_file
 
 LENSES = frozenset(colmap_lenses.LENSES.values())
 FILES = ("cameras", "images", "points3D")
@@ -60,7 +60,9 @@ def read(given: Given, options: Options) -> CameraSet:
     lenses = _read(folder / f"cameras{kind}", read_lenses)
     images = _read(folder / f"images{kind}", read_images)
     points = folder / f"points3D{kind}"
-    cloud = _read(points, read_points) if isfile(points) else (None, None)
+    # COLMAP's guide makes an empty points3D.txt for known poses.
+    has_points = isfile(points) and (kind == ".bin" or points.stat().st_size)
+    cloud = _read(points, read_points) if has_points else (None, None)
     origin = options.pixel_origin or "corner"
     optics = {}
     for number, found in lenses.items():
@@ -74,16 +76,13 @@ def read(given: Given, options: Options) -> CameraSet:
     bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # y down and z forward become up and back
     posed = []
     for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
-        try:
-            with errors_within(image.where, ": "):
-                if image.camera not in lenses:
-                    problem = f"{image.camera} is not in cameras{kind}"
-                    raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
-                u, v, w = basis
-                viewport, (lens, ignored) = optics[image.camera]
-                camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
-        except LucidaError as error:
-            raise error.in_file(str(folder / f"images{kind}")) from None
+        with naming(folder / f"images{kind}"), under(image.where, ": "):
+            if image.camera not in lenses:
+                problem = f"{image.camera} is not in cameras{kind}"
+                raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
+            u, v, w = basis
+            viewport, (lens, ignored) = optics[image.camera]
+            camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
         posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
@@ -93,7 +92,11 @@ def read(given: Given, options: Options) -> CameraSet:
         "camera from world, y down, z forward",
         "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
     )
-    notes = tuple(f"{other} is another model: give its folder to see it" for other in others)
+    unseen = sorted(lenses.keys() - {image.camera for image in images})
+    notes = (
+        *(f"camera {number} is not used: no image has it" for number in unseen),
+        *(f"{other} is another model: give its folder to see it" for other in others),
+    )
     return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
 
 
@@ -108,7 +111,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lines, names = [], set()
     for number, posed in enumerate(cameras, 1):
         name = posed.name or f"image_{number:04}.png"
-        with errors_within(name):
+        with under(name):
             if len(name.split()) != 1 or name in names or not name.isprintable():
                 fault = "is given twice" if name in names else "is no single word"
                 raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")
@@ -175,10 +178,8 @@ def _model(given: Given) -> tuple[Path, str] | None:
 
 
 def _read(path: Path, reader: Callable[[bytes], _Content]) -> _Content:
-    try:
+    with naming(path):
         return reader(read_file(path, LARGEST_FILE_BYTES))
-    except LucidaError as error:
-        raise error.in_file(str(path)) from None
 
 
 def _photographs(folder: Path) -> str | None:

@@ -22,8 +22,7 @@ from renderer.camera_formats.colmap_lenses import (
     add_lens,
     checked_image,
 )
-from renderer.camera_formats.entries import errors_within
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 
 _COUNT = Struct("<Q")
 _CAMERA = Struct("<IiQQ")  # id, model, width, height; then its parameters
@@ -41,7 +40,7 @@ def cameras(data: bytes) -> Lenses:
     found: Lenses = {}
     file = _Bytes(data)
     for entry in file.entries("camera", _CAMERA.size + 3 * 8):
-        with errors_within(entry, ": "):
+        with under(entry, ": "):
             identity, model, width, height = file.take(_CAMERA)
             if not 0 <= model < len(NAMES):
                 remedy = f"give 0 to {len(NAMES) - 1}"
@@ -56,7 +55,7 @@ def images(data: bytes) -> list[PosedImage]:
     found = []
     file = _Bytes(data)
     for entry in file.entries("image", _IMAGE.size + 2 + _COUNT.size):
-        with errors_within(entry, ": "):
+        with under(entry, ": "):
             _, *pose, camera = file.take(_IMAGE)
             name = file.name()
             (count,) = file.take(_COUNT)

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import Size
 from renderer.camera_checks import Floats, listed, number, positive
-from renderer.camera_formats.entries import errors_within
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 from renderer.lenses import Lens
 
 # The parameters of each model in the file's order; "f" is both fx and fy. A model's id in binary
@@ -167,7 +166,7 @@ def model_for(
 
 def checked_image(where: str, pose: list[float], camera: int, name: str) -> PosedImage:
     """Return the image. pose: _POSE. Raises LucidaError for an invalid pose or name."""
-    with errors_within(where, ": "):
+    with under(where, ": "):
         for field, value in zip(_POSE, pose, strict=True):
             number(field, value)
         if not math.hypot(*pose[:4]) > 1e-9:

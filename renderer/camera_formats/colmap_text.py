@@ -21,8 +21,7 @@ from renderer.camera_formats.colmap_lenses import (
     add_lens,
     checked_image,
 )
-from renderer.camera_formats.entries import errors_within
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, under
 
 _Number = TypeVar("_Number", int, float)
 
@@ -35,7 +34,7 @@ _SHORT_BYTES = 1000  # a longer line's words are not counted
 def cameras(data: bytes) -> Lenses:
     found: Lenses = {}
     for count, line in _lines(data):
-        with errors_within(f"line {count}", ": "):
+        with under(f"line {count}", ": "):
             identity, model, width, height, *parameters = _words(line, _CAMERA, -1)
             sides = zip(("CAMERA_ID", "WIDTH", "HEIGHT"), (identity, width, height), strict=True)
             camera, wide, high = (_number(int, field, word) for field, word in sides)
@@ -54,7 +53,7 @@ def images(data: bytes) -> list[PosedImage]:
     for count, line in lines:
         if not line:
             continue
-        with errors_within(f"line {count}", ": "):
+        with under(f"line {count}", ": "):
             words = _words(line, _IMAGE, len(_IMAGE) - 1)
             _number(int, "IMAGE_ID", words[0])
             pose = _numbers(_IMAGE[1:8], words[1:8])
@@ -85,7 +84,7 @@ def _wrong_point(data: bytes) -> LucidaError:
     """
     try:
         for count, line in _lines(data):
-            with errors_within(f"line {count}", ": "):
+            with under(f"line {count}", ": "):
                 values = _numbers(_POINT[1:], _words(line, _POINT, len(_POINT))[1:8])
                 for field, value in zip(_POINT[1:7], values[:6], strict=True):
                     number(field, value)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +11,7 @@ from renderer.camera import Camera, Size
 from renderer.camera_checks import Floats, listed, number
 from renderer.camera_formats.given import Options
 from renderer.camera_formats.posed import PosedCamera
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, errors_as
 from renderer.frame import check_size
 from renderer.intrinsics import PixelOrigin, matrix
 
@@ -24,27 +23,6 @@ ORIGIN_TOLD: dict[PixelOrigin, str] = {
 
 _LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
 _ROUNDED = 1e-4  # tolerance for a rotation in float32, or with four digits
-
-
-@contextlib.contextmanager
-def errors_as(field: str) -> Iterator[None]:
-    """Give errors that are raised in the block this field."""
-    try:
-        yield
-    except LucidaError as error:
-        raise LucidaError(field, error.problem, error.remedy) from None
-
-
-@contextlib.contextmanager
-def errors_within(prefix: str, sign: str = ".") -> Iterator[None]:
-    """Put `prefix` and `sign` before the field of errors that are raised in the block, unless the
-    prefix is empty.
-    """
-    try:
-        yield
-    except LucidaError as error:
-        field = sign.join(part for part in (prefix, error.field) if part)
-        raise LucidaError(field, error.problem, error.remedy, error.source) from None
 
 
 def number_of(name: str, value: object) -> float:

@@ -21,11 +21,10 @@ from pathlib import Path
 from types import ModuleType
 
 from renderer.camera_formats.distortion import check_held, without_lens
-from renderer.camera_formats.entries import errors_within
 from renderer.camera_formats.given import Given, Options, from_json, given
 from renderer.camera_formats.posed import CameraSet, PosedCamera
-from renderer.errors import LucidaError
-from renderer.scene.reading import suggestion
+from renderer.errors import LucidaError, under
+from renderer.scene.reading import naming, suggestion
 
 
 @dataclass(frozen=True)
@@ -109,14 +108,12 @@ def read_cameras(
     """
     found = source if isinstance(source, Given) else given(source)
     options = options or Options()
-    try:
+    with naming(found.name):
         entry = format_named(format) if format else recognised(found)
         cameras: CameraSet = entry.module.read(found, options)
         if not cameras.cameras:
             raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
-        return cameras
-    except LucidaError as error:
-        raise error if error.source else error.in_file(found.name) from None
+    return cameras
 
 
 def recognised(found: Given) -> Format:
@@ -157,6 +154,6 @@ def _held(posed: PosedCamera, entry: Format, options: Options) -> PosedCamera:
     """
     if options.ignore_distortion:
         return without_lens(posed)
-    with errors_within(posed.name):
+    with under(posed.name):
         check_held(posed.camera, posed.size or options.size, entry.lenses, entry.name)
     return posed

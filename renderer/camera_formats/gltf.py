@@ -70,8 +70,8 @@ def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
     for number, camera in enumerate(cameras):
         if number not in shown:
             yield f"cameras[{number}] is not used: no node of the scene holds it"
-        elif extensions := camera.get("extensions"):
-            yield f"cameras[{number}] is shown without {', '.join(extensions)}"
+        elif left := [*camera.get("extensions", ()), *["extras"] * bool(camera.get("extras"))]:
+            yield f"cameras[{number}] is shown without {', '.join(left)}"
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:

@@ -22,8 +22,6 @@ from renderer.camera_formats.distortion import FileLens
 from renderer.camera_formats.entries import (
     ORIGIN_TOLD,
     affine,
-    errors_as,
-    errors_within,
     in_image,
     is_rotation,
     number_of,
@@ -41,7 +39,7 @@ from renderer.camera_formats.nerf_lens import (
 from renderer.camera_formats.posed import CameraSet, PosedCamera
 from renderer.camera_formats.rigid import pinhole, pose_of
 from renderer.camera_formats.unused import entries_of, notes_on
-from renderer.errors import LucidaError
+from renderer.errors import LucidaError, errors_as, under
 from renderer.intrinsics import check_for_lens, pixel_offset, viewport_of
 
 Table = Mapping[str, Any]
@@ -136,7 +134,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     origin = options.pixel_origin or "corner"
     model, frames = model_for(cameras), []
     for i, posed in enumerate(cameras):
-        with errors_within(posed.name):
+        with under(posed.name):
             frames.append(_frame(posed, i, options, origin, model))
     shared = {
         name: value

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.errors import LucidaError, one_line, shortened
+from renderer.errors import LucidaError, one_line, quoted, shortened
 from renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE, TEXTURES
 from renderer.scene.reading import check_bytes, read_file
 
@@ -74,9 +74,8 @@ def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
         raise LucidaError("", "has too many pixels", f"stay within {TEXTURE_SIDE} a side") from None
     except Image.UnidentifiedImageError:
         raise LucidaError("", f"is none of {', '.join(FORMATS)}", _REMEDY) from None
-    except Exception as error:  # Pillow raises what it likes for a damaged file
-        reason = (str(error).strip().splitlines() or [type(error).__name__])[0][:120]
-        raise LucidaError("", f"cannot be decoded: {reason}", _REMEDY) from None
+    except Exception:  # Pillow raises what it likes for a damaged file
+        raise LucidaError("", "is cut off or damaged", _REMEDY) from None
     pixels.setflags(write=False)
     return pixels
 
@@ -117,7 +116,7 @@ def read_image(name: str, folder: Path, has_opacity: bool = False) -> FoundImage
 
 def shown(name: str) -> str:
     """Return an image's name for messages."""
-    return repr(shortened(one_line(name), _SHOWN))
+    return quoted(shortened(name, _SHOWN))
 
 
 @dataclass

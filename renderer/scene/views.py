@@ -8,7 +8,7 @@ from typing import Any
 
 from renderer.atomic import atomic_write
 from renderer.camera import Camera, Floats
-from renderer.errors import LucidaError, under
+from renderer.errors import LucidaError, not_together, under
 from renderer.lenses import MODELS, Lens
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
@@ -94,8 +94,9 @@ def view_from_table(table: dict[str, Any], is_fitted: bool = True) -> View:
             return View(Camera(**plain, lens=_lens(fields.lens)), fit)
         for name in ("u", "v", "w", "viewport"):
             if name in table:
-                problem = "is given beside target, up, fov_y_deg or aspect"
-                raise LucidaError(name, problem, "give one or the others")
+                raise not_together(
+                    name, "target, up, fov_y_deg or aspect", "give one or the others"
+                )
         look: LookAtFields = to_struct(table, LookAtFields)
         camera = Camera.look_at(
             look.eye,

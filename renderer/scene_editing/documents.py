@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from renderer.atomic import atomic_write
+from renderer.atomic import atomic_write, file_stem
 from renderer.errors import LucidaError
 from renderer.scene.files import changed_scene
 from renderer.scene.limits import TOML_BYTES
@@ -73,8 +73,7 @@ def suggested_file(scene: Scene) -> Path:
     source = scene.origin.source if scene.origin is not None else ""
     if source and source not in SCENE_NAMES:
         return Path(source).absolute().with_suffix(".toml")
-    name = "".join(c if c.isalnum() or c in " -_" else "-" for c in scene.name) or "scene"
-    return Path(f"{name}.toml")
+    return Path(f"{file_stem(scene.name) or 'scene'}.toml")
 
 
 def save(

@@ -66,9 +66,18 @@ def test_a_vector_may_begin_with_a_minus(word):
     [
         (["--target=1,2,3"], "--target: (1, 2, 3) is the eye itself; look at another point"),
         (["--target=1,9,3"], "--up: (0, 1, 0) is along the view direction; choose another up"),
-        (["--target=0,0,0", "--u=1,0,0"], "--u: is given beside --target; give one of the two"),
-        (["--up=0,1,0", "--w=0,0,1"], "--w: is given beside --up; give one of the two"),
-        (["--fov=40", "--distance=2"], "--distance: is given beside --fov; give one of the two"),
+        (
+            ["--target=0,0,0", "--u=1,0,0"],
+            "--u: cannot be used together with --target; give one of the two",
+        ),
+        (
+            ["--up=0,1,0", "--w=0,0,1"],
+            "--w: cannot be used together with --up; give one of the two",
+        ),
+        (
+            ["--fov=40", "--distance=2"],
+            "--distance: cannot be used together with --fov; give one of the two",
+        ),
         (["--fov=180"], "--fov: 180 is not between 0 and 180; give e.g. 40"),
         (["--fov=nan"], "--fov: nan is not between 0 and 180; give e.g. 40"),
         (["--fov=40", "--projection=parallel"], "--fov: is nothing that a parallel projection has"),

@@ -75,7 +75,7 @@ def test_half_a_pixel_lies_between_the_two_origins():
         ({"world_from_camera": np.zeros((4, 4))}, "world_from_camera: its rows"),
         (
             {"camera_from_world": np.eye(4), "world_from_camera": np.eye(4)},
-            "world_from_camera: is given beside",
+            "world_from_camera: cannot be used together with",
         ),
         ({"axes": "blender"}, "axes: 'blender'"),
         ({"pixel_origin": "middle"}, "pixel_origin: 'middle'"),

@@ -138,7 +138,14 @@ class TestMistakes:
             ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
             ("pick spheres 0 9 --size 9x9", "COLUMN: 9 is outside an image of 9x9; give 0 to 8"),
             ("pick spheres 0 1 --from 1", "ROW: 0 is outside an image of 1280x720; give 1 to 720"),
-            ("scenes all", "unrecognized arguments: all; see 'lucida scenes --help'"),
+            ("scenes all", "scenes: takes no file; lucida scene all describes one"),
+            ("scenes --all", "unrecognized arguments: --all; see 'lucida scenes --help'"),
+            ("install-desktop here", "install-desktop: is no longer part of Lucida; start lucida"),
+            ("camera a.json --undistort=out", "--undistort: is no longer part of Lucida; COLMAP's"),
+            (
+                "lecture --results no no2 -o a.html",
+                "--results: no: cannot be read: no such file or directory",
+            ),
         ],
     )
     def test_mistake(self, capsys, in_an_empty_folder, line, told):

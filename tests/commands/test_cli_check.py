@@ -215,7 +215,7 @@ def test_a_program(check, tmp_path):
     status, _, err = check(None, "--command", command)
     assert status == 2 and "--task: is missing" in err
     status, _, err = check(RIGHT, "--command", command, "--task", "memory-offset")
-    assert status == 2 and "beside --command" in err
+    assert status == 2 and "together with --command" in err
     status, _, err = check(None)
     assert status == 2 and "FILE: is missing" in err
 

@@ -40,7 +40,8 @@ from app.stepper.source import shown_code, source_of
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
-STEPS = load_lecture(BUILTIN).steps
+LECTURE = load_lecture(BUILTIN)
+STEPS = LECTURE.builds
 NOTATIONS: tuple[Notation, ...] = ("book", "code")
 Found = Iterator[tuple[str, str, str]]  # where, the kind of text, the text
 
@@ -103,7 +104,7 @@ def stepper(notation: Notation) -> Found:
 
 
 def drawn(notation: Notation) -> Found:
-    options = OutsideOptions(target=(0, 0, 0), parameters=True)
+    options = OutsideOptions(target=(0, 0, 0))
     for step in STEPS:
         camera = step.view.for_size((64, 48))
         end = RayEnd((24, 32), 2.0)
@@ -173,9 +174,10 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
 
 
 def test_the_first_step_with_a_letter_twice_says_so():
-    said = [n for n, step in enumerate(STEPS) if any(isinstance(b, TwiceUsed) for b in step.blocks)]
-    assert [STEPS[n].title for n in said] == ["A simple camera"]
-    assert len(in_notation(STEPS[said[0]].blocks, "code")) == len(STEPS[said[0]].blocks) - 1
+    said = [b for b in LECTURE.builds if any(isinstance(block, TwiceUsed) for block in b.blocks)]
+    assert {build.title for build in said} == {"A simple camera"}
+    assert said[-1].build + 1 == LECTURE.count(said[-1].number)
+    assert len(in_notation(said[0].blocks, "code")) == len(said[0].blocks) - 1
 
 
 def test_a_word_and_its_symbol_are_one_in_code():

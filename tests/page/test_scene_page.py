@@ -226,6 +226,37 @@ def test_the_difference_is_counted(page, tab):
     tab.get_by_role("radio", name="Side by side").check()
 
 
+@pytest.mark.parametrize("moved", [False, True])
+def test_a_lost_webgl_context_is_reported_and_comes_back(page, tab, moved):
+    tab.evaluate(
+        """window.drawn = [...document.querySelectorAll(".lucida-image canvas")]
+          .filter((canvas) => canvas.getContext("webgl2"));
+        window.losing = drawn.map((c) => c.getContext("webgl2").getExtension("WEBGL_lose_context"));
+        for (const canvas of drawn) canvas.classList.add("drawn");"""
+    )
+    assert tab.evaluate("losing.length") == 2  # the raster image and the outside view
+    tab.evaluate("distance => lucida.set({distance})", 1.5 if moved else 1)
+    image = page.image("raster", SIZE)
+    right = _screenshots(tab)
+    tab.evaluate("lucida.set({distance: 1})")
+    reports = (
+        "[...document.querySelectorAll('figure p')].filter((p) => /is lost/.test(p.innerText))"
+    )
+    tab.evaluate("losing.forEach((context) => context.loseContext())")
+    page.until(f"{reports}.length === 2")
+    refused = "lucida.pixels('raster', [8, 8]).catch((error) => error.message)"
+    assert "is lost" in tab.evaluate(refused)
+    tab.evaluate("distance => lucida.set({distance})", 1.5 if moved else 1)
+    tab.evaluate("losing.forEach((context) => context.restoreContext())")
+    page.until(f"{reports}.length === 0")
+    assert _screenshots(tab) == right
+    np.testing.assert_array_equal(page.image("raster", SIZE), image)
+
+
+def _screenshots(tab) -> list[bytes]:
+    return [canvas.screenshot() for canvas in tab.locator(".drawn").all()]
+
+
 def test_a_camera_that_cannot_be_is_refused(tab):
     script = "f => { try { lucida.set(f); return ''; } catch (error) { return error.message; } }"
     for fields in (

@@ -66,7 +66,7 @@ class TestRun:
     def test_each_format_has_a_check(self, name):
         assert callable(import_module(f"tests.conformance.formats.{name}").check)
 
-    @pytest.mark.parametrize("name", ["view", "nerf", "opengl"])
+    @pytest.mark.parametrize("name", ["view", "nerf"])
     def test_those_that_need_no_program(self, name):
         found = run.outcome(name, 20)
         assert found.met and found.checked is not None, found.problem

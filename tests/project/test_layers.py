@@ -112,7 +112,7 @@ DRAW = {
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "composed differences",
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
-    "painting parts pixel_plane scrubber tint tools widening",
+    "painting parts pixel_plane tint tools widening",
     "objects": "handles in_views inspector material_fields outliner value_fields",
     "probe": "",
     "stepper": "controls listing numbers plan",

@@ -13,7 +13,7 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)
-STEPPER_STEP = 12
+STEPPER_STEP = 11
 
 
 def enlarge(d: Driver, scale: float) -> None:

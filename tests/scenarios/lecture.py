@@ -25,7 +25,7 @@ def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
     d.settle()
     session = lecture_of(d).session
     assert session is not None
-    assert (session.number, session.uncovered) == (0, 1)
+    assert session.place[1:] == (0, 1)
     assert d.window.state.preferences.presentation
     lecture_of(d).leave(d.window)
     d.settle()
@@ -77,39 +77,71 @@ def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
     assert number_of(d) == 1
 
 
-def drive_a_step_is_uncovered_by_keys_and_buttons(d: Driver) -> None:
-    text = "text = '''\n- one\n- [two](#bright)\n\n> Why?\n'''"
-    more = "reveal = true\nanswer = 'So.'\nlinks.bright.images.exposure_ev = 2"
-    covered = SMALL.replace('text = "One **ball** at $z = -3$."', f"{text}\n{more}")
-    give(d, covered)
-    session = lecture_of(d).session
+BUILDS = """\
+title = "Small"
+[[steps]]
+title = "First"
+text = "- one"
+scene = "spheres"
+[[steps.builds]]
+text = "- two"
+options.images.exposure_ev = 4.0
+camera.eye = [0.5, 1.0, 6.0]
+move_s = 60.0
+[[steps.builds]]
+instead = "three"
+move_s = 0.0
+[[steps]]
+title = "Second"
+"""
+
+
+def drive_builds_are_walked_and_move(d: Driver) -> None:
+    give(d, BUILDS)
+    lecture, session = lecture_of(d), lecture_of(d).session
     assert session is not None
-    pictures = [d.picture()]
-    for stage in (1, 2, 3):
-        d.ctx.key_press(int(Key.page_down))
+    window, past = d.window, len(d.window.history.past)
+    first, picture = window.state, d.picture()
+
+    def press(key: Key) -> tuple[int, int]:
+        d.ctx.key_press(int(key))
         d.ctx.yield_(3)
-        pictures.append(d.picture())
-        assert (session.number, session.uncovered) == (0, stage)
-        assert changed(*pictures[-2:]) > 0
-    d.ctx.key_press(int(Key.page_up))
-    d.ctx.item_click(f"//{LECTURE}/<##back")
-    assert session.uncovered == 1
-    d.ctx.mouse_teleport_to_pos((3, 3))
-    d.ctx.yield_(3)
-    assert changed(pictures[1], d.picture()) < 0.01
-    d.ctx.item_click(f"//{LECTURE}/###all")
-    assert session.uncovered == 3
+        return session.place[1:]
+
+    assert press(Key.page_down) == (0, 1)
+    assert 0 < window.state.images.exposure_ev < 4 == window.present.images.exposure_ev
+    assert window.state.camera not in (first.camera, window.present.camera)
+    assert not window.settled
+    assert press(Key.page_down) == (0, 1)  # ends the movement, and no more
+    assert window.state is window.present and len(window.history.past) == past + 1
+    d.settle()
+    assert changed(picture, d.picture()) > 0.01
+    assert press(Key.r) == (0, 1) and window.state.images.exposure_ev < 4  # plays it again
+    d.ctx.mouse_move_to_pos((200, 300))
+    d.ctx.mouse_click(0)
     d.ctx.yield_(2)
-    for exposure_ev in (2.0, 0.0):
-        d.ctx.item_click(item(d, "two##2"))
-        d.settle()
-        assert d.window.state.images.exposure_ev == exposure_ev
-    d.ctx.item_click(f"//{LECTURE}/>##next")
+    assert window.state is window.present and window.state.images.exposure_ev == 4
+    window.change(state_of(session.step, window.state))
+    assert press(Key.page_down) == (0, 2)
+    assert window.state is window.present
+    assert press(Key.page_down) == (1, 0)
     d.settle()
-    assert session.number == 1
-    d.ctx.key_press(int(Key.page_up))
+    assert press(Key.page_up) == (0, 2)  # the step as it was left
     d.settle()
-    assert (session.number, session.uncovered) == (0, 3)
+    assert press(Key.page_up) == (0, 1) and press(Key.page_up) == (0, 0)
+    assert 0 < window.state.images.exposure_ev < 4  # the movement, backwards
+    assert press(Key.page_up) == (0, 0)
+    d.settle()
+    assert window.state.camera == first.camera
+    window.change(window.state.with_options(preferences={"reduced_motion": True}))
+    assert press(Key.page_down) == (0, 1) and window.state is window.present
+    window.change(window.state.with_options(preferences={"reduced_motion": False}))
+    window.undo()
+    d.settle()
+    assert session.place[1:] == (0, 0)  # a build is one step of undo
+    lecture.go(window, 0, 2)
+    d.settle()
+    assert session.place[1:] == (0, 2) and window.state.images.exposure_ev == 4
 
 
 def drive_one_key_comes_back_to_the_step(d: Driver) -> None:

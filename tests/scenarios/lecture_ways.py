@@ -31,9 +31,7 @@ def _rest(d: Driver) -> None:
 
 
 def _go(d: Driver, number: int) -> None:
-    """Go to a step and uncover all of it, as it is when one comes back to it."""
     d.window.lecture.go(d.window, number)
-    d.window.lecture.show_all(d.window)
     _rest(d)
 
 

@@ -131,7 +131,7 @@ def drive_a_line_is_asked_for(d: Driver) -> None:
     d.ctx.key_press(int(Key.a))
     d.settle()
     assert _options(d).answer == asked.names[0]
-    d.ctx.key_press(SHIFT | int(Key.r))
+    d.ctx.key_press(SHIFT | int(Key.u))
     d.settle()
     assert _options(d).seed == 2 and _options(d).answer == ""
     made = view.made

@@ -202,7 +202,7 @@ MISTAKES = {
         "camera.fov_y_deg: 180 is not between 0 and 180"
     ),
     BALL + "[camera]\neye = [0, 0, 1]\ntarget = [0, 0, 0]\nu = [1, 0, 0]": (
-        "camera.u: is given beside target"
+        "camera.u: cannot be used together with target"
     ),
     "ambient = -1": "ambient: is a whole number; give text in quotes or a list",
     "ambient = [0, 0, -1]\n" + BALL: "ambient: -1 is outside 0 to",

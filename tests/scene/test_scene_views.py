@@ -95,7 +95,10 @@ def test_a_view_that_cannot_be_written_leaves_the_old_file(tmp_path: Path) -> No
             "[camera]\neye = [0, 0, 1]\ntarget = [0, 0, 1]",
             "v.toml: camera.target: (0, 0, 1) is the",
         ),
-        ("[camera]\nu = [1, 0, 0]\ntarget = [0, 0, 1]", "v.toml: camera.u: is given beside target"),
+        (
+            "[camera]\nu = [1, 0, 0]\ntarget = [0, 0, 1]",
+            "v.toml: camera.u: cannot be used together with target",
+        ),
         ("[camera]\n[[objects]]", "v.toml: objects: is unknown"),
     ],
 )

@@ -146,7 +146,7 @@ def test_a_mark_has_the_size_of_the_image_that_it_was_set_in() -> None:
     assert change(state, state.with_options(marked=(2, 2))) == "marked"
 
 
-IN_LECTURE = replace(STATE, step=("a lecture", 2))
+IN_LECTURE = replace(STATE, step=("a lecture", 2, 0))
 TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0, 0, -1)))
 
 
@@ -154,6 +154,7 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
     ("before", "after", "words"),
     [
         (STATE, IN_LECTURE, "lecture: step 3"),
+        (IN_LECTURE, replace(STATE, step=("a lecture", 2, 1)), "lecture: step 3.2"),
         (IN_LECTURE, IN_LECTURE.with_options(marked=(2, 2)), "marked"),
         (IN_LECTURE, STATE.with_options(marked=(2, 2)), "marked"),
         (STATE, STATE.with_scene(replace(SCENE, name="cow")), "scene: cow"),

@@ -42,7 +42,13 @@ def turned(mesh: Mesh, rotate_deg: tuple[float, float, float]) -> Mesh:
 LIGHT = (PointLight((2, 3, 1)),)
 # Its diagonal runs through the middles of pixels of a square image.
 SQUARE = Scene(
-    (SceneObject(shapes.translate(turned(shapes.rectangle(1.0, 1.0), (90, 0, 0)), (0, 0, -1))),),
+    (
+        SceneObject(
+            shapes.transformed(
+                turned(shapes.rectangle(1.0, 1.0), (90, 0, 0)), shapes.placement((0, 0, -1))
+            )
+        ),
+    ),
     LIGHT,
     background=(1.0, 0.0, 1.0),
 )
@@ -65,7 +71,7 @@ def test_depths_are_the_ray_parameters(projection: str, size: Size) -> None:
 
 def test_spheres_are_there_before_the_triangles() -> None:
     """In front of a wall, and half in it: the depth buffer holds both."""
-    wall = shapes.translate(shapes.box((4.0, 4.0, 1.0)), (0, 0, -4))
+    wall = shapes.transformed(shapes.box((4.0, 4.0, 1.0)), shapes.placement((0, 0, -4)))
     ball = SceneObject(Sphere((0.4, 0.1, -3.4), 0.7), Material((0.1, 0.9, 0.1)))
     run = recorded(Scene((SceneObject(wall), ball), LIGHT), Order.RASTER)
     begun = moment_at(run, 2)
@@ -82,8 +88,11 @@ def test_triangles_that_reach_behind_the_eye_or_the_clip_planes(clip, projection
     far: clipped, not torn, not turned round."""
     checked = Material((0.8, 0.8, 0.8))
     things = (
-        shapes.translate(shapes.rectangle(14.0, 60.0), (0.31, -1, 3)),
-        turned(shapes.translate(shapes.box((0.4, 0.5, 30.0)), (0.5, 0.2, 0)), (5, 20, 3)),
+        shapes.transformed(shapes.rectangle(14.0, 60.0), shapes.placement((0.31, -1, 3))),
+        turned(
+            shapes.transformed(shapes.box((0.4, 0.5, 30.0)), shapes.placement((0.5, 0.2, 0))),
+            (5, 20, 3),
+        ),
     )
     scene = Scene(tuple(SceneObject(thing, checked) for thing in things), LIGHT)
     model = Model(scene)
@@ -115,7 +124,9 @@ def test_holes_are_seen_through(projection) -> None:
     texels = np.dstack([noise(7, 5), noise(7, 5, 2)[..., :1]])
     holed = Material(texture=Texture(texels), cutout=0.5)
     walls = [turned(wall(Texture(texels), z=0.0), (0, turn, 0)) for turn in (75, 0)]
-    walls = [shapes.translate(one, (0, 0, -2 - k)) for k, one in enumerate(walls)]
+    walls = [
+        shapes.transformed(one, shapes.placement((0, 0, -2 - k))) for k, one in enumerate(walls)
+    ]
     scene = Scene(
         tuple(SceneObject(one, holed) for one in walls), LIGHT, background=(1.0, 0.0, 1.0)
     )
@@ -160,7 +171,13 @@ def test_two_triangles_are_cut_at_the_same_point_of_their_edge() -> None:
     rng = np.random.default_rng(4)
     for _ in range(40):
         floor = turned(shapes.rectangle(9.0, 40.0), tuple(rng.uniform(-20, 20, 3)))
-        scene = Scene((SceneObject(shapes.translate(floor, tuple(rng.uniform(-3, 3, 3)))),))
+        scene = Scene(
+            (
+                SceneObject(
+                    shapes.transformed(floor, shapes.placement(tuple(rng.uniform(-3, 3, 3))))
+                ),
+            )
+        )
         first, second = (set(), set())
         for piece in triangles(Model(scene), Camera(near=1.5)):
             (second if piece.primitive else first).update(piece.points)

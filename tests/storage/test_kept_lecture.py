@@ -56,8 +56,8 @@ def folder(tmp_path: Path) -> Path:
 def given(file: Path, folder: Path) -> Start:
     """A window in which the second step was changed and answered; it is closed. What it began with,
     and its state at the end."""
-    start = begin_lecture(load_lecture(file), 1, folder)
-    session = LectureSession(load_lecture(file), file, 1)
+    start = begin_lecture(load_lecture(file), (1, 0), folder)
+    session = LectureSession(load_lecture(file), file, (1, 0))
     scene = session.step.scene
     state = replace(start.state, scene=scene, step=session.place)
     state = state.with_camera(replace(state.camera, eye=(1.0, 2.0, 9.0)))
@@ -82,7 +82,7 @@ def test_the_step_with_its_changes_and_answers_comes_back(file, folder):
     assert lecture is not None
     assert lecture.number == 1
     assert start.state.scene is lecture.step.scene
-    assert start.state.step == lecture.place == (str(file), 1)
+    assert start.state.step == lecture.place == (str(file), 1, 0)
     assert start.state.view == left.state.view
     assert start.state.options == left.state.options
     answers = lecture.answers
@@ -90,7 +90,7 @@ def test_the_step_with_its_changes_and_answers_comes_back(file, folder):
 
 
 def test_the_built_in_lecture_is_found_wherever_it_is_installed():
-    session = LectureSession(load_lecture(BUILTIN), BUILTIN, 3)
+    session = LectureSession(load_lecture(BUILTIN), BUILTIN, (3, 0))
     session.answers.texts["origin"] = "0, 0"
     state = begin_session(folder=BUILTIN).state  # no place for sessions there: the default
     kept = session.kept(state)
@@ -174,7 +174,7 @@ def test_a_session_goes_from_step_to_step_and_no_further(file):
 
 
 def test_a_step_is_there_with_its_scene_and_its_place(file):
-    session = LectureSession(load_lecture(file), file, 1)
+    session = LectureSession(load_lecture(file), file, (1, 0))
     state = begin_session(folder=BUILTIN).state
     here = replace(state, scene=session.step.scene, step=session.place)
     assert session.kept(here).in_step
@@ -183,7 +183,7 @@ def test_a_step_is_there_with_its_scene_and_its_place(file):
 
 
 def test_a_newer_version_goes_on_at_the_step_and_its_files_are_watched(file):
-    session = LectureSession(load_lecture(file), file, 1)
+    session = LectureSession(load_lecture(file), file, (1, 0))
     session.error = "an older mistake"
     ball = file.parent / "ball.toml"
     ball.write_text("[[objects]]\ntype = 'sphere'\n")
@@ -261,5 +261,7 @@ def test_a_lecture_begun_anew_offers_the_step_where_it_was_left(file, folder, is
     walked = LectureSession(load_lecture(file), file, left=left)
     walked.go(1)
     assert walked.left is None
-    assert LectureSession(load_lecture(file), file, 1 + is_edited, left).left is None  # is there
+    assert (
+        LectureSession(load_lecture(file), file, (1 + is_edited, 0), left).left is None
+    )  # is there
     assert LectureSession(load_lecture(BUILTIN), BUILTIN, left=left).left is None  # another one

@@ -101,6 +101,7 @@ class Driver:
         self.window.shell.toasts.clear()
         self.window.shell.stage.failed.errors.clear()
         self.window.transition.stop()
+        self.window.end_movement()
         self.window.transition.instant = True  # no passage unless a test wants one
         self.stay = False
         self.ctx.mouse_up(0)  # a test that failed may hold it

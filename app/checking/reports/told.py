@@ -138,7 +138,7 @@ def reported(
 def summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
     """Return one line on all results; only their number if a verdict is withheld."""
     if any(told(result).verdict is None for result in tried):
-        return f"{len(tried)} tasks were tried."
+        return f"{len(tried)} {'task was' if len(tried) == 1 else 'tasks were'} tried."
     right = sum(result.status == "right" for result in tried)
     points = sum(result.points for result in tried), sum(task.points for task in tasks)
     return f"{right} of {len(tasks)} tasks correct, {of_points(*points)}"

@@ -66,6 +66,7 @@ export function comparison(images, views, modes, first, both) {
       if (number === asked) result.textContent = /** @type {Error} */ (error).message;
     }
   };
+  for (const { canvas: restored } of views) restored.addEventListener("webglcontextrestored", update);
   choose(first);
   return { controls: element("div", { class: "lucida-modes", role: "group", "aria-label": "Comparison" }, ...choices, wipe, result), update };
 }

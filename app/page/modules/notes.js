@@ -3,7 +3,7 @@
 
 /**
  * @typedef {object} Given the lecture, as it is given
- * @property {Element[]} steps @property {number} number
+ * @property {HTMLElement[]} steps @property {number} number
  * @property {(by: 1 | -1) => void} advance @property {(event: KeyboardEvent) => void} key
  */
 
@@ -42,7 +42,7 @@ export class Notes {
     bar.append(
       button(page, "Previous", () => this.slides.advance(-1)),
       button(page, "Next", () => this.slides.advance(1)),
-      ` ${number + 1} / ${steps.length} `,
+      ` ${steps[number].dataset.number} / ${steps[steps.length - 1].dataset.number} `,
       Object.assign(page.createElement("output"), { id: "clock" }),
     );
     const main = page.createElement("main");
@@ -73,13 +73,12 @@ export class Notes {
   }
 }
 
-/** Return copies of a step's parts, all uncovered. @param {Document} page @param {Element} step
+/** Return copies of a step's parts, all unfolded. @param {Document} page @param {Element} step
  * @param {string} which @returns {Node[]} */
 function parts(page, step, which) {
   return [...step.querySelectorAll(which)].map((part) => {
     const copy = /** @type {Element} */ (page.importNode(part, true));
     for (const one of [copy, ...copy.querySelectorAll("*")]) {
-      one.classList.remove("covered");
       one.removeAttribute("hidden");
       one.removeAttribute("id");
     }

@@ -3,6 +3,7 @@
 // those of shaders/, made GLSL ES by app/page/glsl.py; their input comes from setup.js.
 
 import { cameraForSize } from "./camera.js";
+import { element } from "./elements.js";
 import { facesOfLens } from "./lens_faces.js";
 import { byteOfLight } from "./numbers.js";
 import { cameraBlock, imageSpace, lightRows, marginOf, objectRows, sphereRows, trianglePlanes, triangleRows } from "./setup.js";
@@ -18,6 +19,7 @@ import { GpuStore, linkProgram } from "./webgl.js";
 /** @typedef {{pinhole: Shaders, lens: Shaders}} ShaderSet */
 
 const BOX_VERTICES = 36; // of the box around a sphere
+const LOST = "The WebGL context of this image is lost; the image is drawn again when the browser restores it.";
 
 /** A scene in the WebGL context of a canvas. Throws an Error where there is no WebGL 2. */
 export class Raster {
@@ -34,13 +36,30 @@ export class Raster {
     this.store = new GpuStore(gl);
     this.planes = trianglePlanes(scene);
     this.rows = new Float32Array(4 * scene.faceObject.length);
-    gl.bindBufferBase(gl.UNIFORM_BUFFER, 0, gl.createBuffer());
+    /** @type {Parameters<Raster["show"]> | undefined} the arguments of the last image */
+    this.last = undefined;
+    this.isDisposed = false;
+    this.note = element("p", { role: "status" });
+    canvas.parentElement?.after(this.note);
+    canvas.addEventListener("webglcontextlost", (event) => {
+      if (this.isDisposed) return;
+      event.preventDefault(); // otherwise the browser never restores the context
+      this.note.textContent = LOST;
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.programs.clear();
+      this.store = new GpuStore(gl);
+      this.storeScene();
+      if (this.last) this.show(...this.last);
+      this.note.textContent = "";
+    });
     this.storeScene();
   }
 
-  /** Store what does not depend on the camera. */
+  /** Store what does not depend on the camera, in a new or a restored context. */
   storeScene() {
-    const { scene, store } = this, count = scene.vertices.length / 3;
+    const { gl, scene, store } = this, count = scene.vertices.length / 3;
+    gl.bindBufferBase(gl.UNIFORM_BUFFER, 0, gl.createBuffer());
     const faces = new Int32Array(4 * scene.faceObject.length), vertices = new Float32Array(12 * count);
     for (let n = 0; n < scene.faceObject.length; n += 1) {
       faces.set(scene.faces.subarray(3 * n, 3 * n + 3), 4 * n);
@@ -138,6 +157,8 @@ export class Raster {
   /** Draw the image on the canvas. @param {Camera} camera @param {Size} size @param {number} exposure */
   show(camera, size, exposure) {
     const { gl, canvas } = this, [width, height] = size;
+    this.last = [camera, size, exposure];
+    if (gl.isContextLost()) return;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = size;
     const image = this.draw(camera, size, exposure);
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, image.framebuffer);
@@ -148,8 +169,8 @@ export class Raster {
 
   /** Return the image, by way of the canvas, which is to be drawn anew. @param {Camera} camera @param {Size} size @param {number} exposure */
   pixels(camera, size, exposure) {
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = size;
+    if (this.gl.isContextLost()) throw new Error(LOST);
+    const copy = element("canvas", { width: String(size[0]), height: String(size[1]) });
     const context = /** @type {CanvasRenderingContext2D} */ (copy.getContext("2d", { willReadFrequently: true }));
     this.show(camera, size, exposure);
     context.drawImage(this.canvas, 0, 0);
@@ -158,6 +179,7 @@ export class Raster {
 
   /** Give the context back: a browser has few. */
   dispose() {
+    this.isDisposed = true;
     this.gl.getExtension("WEBGL_lose_context")?.loseContext();
   }
 }

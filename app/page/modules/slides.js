@@ -1,4 +1,4 @@
-// The lecture's steps, one at a time: keys, reveal, overview, address, theme.
+// The builds of a lecture's steps, one at a time: keys, overview, address, theme.
 
 import { Answers } from "./answers.js";
 import { attach } from "./exercise.js";
@@ -20,72 +20,49 @@ function byId(id, kind) {
 
 class Slides {
   constructor() {
-    this.steps = [...document.querySelectorAll("section.step")];
+    this.steps = /** @type {HTMLElement[]} */ ([...document.querySelectorAll("section.step")]);
     this.number = 0;
-    /** @type {number[]} how much of each step is uncovered */
-    this.uncovered = this.steps.map(() => 0);
     this.told = byId("told", HTMLElement);
     this.notes = new Notes(this);
-    this.openOverview = overview(this.steps);
+    this.openOverview = overview(this.steps.filter(({ id }) => !id.includes(".")));
   }
 
   get step() {
     return this.steps[this.number];
   }
 
-  /** Return what a step covers, in the order of uncovering. @param {Element} step */
-  covered(step) {
-    const all = /** @type {HTMLElement[]} */ ([...step.querySelectorAll("[data-stage]")]);
-    return all.sort((a, b) => Number(a.dataset.stage) - Number(b.dataset.stage));
-  }
-
-  /** Go to a step. An earlier one shows all that it covers. @param {number} number from 0 */
+  /** Go to a build. @param {number} number of all, from 0 */
   go(number) {
     const next = Math.min(Math.max(number, 0), this.steps.length - 1);
     if (next === this.number) return;
-    if (next < this.number) this.uncovered[next] = this.covered(this.steps[next]).length;
+    const isOther = this.steps[next].dataset.number !== this.step.dataset.number;
     this.number = next;
-    history.replaceState(null, "", `#${next + 1}`);
+    history.replaceState(null, "", `#${this.step.id}`);
     this.show();
-    scrollTo(0, 0);
-    this.step.querySelector("h2")?.focus({ preventScroll: true });
+    if (isOther) {
+      scrollTo(0, 0);
+      this.step.querySelector("h2")?.focus({ preventScroll: true });
+    } else this.told.textContent = this.step.querySelector(".text")?.lastElementChild?.textContent ?? "";
   }
 
-  /** Uncover more (1), or take back (-1); then go on. @param {1 | -1} by */
+  /** @param {1 | -1} by */
   advance(by) {
-    const stages = this.covered(this.step);
-    const now = this.uncovered[this.number] + by;
-    if (now < 0 || now > stages.length) return this.go(this.number + by);
-    this.uncovered[this.number] = now;
-    this.show();
-    const last = by > 0 ? stages[now - 1] : null;
-    last?.scrollIntoView({ block: "nearest" });
-    this.told.textContent = last?.textContent ?? "";
+    this.go(this.number + by);
   }
 
-  /** Scroll while there is more of the step below, and it covers nothing; then go on. */
+  /** Scroll while there is more of the step below; then go on. */
   pageDown() {
     const below = document.documentElement.scrollHeight - innerHeight - scrollY;
-    const isCovering = this.uncovered[this.number] < this.covered(this.step).length;
-    if (below > 8 && !isCovering) scrollBy(0, 0.85 * innerHeight);
+    if (below > 8) scrollBy(0, 0.85 * innerHeight);
     else this.advance(1);
-  }
-
-  showAll() {
-    this.uncovered[this.number] = this.covered(this.step).length;
-    this.show();
   }
 
   show() {
     this.steps.forEach((step, number) => step.classList.toggle("current", number === this.number));
-    const stages = this.covered(this.step);
-    const count = this.uncovered[this.number];
-    stages.forEach((item, place) => item.classList.toggle("covered", place >= count));
-    byId("place", HTMLElement).textContent = `${this.number + 1} / ${this.steps.length}`;
-    byId("previous", HTMLButtonElement).disabled = this.number === 0 && count === 0;
-    const isLast = this.number === this.steps.length - 1 && count === stages.length;
-    byId("next", HTMLButtonElement).disabled = isLast;
-    byId("show-all", HTMLButtonElement).disabled = count === stages.length;
+    const last = this.steps.length - 1;
+    byId("place", HTMLElement).textContent = `${this.step.dataset.number} / ${this.steps[last].dataset.number}`;
+    byId("previous", HTMLButtonElement).disabled = this.number === 0;
+    byId("next", HTMLButtonElement).disabled = this.number === last;
     document.dispatchEvent(new CustomEvent("step", { detail: this.step }));
     this.notes.show();
   }
@@ -109,7 +86,7 @@ class Slides {
   actions(shift) {
     const [on, back] = [() => this.advance(1), () => this.advance(-1)];
     const letters = {
-      o: () => this.openOverview(this.number),
+      o: () => this.openOverview(Number(this.step.dataset.number) - 1),
       n: () => this.notes.open(),
       t: nextTheme,
       b: blank,
@@ -120,7 +97,7 @@ class Slides {
       ...(byId("letters", HTMLInputElement).checked ? letters : {}),
       ArrowRight: on,
       ArrowLeft: back,
-      PageDown: shift ? () => this.showAll() : () => this.pageDown(),
+      PageDown: () => this.pageDown(),
       PageUp: back,
       Space: shift ? back : () => this.pageDown(),
       Home: () => this.go(0),
@@ -161,24 +138,6 @@ function bindAnswers(answers) {
   count();
 }
 
-/** Let a link in the text show its picture, and hide it again. @param {HTMLElement} link */
-function bindLink(link) {
-  link.addEventListener("click", () => {
-    const step = link.closest("section");
-    const isShown = link.getAttribute("aria-pressed") !== "true";
-    for (const other of step?.querySelectorAll("button.link") ?? [])
-      other.setAttribute("aria-pressed", String(other === link && isShown));
-    for (const view of /** @type {NodeListOf<HTMLElement>} */ (
-      step?.querySelectorAll(".views > *") ?? []
-    ))
-      view.classList.toggle("aside", isShown && view.dataset.ofLink !== link.dataset.shows);
-    for (const picture of /** @type {NodeListOf<HTMLElement>} */ (
-      step?.querySelectorAll("[data-of-link]") ?? []
-    ))
-      picture.hidden = !isShown || picture.dataset.ofLink !== link.dataset.shows;
-  });
-}
-
 /** Show programs in one language, if they are there in several. @param {Element} group */
 function bindLanguages(group) {
   const programs = /** @type {HTMLElement[]} */ ([...group.querySelectorAll("pre")]);
@@ -217,15 +176,13 @@ export function start() {
   }
   document.querySelectorAll(".mistakes").forEach(attachMistakes);
   bindAnswers(answers);
-  /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("button.link")).forEach(bindLink);
   document.querySelectorAll(".programs").forEach(bindLanguages);
   /** @type {Record<string, () => void>} */
   const clicks = {
     previous: () => slides.advance(-1),
     next: () => slides.advance(1),
-    "show-all": () => slides.showAll(),
     theme: nextTheme,
-    "open-overview": () => slides.openOverview(slides.number),
+    "open-overview": () => slides.openOverview(Number(slides.step.dataset.number) - 1),
     "open-notes": () => slides.notes.open(),
     print: () => print(),
   };
@@ -236,7 +193,7 @@ export function start() {
       byId(name, HTMLDialogElement).showModal(),
     );
   document.addEventListener("keydown", (event) => slides.key(event));
-  const addressed = () => slides.go(Number.parseInt(location.hash.replace(/\D*/, ""), 10) - 1 || 0);
+  const addressed = () => slides.go(slides.steps.findIndex((step) => `#${step.id}` === location.hash));
   addEventListener("hashchange", addressed);
   document.body.classList.add("live");
   slides.show();

@@ -1,5 +1,7 @@
-"""OpenGL: pyrr's matrices. It multiplies row vectors from the left; so its arrays, flattened, are
-OpenGL's columns one after another.
+"""OpenGL: GLM's matrices, and where it sees points through them. Lucida's are pyrr's.
+
+GLM's matrices are lists of columns. Its projections are in float32, but their numbers are exact in
+float64, in which all else is computed.
 """
 
 from __future__ import annotations
@@ -20,44 +22,53 @@ NAMES = ("camera_from_world", "clip_from_camera")
 
 
 def check(job: Job) -> Checked:
-    pyrr = needed("pyrr")
-    return Checked(f"pyrr {pyrr.__version__}: `matrix44`", (_ours(pyrr, job), _theirs(pyrr, job)))
+    glm = needed("glm")
+    ours, theirs = _ours(glm, job), _theirs(glm, job)
+    return Checked(f"PyGLM {glm.__version__}: `lookAt`, `frustum`, `project`", (ours, theirs))
 
 
-def _ours(pyrr: Any, job: Job) -> Measured:
+def _ours(glm: Any, job: Job) -> Measured:
     errors = []
     for case in cases(job, skewed_camera, parallel=True):
         found: dict[str, Any] = {}
         exec(case.file("opengl"), {}, found)
-        view, clip = (np.reshape(found[name], (4, 4)) for name in NAMES)
-        errors.append(_seen(pyrr, view, clip, case.points, case.size) - case.pixels)
-    return measured("our matrices, multiplied by pyrr", errors)
+        view, clip = (glm.dmat4(*np.ravel(found[name]).tolist()) for name in NAMES)
+        errors.append(_seen(glm, view, clip, case.points, case.size) - case.pixels)
+    return measured("our matrices, by its project()", errors)
 
 
-def _theirs(pyrr: Any, job: Job) -> Measured:
+def _theirs(glm: Any, job: Job) -> Measured:
     """Read its matrices column by column, row by row, and as JSON."""
-    random, errors, m = job.random, [], pyrr.matrix44
+    random, errors = job.random, []
     for number in range(job.cameras):
         size = any_size(random)
-        eye, target = random.normal(size=(2, 3)) * 3
-        view = m.create_look_at(eye, target, any_pose(random)[0, :3], dtype=float)
-        edges = np.ravel(random.uniform(0.1, 1, (2, 2)) * (-1, 1))
+        eye, target, up = (
+            glm.dvec3(*vector)
+            for vector in (*random.normal(size=(2, 3)) * 3, any_pose(random)[0, :3])
+        )
+        view = glm.lookAt(eye, target, up)
+        edges = np.ravel(random.uniform(0.1, 1, (2, 2)) * (-1, 1)).tolist()
         if number % 3 == 0:
-            angle, aspect = random.uniform(10, 120), size[0] / size[1]
-            clip = m.create_perspective_projection_matrix(angle, aspect, NEAR, FAR, dtype=float)
+            angle, aspect = random.uniform(0.2, 2), size[0] / size[1]
+            clip = glm.perspective(angle, aspect, NEAR, FAR)
         elif number % 3 == 1:
-            make = m.create_perspective_projection_from_bounds
-            clip = make(*(NEAR * edges), NEAR, FAR, dtype=float)
+            clip = glm.frustum(*(NEAR * edge for edge in edges), NEAR, FAR)
         else:
-            clip = m.create_orthogonal_projection_matrix(*(3 * edges), NEAR, FAR, dtype=float)
-        posed = only(read(_text(view, clip, number), "opengl", Options(size=size)))
+            clip = glm.ortho(*(3 * edge for edge in edges), NEAR, FAR)
+        clip = glm.dmat4(clip)
+        posed = only(read(_text(_rows(view), _rows(clip), number), "opengl", Options(size=size)))
         # Points of the view volume, from the cube that is drawn.
         cube = np.column_stack([random.uniform(-0.98, 0.98, (POINTS, 3)), np.ones(POINTS)])
-        world = cube @ np.linalg.inv(view @ clip)
+        world = cube @ np.linalg.inv(_rows(view) @ _rows(clip))
         points = world[:, :3] / world[:, 3:]
-        seen = _seen(pyrr, view, clip, points, size)
+        seen = _seen(glm, view, clip, points, size)
         errors.append(pixels(posed.camera, points, size) - seen)
     return measured("its matrices, read by us", errors)
+
+
+def _rows(matrix: Any) -> Floats:
+    """Return the columns of a matrix of GLM as rows, for row vectors."""
+    return np.array(matrix.to_list())
 
 
 def _text(view: Floats, clip: Floats, number: int) -> bytes:
@@ -68,8 +79,7 @@ def _text(view: Floats, clip: Floats, number: int) -> bytes:
     return f"view_matrix = {tables[0]}\nprojection_matrix = {tables[1]}".encode()
 
 
-def _seen(pyrr: Any, view: Floats, clip: Floats, points: Floats, size: tuple[int, int]) -> Floats:
-    both = pyrr.matrix44.multiply(view, clip)
-    seen = [pyrr.matrix44.apply_to_vector(both, np.append(point, 1.0)) for point in points]
-    x, y, _, w = np.transpose(seen)
-    return np.column_stack([(x / w + 1) / 2 * size[0], (1 - y / w) / 2 * size[1]])
+def _seen(glm: Any, view: Any, clip: Any, points: Floats, size: tuple[int, int]) -> Floats:
+    whole = glm.dvec4(0, 0, *size)
+    seen = [glm.project(glm.dvec3(*point), view, clip, whole) for point in points]
+    return np.array([(x, size[1] - y) for x, y, _ in seen])

@@ -1,0 +1,56 @@
+"""Steps in the format before builds: lists that were uncovered, answers, links.
+
+They are read as builds, so that the window knows one mechanism.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import replace
+
+from app.lecture.schema import StepTable
+from app.lecture.text import Block, ItemList, parse
+from renderer.errors import under
+
+Blocks = tuple[Block, ...]
+FIELDS = ("reveal", "answer", "links", "low")
+REMEDY = (
+    "is of an older format: write what is shown later as [[steps.builds]]; "
+    "links and low are ignored"
+)
+
+
+def fields_of(table: StepTable) -> list[str]:
+    """Return the fields of a step that have left."""
+    return [name for name in FIELDS if getattr(table, name)]
+
+
+def old_builds(table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
+    """Return the texts of a step one after another: with the items of its lists one by one if it
+    reveals them, and with the answer last. With each, the blocks that stay from the one before.
+    """
+    lists = [block for block in blocks if isinstance(block, ItemList) and table.reveal]
+    texts = [tuple(_shown(blocks, count)) for count in range(sum(len(x.items) for x in lists))]
+    texts.append(blocks)
+    if table.answer:
+        with under("answer"):
+            answer = parse(table.answer)
+        texts.append((*blocks, *answer))
+    return [(_shared(*pair), pair[1]) for pair in itertools.pairwise([(), *texts])]
+
+
+def _shared(one: Blocks, two: Blocks) -> Blocks:
+    """Return the blocks with which both texts begin."""
+    pairs = itertools.takewhile(lambda pair: pair[0] == pair[1], zip(one, two, strict=False))
+    return tuple(block for block, _ in pairs)
+
+
+def _shown(blocks: Blocks, count: int) -> Iterator[Block]:
+    """Yield a text with the first items of its lists only."""
+    for block in blocks:
+        if not isinstance(block, ItemList):
+            yield block
+        elif items := block.items[:count]:
+            yield replace(block, items=items)
+            count -= len(items)
