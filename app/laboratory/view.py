@@ -36,7 +36,7 @@ from renderer.memo import Memo
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 NO_IMAGE = np.zeros((1, 1, 3), np.float32)
-MIDDLE, KEY_STEP = np.array((0.5, 0.5)), 0.02  # of the image's width and height
+KEY_STEP = 0.02  # of the image's width and height
 
 
 class LaboratoryView(DockedView):
@@ -48,7 +48,6 @@ class LaboratoryView(DockedView):
         self._image = Memo(_drawn_image)
         self._figure = Memo(_figure)
         self.figure: Figure | None = None
-        self._place = MIDDLE  # of the point that is read, as fractions of the image
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._uploads = Uploads(context)
@@ -75,10 +74,9 @@ class LaboratoryView(DockedView):
         except (LucidaError, moderngl.Error) as error:
             wrapped(describe(error), theme.ERROR)
             return
-        if options.page == "function":
-            self._read(size, color, corner, scale)
+        reads = options.page == "function"
+        place = self._read(host, size, color, corner, scale) if reads else options.point
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
-        place = (float(self._place[0]), float(self._place[1]))
         notation = host.state.options.notation
         self.figure = self._figure(size, look, options, color, exposure_ev, place, notation)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
@@ -94,18 +92,21 @@ class LaboratoryView(DockedView):
         request = ImageRequest(state.scene, state.view.for_size(asked), asked)
         return self._image(textures.rasterizer, request)
 
-    def _read(self, size: Size, color: Image, corner: Point, scale: float) -> None:
-        """Follow the mouse over the image, and the arrow keys."""
+    def _read(self, host: Host, size: Size, color: Image, corner: Point, scale: float) -> Point:
+        """Return the point of the image that the mouse or the arrow keys read, as fractions."""
         extent, ((low, room),) = boxes("function", size, (color.shape[1], color.shape[0]))
         sheet = Sheet(size, look_of(theme.used().palette), extent)
         first, last = sheet.px(np.array([low, np.add(low, room)])) / scale + corner
         imgui.set_cursor_screen_pos(ImVec2(*first))
         mouse_area("image", ImVec2(*(last - first)))
-        mouse, (right, down) = imgui.get_mouse_pos(), focused_steps()
+        steps, place = focused_steps(), np.array(host.state.of(LaboratoryOptions).point)
         if imgui.is_item_hovered():
-            self._place = ((mouse.x, mouse.y) - first) / (last - first)
-        elif right or down:
-            self._place = np.clip(self._place + KEY_STEP * np.array((right, down)), 0, 1)
+            mouse = imgui.get_mouse_pos()
+            place = np.clip(((mouse.x, mouse.y) - first) / (last - first), 0, 1)
+        elif any(steps):
+            place = np.clip(place + KEY_STEP * np.array(steps), 0, 1)
+            host.apply(host.state.with_options(laboratory={"point": tuple(place.tolist())}))
+        return float(place[0]), float(place[1])
 
 
 def toolbar(host: Host) -> LaboratoryOptions:
