@@ -124,9 +124,9 @@ LAYOUTS = (
         LECTURE,
         "A lecture's text, and what its step shows.",
         (
-            (MAIN, RIGHT_SPACE, RIGHT, 0.36),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.33),
             (MAIN, CAMERA_SPACE, LEFT, 0.42),
-            (MAIN, LOWER_SPACE, DOWN, 0.5),
+            (MAIN, LOWER_SPACE, RIGHT, 0.5),
             (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
@@ -296,8 +296,10 @@ def _docking(
         window.call_begin_end = False
         windows.append(window)
     params.dockable_windows = windows
-    # A tab has a close button already.
-    params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
+    flags = imgui.internal.DockNodeFlagsPrivate_
+    # A tab has a close button already; a lecture has no tabs.
+    bare = flags.no_tab_bar if layout.name == LECTURE else flags.no_close_button
+    params.main_dock_space_node_flags = int(bare)
     return params
 
 
@@ -336,6 +338,6 @@ def _split(
     split = hello_imgui.DockingSplit()
     split.initial_dock, split.new_dock = space, new_space
     split.direction, split.ratio = direction, ratio
-    if new_space == f"{COLUMN[1]} of {LECTURE}":  # which has a title of its own
-        split.node_flags = int(imgui.DockNodeFlags_.auto_hide_tab_bar)
+    if new_space.endswith(f" of {LECTURE}"):
+        split.node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_tab_bar)
     return split

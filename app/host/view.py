@@ -65,13 +65,15 @@ class Host(Protocol):
     renderers: both images of the current state.
     files: opening and saving.
     moves: True if things may move by themselves; False while a picture of the window is taken.
-    has_tools: False in pictures that nobody can click, such as those of a page.
     """
 
     fonts: Fonts
     renderers: Renderers
     moves: bool
-    has_tools: bool
+
+    @property
+    def has_tools(self) -> bool:
+        """False if views are pictures alone: on a lecture's stage, and in pages."""
 
     @property
     def files(self) -> Filing: ...

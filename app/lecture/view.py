@@ -48,6 +48,7 @@ from renderer.memo import Memo
 
 LECTURE = "Lecture"
 FADE_S = 0.5  # of a text that is added
+CONTROLS_S = 2.0  # until controls go after the mouse rests
 
 
 class LectureView(DockedView):
@@ -72,6 +73,9 @@ class LectureView(DockedView):
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._answered = self._begun = False
         self._arrangement = Arrangement()
+        self._layout = ""  # the one that was shown when the lecture began
+        self._moved_s = 0.0  # when the mouse moved last
+        self._typed = ""  # digits of a step's number
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
         self._seek = False  # the text is scrolled to what was just added
@@ -147,7 +151,7 @@ class LectureView(DockedView):
         if self._before is not None and any(step.scene is state.scene for step in steps):
             state = state.with_scene(self._before.scene, self._before.view)
         window.change(state.with_options(preferences={"presentation": False}))
-        layout.switch(layout.LAYOUTS[0].name)
+        layout.switch(self._layout or layout.LAYOUTS[0].name)
 
     def give_builtin(self) -> None:
         """Begin the built-in lecture."""
@@ -259,9 +263,10 @@ class LectureView(DockedView):
             return
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             if host.state.step is None:  # otherwise one lecture follows another
-                self._before = host.state
+                self._before, self._layout = host.state, layout.current().name
             self.restore(host, presentation=True)
             self._begun = True
+        self._controls(host)
         if self.log is not None:
             session, size = self.session, host.renderers.size
             self.log.follow_quiz(session.lecture, session.step, host.state, size)
@@ -272,6 +277,28 @@ class LectureView(DockedView):
             imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
             host.animate()
         self._follow_file(host, self.session)
+
+    @property
+    def shows_controls(self) -> bool:
+        """True while the mouse moves, and two seconds after it."""
+        return time.monotonic() - self._moved_s < CONTROLS_S or bool(self._typed)
+
+    def _controls(self, host: Host) -> None:
+        """Follow the mouse, and the digits of a step's number that are typed before Enter."""
+        io = imgui.get_io()
+        if host.moves and (io.mouse_delta.x or io.mouse_delta.y):
+            self._moved_s = time.monotonic()
+        if self.shows_controls:
+            host.animate()
+        if io.want_text_input or io.key_ctrl or io.key_shift or io.key_alt:
+            self._typed = ""
+            return
+        for digit in range(10):
+            if imgui.is_key_pressed(imgui.Key(int(imgui.Key._0) + digit)):
+                self._typed = (self._typed + str(digit))[-3:]
+        if self._typed and imgui.is_key_pressed(imgui.Key.enter):
+            self.go(host, int(self._typed) - 1)
+            self._typed = ""
 
     def _follow_undo(self, place: tuple[str, int, int] | None, session: LectureSession) -> None:
         """Show another step's text and views if undo or redo went into its states."""
@@ -432,7 +459,10 @@ class LectureView(DockedView):
         return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
 
     def _foot(self, host: Host, session: LectureSession) -> None:
-        asked = foot(session, self._is_as_given(host, session.step))
+        is_shown = not host.state.preferences.presentation or self.shows_controls
+        imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
+        asked = foot(session, self._is_as_given(host, session.step), self._typed)
+        imgui.pop_style_var()
         if asked == END:
             self.leave(host)
         elif asked == RESTORE:
