@@ -23,7 +23,6 @@ INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
-COLUMN = LECTURE, RIGHT_SPACE  # where its text is
 OUTSIDE, LOOPS = "Outside view", "Loops"
 LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
 UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
@@ -133,13 +132,6 @@ LAYOUTS = (
     ),
 )
 CHOICES = LAYOUTS[:-1]  # a lecture chooses the last one
-
-
-def column_part(aspect: float) -> float:
-    """Return the part of the width that a lecture's column has in a room of width / height: the
-    more, the fewer letters a line would have.
-    """
-    return min(max(0.36, 0.36 + 0.16 * (2.0 - aspect)), 0.44)
 
 
 def docking(
