@@ -1,16 +1,14 @@
 """The tracer's own functions for one ray, run by Python itself: no compilation, any numbers.
 
 For questions about a single pixel: they compute the shading model and the intersections of
-renderer/trace, line by line, in float64. The tracer's modules, and with them its compiler, are
-loaded on first use of a function.
+renderer/trace, line by line, in float64. The tracer's decorators leave the functions of its kernels
+to Python as well. Its modules, and with them its compiler, are loaded on first use of a function.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from importlib import import_module
-from types import FunctionType
 from typing import Any
 
 _HOME = {
@@ -38,7 +36,7 @@ def __getattr__(name: str) -> Callable[..., Any]:
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     module = import_module(f"renderer.trace.scalar.{_HOME[name]}")
-    function = _plain(getattr(module, name))
+    function: Callable[..., Any] = getattr(module, name)
     globals()[name] = function  # later lookups bypass this function
     return function
 
@@ -47,18 +45,3 @@ def load() -> None:
     """Load everything now, in this thread: it takes a fraction of a second."""
     for name in _HOME:
         __getattr__(name)
-
-
-@cache
-def _plain(compiled: Any) -> Callable[..., Any]:
-    """Return the Python function behind a compiled one; the functions that it calls are replaced,
-    too.
-    """
-    source = getattr(compiled, "py_func", compiled)
-    names = {
-        name: _plain(value) if hasattr(value, "py_func") else value
-        for name in source.__code__.co_names
-        if (value := source.__globals__.get(name)) is not None
-    }
-    names["__builtins__"] = source.__globals__["__builtins__"]
-    return FunctionType(source.__code__, names, source.__name__, source.__defaults__)

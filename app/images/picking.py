@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,13 +40,29 @@ def nearest_hits(
     """Return nearest_hit() of rays from one origin: t (n,) and indices (n,), -1 for no hit."""
     nearest = np.full(len(directions), math.inf)
     numbers = np.full(len(directions), -1)
-    for k, entry in scene.visible:
-        shape = entry.shape
-        meet = _sphere if isinstance(shape, Sphere) else _mesh
-        t = meet(shape, origin, directions)  # type: ignore[arg-type]
+    for k, t in _by_object(scene, origin, directions):
         closer = t < nearest
         nearest[closer], numbers[closer] = t[closer], k
     return nearest, numbers
+
+
+def line_meetings(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, ...]:
+    """Return the t at which r(t) = origin + t direction meets objects, of each the nearest one
+    ahead, and the nearest one behind.
+    """
+    found = set()
+    for way in (1.0, -1.0):
+        ways = way * np.asarray(direction, float)[None]
+        found |= {way * float(t[0]) for _, t in _by_object(scene, origin, ways)}
+    return tuple(sorted(t for t in found if math.isfinite(t)))
+
+
+def _by_object(scene: Scene, origin: Floats, directions: Floats) -> Iterator[tuple[int, Floats]]:
+    """Yield the index of each visible object, and the t of its hits, infinity for none."""
+    for k, entry in scene.visible:
+        shape = entry.shape
+        meet = _sphere if isinstance(shape, Sphere) else _mesh
+        yield k, meet(shape, origin, directions)  # type: ignore[arg-type]
 
 
 def is_quick(scene: Scene) -> bool:

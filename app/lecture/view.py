@@ -352,11 +352,10 @@ class LectureView(DockedView):
         log, is_asked = self.log, session.step.exercise is not None
         kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
         position = host.state.of(OutsideOptions).formula
-        grows = imgui.get_frame_height_with_spacing() if position is not None else 0.0
         stages = stages_of(host.renderers.camera(host.state))
         slides.lit = stage_at(position, stages) if position is not None else ""
         offer = imgui.get_frame_height_with_spacing() if session.left is not None else 0.0
-        below = foot_height(avail.x) + error + grows + kept + offer
+        below = foot_height(avail.x) + error + kept + offer
         child = ImVec2(avail.x, max(1.0, avail.y - below))
         if imgui.begin_child("step", child, imgui.ChildFlags_.nav_flattened):
             if self._to_top:
@@ -364,8 +363,6 @@ class LectureView(DockedView):
                 self._to_top = False
             self._body(host, session, slides)
         imgui.end_child()
-        if grows and "probe" not in session.step.views:  # which has its own
-            view_of(self._views, OutsideView).scrubber.draw(host)
         if session.error:
             wrapped(session.error, theme.ERROR)
         if log is not None and note(log, is_asked):

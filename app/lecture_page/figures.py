@@ -11,9 +11,7 @@ from app.laboratory.options import LaboratoryOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.lecture_page.pictures import data_uri
-from app.outside.naming import named
 from app.outside.options import OutsideOptions
-from app.outside.teaching import teaching_camera
 from app.page.scene_page import packed_scene
 from app.pair.options import PairOptions
 from app.photograph.model import path_of
@@ -21,14 +19,10 @@ from app.photograph.options import PhotographOptions
 from app.photograph.reading import decoded
 from app.state.app_state import AppState
 from renderer.errors import LucidaError
-from renderer.focus import scene_focus
 from renderer.scene.model import Scene, View
 from renderer.scene.views import view_table
 
 IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
-OUTSIDE = 640, 420  # the outside view's in modules/outside.js
-MARGIN = 1.15  # room for letters around what is named
-HANDLES_MARGIN = 1.5  # and for handles
 # What a figure shows for a view; the laboratory's is that of its page "array".
 SHOWN = {
     "raster": ("raster",),
@@ -128,13 +122,6 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
     if options.target is not None:
         drawn |= {"target": options.target, "up": options.up}
     looking = options.camera
-    if looking is None and options.see:
-        size = state.images.resolution or IMAGE
-        inner, framed = step.view.for_size(size), scene_focus(step.scene).framed
-        subject = named(step.scene, inner, size, options, state.marked, framed)
-        if len(subject.points):
-            margin = MARGIN if drawn["handles"] == "none" else HANDLES_MARGIN
-            looking = teaching_camera(subject, step.scene, inner, OUTSIDE, (margin, margin))
     return drawn if looking is None else drawn | {"camera": view_table(View(looking))}
 
 
@@ -165,7 +152,8 @@ def _has_more(step: Step, state: AppState) -> bool:
     """Return True if images show more than a figure draws, and ask for nothing to be changed."""
     pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
     return (
-        outside.parameters
+        outside.half_line > 0
+        or outside.meetings > 0
         or (pair.straight_lines and "lens" not in step.highlight)
         or pair.footprint
         or bool(pair.parallels)

@@ -3,7 +3,7 @@
 extent      how far a scene reaches; the outside camera that sees it and the other camera
 frustum     the other camera's image plane and view volume in the world
 diagram     what is drawn, as lines, arrows, faces and labels in the world
-teaching    the camera that shows what a lecture's step names
+ray_drawing, simple_camera, growing: drawings that grow with a lecture's builds
 screen      from the world to pixels and depths, clipped
 projected   the diagram there
 placing     its labels, where they cover nothing

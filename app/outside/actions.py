@@ -52,15 +52,11 @@ def _looking(window: Window) -> Camera:
 
 def _look(window: Window, camera: Camera | None) -> None:
     """Look through a camera; None: through one that sees everything."""
-    see = window.state.of(OutsideOptions).see if camera is not None else ()
-    state = window.state.with_options(outside={"camera": camera, "see": see})
-    move = window.travel if see == window.state.of(OutsideOptions).see else window.change
-    move(state)
+    window.travel(window.state.with_options(outside={"camera": camera}))
 
 
 def _sees_all(state: AppState) -> bool:
-    options = state.of(OutsideOptions)
-    return options.camera is None and not options.see
+    return state.of(OutsideOptions).camera is None
 
 
 def _along(window: Window, axis: str) -> None:
@@ -109,13 +105,6 @@ def _axis(axis: str, name: str) -> Action:
 
 OUTSIDE = (
     *(_shown(switch) for switch in SWITCHES),
-    Action(
-        MENU,
-        "Play the formula",
-        lambda window: window.view(OutsideView).scrubber.toggle(window),
-        "Y",
-        (int(Key.y),),
-    ),
     *(_handles(kind, name) for kind, name, _ in HANDLES),
     Action(
         MENU,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.explaining.symbols import plain, vector
+from app.explaining.symbols import vector
 from app.outside.diagram import (
     Arrow,
     Dot,
@@ -35,6 +35,8 @@ from app.outside.frustum import (
 )
 from app.outside.lens_diagram import ideal_border, image_sphere, lens_pixel, lens_volume
 from app.outside.options import OutsideOptions
+from app.outside.ray_drawing import half_line, meetings, rays_to
+from app.outside.simple_camera import pixel_numbers, simple_camera
 from app.state.options import Notation, Pixel
 from renderer.camera import Camera, Floats
 
@@ -47,7 +49,9 @@ class Content:
 
     camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
     of the bundle's rays. marked: the marked pixel's ray. grid_parts: the most parts of a side of
-    the grid. notation: of the labels.
+    the grid. notation: of the labels. base: the number of the first row and column. number_step:
+    see pixel_numbers(); None: rows and columns are not numbered. meetings: the t
+    of all meetings of the marked pixel's line with objects. pointed: the t under the mouse.
     """
 
     camera: Camera
@@ -58,6 +62,10 @@ class Content:
     marked: RayEnd | None = None
     grid_parts: int = MOST_GRID_LINES
     notation: Notation = "book"
+    base: int = 1
+    number_step: int | None = None
+    meetings: tuple[float, ...] = ()
+    pointed: float | None = None
 
 
 def diagram(content: Content) -> list[Item]:
@@ -67,23 +75,52 @@ def diagram(content: Content) -> list[Item]:
     items: list[Item] = []
     if options.volume:
         items += _volume(camera, end) if camera.lens is None else lens_volume(camera, end)
-    if options.image or options.grid:
+    items += plane_items(content)
+    for hit in content.hits:
+        items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
+    items += rays_to(camera, options.points, options.points_grown, end)
+    if marked is not None and options.ray:
+        if options.half_line:
+            pointed = content.pointed
+            return items + half_line(
+                camera, size, marked.pixel, options.half_line, pointed, notation
+            )
+        if options.meetings:
+            found = content.meetings
+            items += meetings(camera, size, marked.pixel, found, end, options.meetings)
+        else:
+            items += _marked(camera, size, marked, end, washed=not options.image)
+    if options.simple:
+        return items + simple_camera(camera, options.simple, measured=options.formula is None)
+    fails = options.target is not None and is_parallel(options.up, camera.w)
+    shares = _basis_shares(options)
+    if options.basis:
+        items += _basis(camera, ("w",) if fails else ("u", "v", "w"), shares)
+    if options.target is not None:
+        items += _target(camera, options, fails, shares)
+    return items + _eye(camera, options, notation)
+
+
+def plane_items(content: Content) -> list[Item]:
+    """Return the image plane with its pixels, as far as the options ask for them."""
+    camera, size, options = content.camera, content.size, content.options
+    items: list[Item] = []
+    if (options.image or options.grid) and not options.simple:
         items += _image(camera, size)
     if options.grid:
         lines = grid(camera, size, content.grid_parts)
         items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
-    for hit in content.hits:
-        items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
-    if marked is not None and options.ray:
-        items += _marked(camera, size, marked, end, washed=not options.image)
-        if options.parameters:
-            items += _parameters(camera, size, marked.pixel, notation)
-    fails = options.target is not None and is_parallel(options.up, camera.w)
-    if options.basis:
-        items += _basis(camera, ("w",) if fails else ("u", "v", "w"))
-    if options.target is not None:
-        items += _target(camera, options, fails)
-    return items + _eye(camera, options, notation)
+    if content.number_step is not None and has_plane(camera):
+        pixel = None if content.marked is None else content.marked.pixel
+        items += pixel_numbers(camera, size, pixel, content.base, content.number_step)
+    return items
+
+
+def _basis_shares(options: OutsideOptions) -> dict[str, float]:
+    """Return how much is drawn of each vector of a basis that is made from a target."""
+    order = ("w", "up", "u", "v")
+    grown = options.basis_grown
+    return {name: min(max(grown - place, 0.0), 1.0) for place, name in enumerate(order)}
 
 
 def _image(camera: Camera, size: Size) -> list[Item]:
@@ -136,23 +173,33 @@ def _eye(camera: Camera, options: OutsideOptions, notation: Notation) -> list[It
     return [Dot("eye", "eye", eye), label] if options.basis else []
 
 
-def _target(camera: Camera, options: OutsideOptions, fails: bool) -> list[Item]:
-    """Draw what the basis is made from: the target, the way to it, and up, at the eye."""
+def _target(
+    camera: Camera, options: OutsideOptions, fails: bool, shares: dict[str, float]
+) -> list[Item]:
+    """Draw what the basis is made from: the target, the way to it, and up, at the eye.
+
+    shares: how much of the basis and of up is drawn.
+    """
     eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
-    w = np.asarray(camera.w, float)
+    w, items = np.asarray(camera.w, float), _up(eye, target, shares["up"] * up)
     if not options.basis:  # it is asked for
-        return _up(eye, target, up)
+        return items
     if fails:
         return [
-            *_up(eye, target, up),
-            Label("fails", "text", "up x w = 0: no u, no v", eye - 0.5 * w, away=eye),
+            *items,
+            Label(
+                "fails",
+                "text",
+                "up x w = 0: no u, no v",
+                eye - 0.5 * w,
+                away=eye + np.array([0.0, 1.0, 0.0]),
+                strong=True,
+            ),
         ]
-    spanned = np.array([eye, eye + up, eye + up + w, eye + w])
-    return [
-        *_up(eye, target, up),
-        Face("up and w", "extra", spanned, 0.16),
-        *_right_angles(camera),
-    ]
+    if shares["u"]:
+        spanned = np.array([eye, eye + up, eye + up + w, eye + w])
+        items.append(Face("up and w", "extra", spanned, 0.16 * shares["u"]))
+    return items + _right_angles(camera) if shares["v"] == 1 else items
 
 
 def is_parallel(first: ArrayLike, second: ArrayLike) -> bool:
@@ -175,20 +222,25 @@ def _right_angles(camera: Camera) -> list[Item]:
 
 
 def _up(eye: Floats, target: Floats, up: Floats) -> list[Item]:
-    return [
+    """Return the target, and up if it has a length."""
+    items: list[Item] = [
         Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
         Dot("target", "extra", target, 6.0),
         Label("target", "extra", "target", target, away=eye, strong=True),
-        Arrow("up", "extra", eye, eye + up),
-        Label("up", "extra", "up", eye + up, away=eye, strong=True, least=8.0),
     ]
+    if up.any():
+        items.append(Arrow("up", "extra", eye, eye + up))
+        items.append(Label("up", "extra", "up", eye + up, away=eye, strong=True, least=8.0))
+    return items
 
 
-def _basis(camera: Camera, names: tuple[Role, ...]) -> list[Item]:
+def _basis(camera: Camera, names: tuple[Role, ...], shares: dict[str, float]) -> list[Item]:
     eye = np.asarray(camera.eye)
     items: list[Item] = []
     for name in names:
-        tip = eye + np.asarray(getattr(camera, name))
+        if not shares[name]:
+            continue
+        tip = eye + shares[name] * np.asarray(getattr(camera, name))
         items.append(Arrow(name, name, eye, tip))
         items.append(Label(name, name, name, tip, away=eye, strong=True, least=8.0))
     return items
@@ -249,19 +301,3 @@ def _on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Flo
     """Return the points (n, 3) of a pixel's ray at parameters t."""
     x, y = camera.image_point(*pixel, size)
     return point_at(camera, [x] * len(t), [y] * len(t), t)
-
-
-def _parameters(camera: Camera, size: Size, pixel: Pixel, notation: Notation) -> list[Item]:
-    """Return points of the pixel's ray at t = 0 and 1, and a piece of its line before it begins."""
-    first_at, second_at = (plain(one, notation) for one in ("vec(p)", "vec(p) + vec(d)"))
-    before, first, second = _on_ray(camera, pixel, size, [-0.6, 0.0, 1.0])
-    if not np.isfinite(before).all():
-        return []
-    return [
-        Segments("behind", "ray", np.array([[before, first]]), 1.4, 0.6, 0.3, dashed=True, layer=2),
-        Label("t < 0", "ray", "t < 0", before, away=first),
-        Dot("t = 0", "ray", first, 5.0, layer=5),
-        Label("t = 0", "ray", f"{first_at} (t = 0)", first, away=first - camera.v),
-        Dot("t = 1", "ray", second, 5.0, layer=5),
-        Label("t = 1", "ray", f"{second_at} (t = 1)", second, away=second + camera.v),
-    ]

@@ -84,6 +84,7 @@ class Dot:
     radius: float = 4.5
     on_plane: bool = False
     layer: int = 4
+    hidden: float = 0.45
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +104,7 @@ class Label:
 
     away: a point that the text keeps away from; None to centre it above. strong: a letter of the
     formulas. least: hide the text if point and `away` are nearer than this on the screen, in units
-    of a line.
+    of a line. fixed: the text stays on its side of the point, even if it covers something there.
     """
 
     name: str
@@ -113,6 +114,7 @@ class Label:
     away: Floats | None = None
     strong: bool = False
     least: float = 0.0
+    fixed: bool = False
 
 
 Item = Segments | Face | Arrow | Dot | Eye | Label
@@ -134,9 +136,12 @@ class RayEnd:
 
 
 def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
-    """Split a label into pieces of one weight, each with True if it is bold."""
+    """Split a label into pieces of one weight, each with True if it is bold: in a formula its
+    vectors are, otherwise all of a strong label is.
+    """
     pieces = re.split(r"vec\((\w+)\)", text)
-    return [(piece, strong or bool(n % 2)) for n, piece in enumerate(pieces) if piece]
+    whole = strong and len(pieces) == 1
+    return [(piece, whole or bool(n % 2)) for n, piece in enumerate(pieces) if piece]
 
 
 def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:

@@ -21,7 +21,6 @@ from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
 from app.outside.camera_diagram import Content
 from app.outside.diagram import Item, Role
-from app.outside.extent import end_parameter
 from app.outside.figure import (
     WHITE,
     Color,
@@ -35,12 +34,11 @@ from app.outside.figure import (
 from app.outside.ground import SHIFTS
 from app.outside.growing import grown_diagram
 from app.outside.looking import nearest, scope_of, units_px
-from app.outside.options import OutsideOptions
 from app.outside.paint import figure_color, ground_of
 from app.outside.projected import project
 from app.outside.screen import OutsideScreen, image_plane
 from app.outside.svg import svg
-from app.outside.view import OPACITY, OutsideView
+from app.outside.view import OutsideView
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.atomic import atomic_write
@@ -112,16 +110,11 @@ class Sketcher:
         both.need_size(state.images)
         scale = framebuffer_scale()
         extent = ImVec2(size[0] / scale, size[1] / scale)
-        scope = scope_of(host, size, ImVec2(0, 0), extent, view.framing, view.extensions.points)
+        scope = scope_of(host, size, ImVec2(0, 0), extent, view.extensions.points)
         looking = scope.camera.fitted(shape).fitted(size) if shape else scope.shown
-        camera = both.camera(state)
-        marked, hits = view.rays(host, camera, both.size)
         assert both.textures is not None
-        content = Content(
-            camera, both.size, replace(state.of(OutsideOptions), camera=None),
-            end_parameter(camera, host.focus.framed), tuple(hits), marked, GRID_PARTS,
-            state.options.notation,
-        )  # fmt: skip
+        screen = OutsideScreen(looking, size, nearest(looking, scope))
+        content = replace(view.content(host, screen), grid_parts=GRID_PARTS)
         return self._sketch(
             both.textures.rasterizer, theme.used(), ground, state.scene, looking, size,
             nearest(looking, scope), *(units or units_px(extent)), content, view.extra,
@@ -184,7 +177,8 @@ def _with_image(sketch: Sketch, host: Host) -> Sketch:
     texture = both.textures.whole_raster(request, look_of(state.images))
     if sketch.content.options.image and plane is not None and texture is not None:
         pixels = np.frombuffer(texture.read(), np.uint8).reshape(*texture.size[::-1], 4)
-        picture = PlaneImage(pixels[..., :3], plane, OPACITY)
+        opacity = sketch.content.options.image_opacity
+        picture = PlaneImage(pixels[..., :3], plane, opacity)
         image = with_picture(image, t, picture, size, is_parallel)
     return replace(sketch, image=image, picture=picture)
 

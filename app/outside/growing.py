@@ -1,8 +1,8 @@
 """The key formula as it grows: the viewing ray of a pixel, term by term, head to tail. Pure.
 
 Perspective: -d **w**, u **u** and v **v** lead from the eye to the pixel's centre; their sum is the
-direction. Parallel grows out of it: the direction freezes to -**w**, then the origin slides over
-the viewport by u **u** and v **v**. With a lens, the pixel's ideal point comes first, and the
+direction. Parallel: the direction is -**w**, and the origin slides over the viewport by u **u** and
+v **v**. With a lens, the pixel's ideal point comes first, and the
 terms lead there.
 
 A position counts stages: 2.5 is half of the third one.
@@ -10,13 +10,15 @@ A position counts stages: 2.5 is half of the third one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.explaining.notation import number, text_tuple
 from app.explaining.symbols import latex
-from app.outside.camera_diagram import Content, diagram
+from app.outside.camera_diagram import Content, diagram, plane_items
 from app.outside.diagram import (
     Arrow,
     Dot,
@@ -34,22 +36,18 @@ from app.outside.frustum import (
     ideal_point,
     image_point,
     pixel_corners,
-    rectangle,
     ways,
 )
 from app.outside.options import LENS_STAGES, STAGES
+from app.outside.simple_camera import simple_ray
 from app.state.options import Notation, Pixel
 from renderer.camera import Camera, Floats
+from renderer.camera_checks import three
 
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it
 GROWS = 0.7  # of a stage's time; then it rests, for the class to look
-CHANGES_HANDS = 0.4  # of the first parallel stage: then the direction in perspective turns
 # With a lens, for directions that have a length, and for those that reach the plane at distance 1.
-_LENS_TERMS = (
-    ("X, Y, Z", r"-d Z\,\mathbf{w}", r"d X\,\mathbf{u}", r"-d Y\,\mathbf{v}"),
-    ("a, b", r"-d\,\mathbf{w}", r"d a\,\mathbf{u}", r"-d b\,\mathbf{v}"),
-)
 _LENS_TEXTS = (
     ("-d Z vec(w)", "d X vec(u)", "-d Y vec(v)"),
     ("-d vec(w)", "d a vec(u)", "-d b vec(v)"),
@@ -99,16 +97,6 @@ def stages_of(camera: Camera) -> tuple[str, ...]:
     return STAGES if camera.lens is None else LENS_STAGES
 
 
-def terms(camera: Camera, notation: Notation = "book") -> dict[str, str]:
-    """Return the symbol of each stage, as LaTeX."""
-    w = r"-\mathbf{w}" if camera.is_parallel else r"-d\,\mathbf{w}"
-    symbols = ["(i, j)", "u, v", w, r"u\,\mathbf{u}", r"v\,\mathbf{v}", r"\mathbf{r}(t)"]
-    if camera.lens is not None:
-        symbols[2:5] = _LENS_TERMS[camera.lens.model == "brown"]
-    stages = stages_of(camera)
-    return {stage: latex(term, notation) for stage, term in zip(stages, symbols, strict=True)}
-
-
 def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
     """Return the part of a formula, in LaTeX, that a stage adds; "" if that is not in it."""
     if stage == "centre" and formula.startswith(
@@ -134,8 +122,10 @@ def shares(position: float, stages: tuple[str, ...] = STAGES) -> dict[str, float
 
 
 def stage_at(position: float, stages: tuple[str, ...] = STAGES) -> str:
-    """Return the stage at a position; "" at the end, when nothing is to be pointed out."""
-    return stages[int(position)] if position < len(stages) else ""
+    """Return the last stage that has begun at a position; "" at the end, when nothing is to
+    be pointed out.
+    """
+    return stages[max(math.ceil(position) - 1, 0)] if position < len(stages) else ""
 
 
 def growth(camera: Camera, size: Size, pixel: Pixel, position: float) -> Growth:
@@ -174,10 +164,7 @@ def _parallel(camera: Camera, x: float, y: float, part: dict[str, float]) -> Ite
     yield Vector("u", "u", "u vec(u)", eye, slid)
     origin = slid + part["v"] * y * v
     yield Vector("v", "v", "v vec(v)", slid, origin)
-    grown = min(part["w"] / CHANGES_HANDS, 1.0)
-    turned = max(part["w"] - CHANGES_HANDS, 0.0) / (1 - CHANGES_HANDS)
-    way = (1 - turned) * (x * u + y * v) - w
-    yield Vector("d", "ray", "vec(d)", origin, origin + grown * way)
+    yield Vector("d", "ray", "vec(d)", origin, origin - part["w"] * w)
 
 
 def _eased(share: float) -> float:
@@ -192,13 +179,15 @@ def grown_diagram(content: Content) -> list[Item]:
         return diagram(content)
     if camera.lens is not None and not np.isfinite(camera.ray(*marked.pixel, size).direction).all():
         return diagram(content)  # which says that the pixel is outside of the lens
+    without = replace(content, options=replace(options, ray=False))
+    if options.simple:
+        return diagram(without) + simple_ray(
+            camera, size, marked.pixel, content.base, options.formula, options.numbers
+        )
+    if options.to_parallel and camera.lens is None and not camera.is_parallel:
+        return in_notation(_turning(without, marked.pixel, options.to_parallel), notation)
     complete = options.formula >= len(stages_of(camera))
-    items = [
-        replace(item, width=THIN, head=9.0)
-        if isinstance(item, Arrow) and item.name in BASIS
-        else item
-        for item in diagram(content if complete else replace(content, marked=None))
-    ]
+    items = _thin_basis(diagram(content if complete else without))
     now = growth(camera, size, marked.pixel, options.formula)
     if not complete:
         items += in_notation(
@@ -206,7 +195,91 @@ def grown_diagram(content: Content) -> list[Item]:
         )
         items += _ray(camera, marked, now, content.end)
     terms = [item for vector in now.vectors for item in _vector(vector, now, camera)]
-    return items + in_notation(terms, notation)
+    items += in_notation(terms, notation)
+    return _with_numbers(items, content, marked.pixel) if options.numbers else items
+
+
+def _thin_basis(items: Iterable[Item]) -> list[Item]:
+    """Return items with a thinner basis, next to the terms along it."""
+    return [
+        replace(item, width=THIN, head=9.0)
+        if isinstance(item, Arrow) and item.name in BASIS
+        else item
+        for item in items
+    ]
+
+
+def _with_numbers(items: Iterable[Item], content: Content, pixel: Pixel) -> list[Item]:
+    """Return items whose labels have numbers in place of the formula's letters."""
+    camera, size = content.camera, content.size
+    x, y = (float(one) for one in camera.image_point(*pixel, size))
+    row, column = (one + content.base for one in pixel)
+    direction = [round(one, 2) for one in camera.ray(*pixel, size).direction.tolist()]
+    texts = {
+        "eye": f"vec(e) = {text_tuple(camera.eye)}",
+        "pixel": f"({row}, {column})",
+        "centre": text_tuple((x, y)),
+        "term u": f"{number(x)} vec(u)",
+        "term v": f"{number(y)} vec(v)",
+        "term d": f"vec(d) = {text_tuple(direction)}",
+    }
+    if not camera.is_parallel:
+        texts["term w"] = f"{number(-camera.distance)} vec(w)"
+    return [
+        replace(item, text=texts.get(item.name, item.text)) if isinstance(item, Label) else item
+        for item in items
+    ]
+
+
+def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
+    """Return the formula on its way from perspective to parallel.
+
+    The viewport moves back to the eye, and u **u** and v **v** with it. Each ray still goes through
+    its pixel: its origin slides away from the eye, and its direction turns to -**w**.
+
+    content: without the marked pixel's ray. share: of the way, more than 0.
+    """
+    camera, size, options = content.camera, content.size, content.options
+    eye, u, v, w = (np.asarray(a, float) for a in (camera.eye, camera.u, camera.v, camera.w))
+    left, back = 1 - share, camera.distance * w
+    moved = replace(camera, eye=three(eye + share * back))
+    bare = replace(options, image=False, grid=False, volume=False, points=())
+    items = _thin_basis(diagram(replace(content, options=bare, hits=(), number_step=None)))
+    items += plane_items(replace(content, camera=moved))
+
+    def ray(one: Pixel) -> tuple[Floats, Floats]:
+        """Return a pixel's origin and direction."""
+        x, y = camera.image_point(*one, size)
+        across = float(x) * u + float(y) * v
+        return eye + (1 - left**2) * across, left * across - back
+
+    for hit in content.hits:
+        origin, way = ray(hit.pixel)
+        line = np.array([[origin, origin + content.end * way]])
+        items.append(Segments(f"bundle {hit.pixel}", "ray", line, 1.4, 0.55, 0.25, layer=2))
+    x, y = (float(one) for one in camera.image_point(*pixel, size))
+    middle, corners = eye - left * back, pixel_corners(moved, pixel, size)
+    origin, way = ray(pixel)
+    d = origin + (left + share / camera.distance) * way
+    items += [
+        Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2),
+        Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
+        Segments("ray", "ray", np.array([[origin, origin + content.end * way]]), 2.6, hidden=0.6,
+                 layer=3),
+        Dot("p", "ray", origin, 6.0, layer=5),
+        Label("p", "ray", "vec(p)", origin, away=origin - v, strong=True),
+    ]  # fmt: skip
+    complete = growth(camera, size, pixel, len(STAGES))
+    for name, role, text, start, end in (
+        ("w", "w", "-d vec(w)", eye, middle),
+        ("u", "u", "u vec(u)", middle, middle + x * u),
+        ("v", "v", "v vec(v)", middle + x * u, middle + x * u + y * v),
+        ("d", "ray", "vec(d)", origin, d),
+    ):
+        if np.linalg.norm(end - start) > 1e-3 * camera.distance:
+            vector = Vector(name, role, text, start, end)  # type: ignore[arg-type]
+            items += _vector(vector, complete, camera)
+    return items
 
 
 def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) -> list[Item]:
@@ -220,14 +293,14 @@ def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) 
         fill = 0.5 * part["pixel"]
         items.append(Face("pixel", "mark", corners, fill, on_plane=True, layer=2))
     if now.lit == "pixel":
-        items.append(Label("pixel", "mark", "(i, j)", now.center, away=middle))
+        items.append(Label("pixel", "mark", "(i, j)", now.center, away=middle, strong=True))
     if part["centre"] > 0:
         items.append(Dot("pixel", "mark", now.center, 4.0 * part["centre"], on_plane=True, layer=5))
     if now.lit == "centre":
         reached = now.foots + part["centre"] * (now.center - now.foots)
         lines = np.stack([now.foots, reached], axis=1)
         items.append(Segments("foots", "mark", lines, 1.6, dashed=True, on_plane=True, layer=3))
-        items.append(Label("centre", "mark", "(u, v)", now.center, away=middle))
+        items.append(Label("centre", "mark", "(u, v)", now.center, away=middle, strong=True))
     share = part.get("undistort", 0.0)
     if share > 0:
         reached = now.center + share * (now.ideal - now.center)
@@ -235,10 +308,7 @@ def _pixel(camera: Camera, size: Size, pixel: Pixel, now: Growth, washed: bool) 
         items.append(Segments("lens", "mark", way, 2.2, on_plane=True, layer=4))
         items.append(Dot("ideal", "ray", reached, 4.0, on_plane=True, layer=5))
     if now.lit == "undistort":
-        items.append(Label("ideal", "ray", "(a, b)", now.ideal, away=now.center))
-    if camera.is_parallel and part["w"] > 0:
-        ahead = polyline(rectangle(camera, 1.0), True)  # the viewport, were this in perspective
-        items.append(Segments("perspective", "plane", ahead, 1.4, 0.7, 0.3, dashed=True, layer=2))
+        items.append(Label("ideal", "ray", "(a, b)", now.ideal, away=now.center, strong=True))
     return items
 
 
@@ -250,7 +320,14 @@ def _vector(vector: Vector, now: Growth, camera: Camera) -> list[Item]:
     middle = (vector.start + vector.end) / 2
     return [
         Arrow(f"term {vector.name}", vector.role, vector.start, vector.end, 4.2, layer=4),
-        Label(f"term {vector.name}", vector.role, vector.text, middle, away=middle - aside),
+        Label(
+            f"term {vector.name}",
+            vector.role,
+            vector.text,
+            middle,
+            away=middle - aside,
+            strong=True,
+        ),
     ]
 
 

@@ -18,15 +18,8 @@ from app.outside.diagram import RayEnd
 from app.outside.extent import around, framed, outside_camera, way_of
 from app.outside.frustum import bundle_pixels
 from app.outside.mouse import Scope
-from app.outside.naming import named
 from app.outside.options import OutsideOptions
 from app.outside.screen import NEAREST, OutsideScreen
-from app.outside.teaching import (
-    Subject,
-    is_in_sight,
-    seeing,
-    teaching_camera,
-)
 from app.state.options import Pixel
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
@@ -37,57 +30,10 @@ from renderer.raster.overlay import screen_from_world
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
-HANDLES_PX = 60.0  # likewise, for handles at the eye
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
-TOOLS_PX = 40.0  # of the tools, above and below what a step shows
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
-ROOM = 1.06  # around that, in its sizes
-MOST_KEPT = 100  # cameras: a lecture's steps, in a view of one size or two
 LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
-
-
-class Framing:
-    """The cameras that show what a step names: found once for a step and a size of the view.
-
-    When something of it leaves the picture, because the camera in the scene is moved, the outside
-    camera steps back in the same direction.
-    """
-
-    def __init__(self) -> None:
-        self._found: dict[tuple[object, ...], Camera] = {}
-
-    def camera(self, host: Host, size: Size, extent: ImVec2) -> Camera | None:
-        """Return the camera for a view of `size` pixels, or None if nothing is named."""
-        state = host.state
-        see = state.of(OutsideOptions).see
-        if not see or not min(host.renderers.size):
-            return None
-        subject, inner = _subject(host), host.renderers.camera(state)
-        if not len(subject.points):
-            return None
-        handles = HANDLES_PX if state.of(OutsideOptions).gizmo in ("move", "turn") else LETTER_PX
-        sides = theme.px(handles), theme.px(TOOLS_PX)
-        margin = ROOM * margin_for(extent.x, sides[0]), ROOM * margin_for(extent.y, sides[1])
-        image = host.renderers.size, inner.is_parallel
-        key = state.step, state.scene.name, see, size, sides, image
-        found = self._found.get(key)
-        if found is None:
-            if len(self._found) >= MOST_KEPT:
-                self._found.clear()
-            corner = 2 * theme.px(TRIAD_PX) * size[0] / extent.x
-            found = teaching_camera(subject, state.scene, inner, size, margin, corner)
-            self._found[key] = found
-        if is_in_sight(subject, found, size):
-            return found
-        return seeing(subject, np.asarray(found.w), inner, size, margin)
-
-
-def _subject(host: Host) -> Subject:
-    """Return what the options name, of the present drawing."""
-    state, size = host.state, host.renderers.size
-    inner, options = host.renderers.camera(state), state.of(OutsideOptions)
-    return named(state.scene, inner, size, options, state.marked, host.focus.framed)
 
 
 class Scopes:
@@ -96,7 +42,6 @@ class Scopes:
     that looks does not see everything of now yet."""
 
     def __init__(self) -> None:
-        self.framing = Framing()
         self._fixed: tuple[object, ...] | None = None
         self._inner: Camera | None = None  # of the scope
         self._seen: Camera | None = None  # in the frame before
@@ -121,8 +66,8 @@ class Scopes:
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
         options, inner = state.of(OutsideOptions), both.camera(state)
-        looking, marked = options.camera, state.marked if options.see else None
-        fixed = state.scene, more, looking, both.size, size, place, options.see, marked, state.step
+        looking = options.camera
+        fixed = state.scene, more, looking, both.size, size, place, state.step
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
@@ -136,7 +81,7 @@ class Scopes:
         )
         self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
-            self._scope = scope = scope_of(host, size, origin, extent, self.framing, more)
+            self._scope = scope = scope_of(host, size, origin, extent, more)
             self._fixed, self._inner = fixed, inner
         return scope
 
@@ -157,18 +102,16 @@ def scope_of(
     size: Size,
     origin: ImVec2,
     extent: ImVec2,
-    framing: Framing,
     more: Floats = NOTHING,
 ) -> Scope:
     """Return the outside camera for a picture of `size` that takes `extent` of the window.
 
-    framing: the view's own. more: points (n, 3) that must be in sight with the scene.
+    more: points (n, 3) that must be in sight with the scene.
     """
     points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.of(OutsideOptions).camera or framing.camera(host, size, extent)
-    camera = camera or _for_all(points, host, size, extent)
+    camera = host.state.of(OutsideOptions).camera or _for_all(points, host, size, extent)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)

@@ -29,6 +29,7 @@ from renderer.raster.lines import (
     Layer,
 )
 
+DARK_GROUND = 0.35  # the lightest channel of a scene's dark background
 PALEST = 0.45  # a line that is paler has no casing, which would be all one sees of it
 
 FIXED: dict[Role, ImVec4] = {
@@ -66,7 +67,10 @@ def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
     panel.
     """
     if role in theme.BASIS or role == "other":
-        color = FIXED[role] if role == "other" else theme.BASIS[role]
+        basis = theme.BASIS
+        if theme.used().theme == "light" and ground is not None and max(ground) < DARK_GROUND:
+            basis = theme.PRESENTED_DARK.BASIS  # the light theme's are dark
+        color = FIXED[role] if role == "other" else basis[role]
         return color if ground is None else theme.seen_on(color, ground)
     if role == "ray":
         return theme.RAY

@@ -17,11 +17,9 @@ from imgui_bundle import ImVec2, imgui
 from app.host.view import Host
 from app.outside.diagram import Arrow, Dot, Item, Label, Segments
 from app.outside.frustum import has_plane, image_point, plane_corners
-from app.outside.looking import TRIAD_PX
 from app.outside.mouse import Scope
 from app.outside.options import OutsideOptions
 from app.outside.screen import OutsideScreen
-from app.outside.tools import PAD, chip
 from app.widgets import theme
 from renderer.camera import Camera, Floats, Size
 from renderer.errors import LucidaError
@@ -33,10 +31,6 @@ Part = Literal["grid", "corner", "point"]
 MOST_TICKS = 32  # of a side
 NEAR_PX = 14.0  # from a handle
 LEAST, MOST = 0.1, 10.0  # by which a drag may scale the grid
-ORIGINS: dict[PixelOrigin, tuple[str, str]] = {
-    "center": ("0 at a centre", "whole numbers at pixels' centres, as in OpenCV"),
-    "corner": ("0 at a corner", "whole numbers at pixels' corners, as in COLMAP"),
-}
 
 
 @dataclass(frozen=True)
@@ -86,18 +80,6 @@ class PixelPlane:
                 )
             )
         return True
-
-    def switch(self, host: Host, scope: Scope, over: bool) -> bool:
-        """Draw the switch between centres and corners below the axes."""
-        now, high, pad = host.state.options.pixel_origin, imgui.get_frame_height(), theme.px(PAD)
-        wide = max(imgui.calc_text_size(name).x + theme.px(28) for name, _ in ORIGINS.values())
-        left = scope.origin.x + scope.extent.x - pad - wide
-        top = scope.origin.y + 2 * theme.px(TRIAD_PX) + pad
-        for number, (origin, (name, tip)) in enumerate(ORIGINS.items()):
-            imgui.set_cursor_screen_pos(ImVec2(left, top + number * (high + theme.px(4))))
-            if chip(name, tip, origin == now, theme.TEXT):
-                host.apply(host.state.with_options(pixel_origin=origin))
-        return False
 
 
 def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, ...]:

@@ -95,13 +95,14 @@ class LabelPlacer:
         costs = _PREFERENCES + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
         centers: list[Spot] = [(0.0, 0.0)] * len(texts)
         taken = np.zeros((len(texts), 4))
-        for number in sorted(range(len(texts)), key=lambda k: not texts[k].strong):
+        order = sorted(range(len(texts)), key=lambda k: (not texts[k].fixed, not texts[k].strong))
+        for number in order:
             text, label, of_text = texts[number], labels[number], around[number]
             cost = costs[number] + _crossed(of_text, ground) / boxes[number].height
             cost += LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
             if label in before:
                 cost[before[label][1]] -= KEPT
-            best = int(cost.argmin())
+            best = 0 if text.fixed else int(cost.argmin())
             self._chosen[label] = text.at, best
             x, y = places[number, best].tolist()
             (far_x, far_y), (wide_x, wide_y) = size, wide[number].tolist()

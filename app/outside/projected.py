@@ -19,6 +19,7 @@ from renderer.camera import Floats
 from renderer.camera_checks import cross
 
 CIRCLE = 28  # corners of what is round
+HEAD = 4.2  # the least length of an arrow's head, in widths of its shaft
 _ANGLES = np.arange(CIRCLE)[:, None] * (2 * math.pi / CIRCLE)
 _COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
 _AXES = np.eye(3)
@@ -60,7 +61,9 @@ class Shape(NamedTuple):
 
 
 class Text(NamedTuple):
-    """A text next to a point. toward: the unit direction from `at` to the text. strong: bold."""
+    """A text next to a point. toward: the unit direction from `at` to the text. strong: bold.
+    fixed: in that direction only.
+    """
 
     name: str
     role: Role
@@ -68,6 +71,7 @@ class Text(NamedTuple):
     at: tuple[float, float]
     toward: tuple[float, float]
     strong: bool
+    fixed: bool = False
 
 
 Primitive = Strokes | Shape | Text
@@ -158,7 +162,7 @@ def _disc(item: Dot, at: Floats, depth: Floats, screen: OutsideScreen) -> list[P
     points, depths = np.stack([at, at], axis=1), np.stack([depth, depth], axis=1)
     width_px = 2 * item.radius * screen.symbol_px
     return [
-        Strokes(item.name, item.role, points, depths, np.zeros(1), width_px, 1.0, 0.45,
+        Strokes(item.name, item.role, points, depths, np.zeros(1), width_px, 1.0, item.hidden,
                 item.on_plane, False, item.layer)
     ]  # fmt: skip
 
@@ -185,7 +189,8 @@ def _arrows(
         if seen.visible[k]:
             axis = (end - start) / length
             size = screen.symbol_px * screen.px_world(float(seen.spots[k, 2]))
-            head = min(item.head * size, 0.45 * length)
+            wide = HEAD * item.width * screen.unit_px / screen.symbol_px  # of thick lines
+            head = min(max(item.head, wide) * size, 0.45 * length)
             end = end - head * axis
             rings.append(end + 0.36 * head * _circle(axis))
             towards = float(axis @ screen.toward_viewer(end)) > 0
@@ -261,7 +266,8 @@ def _label(item: Label, at: Floats, spots: Floats, screen: OutsideScreen) -> lis
             return []
         if length > 0:
             dx, dy = x / length, y / length
-    return [Text(item.name, item.role, item.text, tuple(at.tolist()), (dx, dy), item.strong)]
+    x, y = at.tolist()
+    return [Text(item.name, item.role, item.text, (x, y), (dx, dy), item.strong, item.fixed)]
 
 
 def _circle(axis: Floats) -> Floats:

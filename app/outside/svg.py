@@ -76,15 +76,16 @@ def _element(part: Line | Polygon, figure: Figure) -> str:
 def _text(part: Label, ground: str) -> str:
     """Return the text over a rim of the ground's colour, which separates it from lines."""
     x, y = _number(part.center[0]), _number(part.center[1] + BASELINE * part.size)
-    bold = ' font-weight="bold"' if part.strong else ""
-    look = f'{_name(part)} x="{x}" y="{y}" font-size="{_number(part.size)}"{bold}'
+    look = f'{_name(part)} x="{x}" y="{y}" font-size="{_number(part.size)}"'
+    bold = ' font-weight="bold"' if part.strong and "vec(" not in part.text else ""
     rim = f' fill="none" stroke="{ground}" stroke-width="{_number(RIM * part.size)}"'
     text = "".join(
         f'<tspan font-weight="bold">{escape(_legal(piece))}</tspan>'
-        if is_bold and not part.strong
+        if is_bold and not bold
         else escape(_legal(piece))
         for piece, is_bold in runs(part.text, part.strong)
     )
+    look += bold
     return f'<text{look}{rim}>{text}</text>\n<text{look} fill="{_hex(part.color)}">{text}</text>'
 
 

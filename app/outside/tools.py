@@ -77,7 +77,7 @@ def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> tuple[E
     if options == now:
         return covered
     changed = state.with_options(outside=options)
-    if options.camera != now.camera and options.see == now.see:
+    if options.camera != now.camera:
         host.travel(changed)
     else:
         host.apply(changed)
@@ -106,7 +106,7 @@ def _legend(
     ]
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
     views = [
-        _Entry("fit all", tips[0], False, None, partial(replace, options, camera=None, see=())),
+        _Entry("fit all", tips[0], False, None, partial(replace, options, camera=None)),
         _Entry("from camera", tips[1], False, None, partial(replace, options, camera=camera)),
     ]
     pad, origin, extent = theme.px(PAD), scope.origin, scope.extent

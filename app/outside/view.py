@@ -5,6 +5,7 @@ It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -12,17 +13,18 @@ from functools import partial
 from typing import Any
 
 import moderngl
+import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.travel import Ends
 from app.host.view import DockedView, Host
-from app.images.picking import object_on_ray
+from app.images.picking import line_meetings, object_on_ray
 from app.images.renderers import look_of
 from app.images.request import ImageRequest
 from app.images.screen import available_px
 from app.outside.camera_diagram import Content
 from app.outside.cloud import Cloud
-from app.outside.diagram import Item, RayEnd
+from app.outside.diagram import Item
 from app.outside.extensions import Extension, Extensions
 from app.outside.extent import end_parameter
 from app.outside.frustum import pixel_seen, plane_corners
@@ -30,7 +32,6 @@ from app.outside.gizmo import Gizmo
 from app.outside.growing import grown_diagram
 from app.outside.hosted import Hosted
 from app.outside.looking import (
-    Framing,
     Scopes,
     camera_for_all,
     nearest,
@@ -46,7 +47,6 @@ from app.outside.pixel_plane import PixelPlane
 from app.outside.placing import Edges, LabelPlacer
 from app.outside.projected import Primitive, project
 from app.outside.screen import OutsideScreen, image_plane
-from app.outside.scrubber import Scrubber
 from app.outside.tools import draw_labels, use_tools, written
 from app.outside.widening import Widening
 from app.state.app_state import AppState
@@ -57,14 +57,15 @@ from app.widgets.theme import framebuffer_scale
 from renderer.camera import Camera, Size
 from renderer.errors import LucidaError, describe
 from renderer.frame import LARGEST_PIXELS, LARGEST_SIDE
-from renderer.memo import same
+from renderer.memo import Memo, same
 from renderer.navigation import orbited
+from renderer.scene.model import Scene
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
-OPACITY = 0.9  # of the picture on the image plane: things behind it are slightly visible
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
+NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
 
 
 class OutsideView(DockedView):
@@ -90,8 +91,8 @@ class OutsideView(DockedView):
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
-        self.scrubber = Scrubber(self.name)
         self._widening = Widening()
+        self._meetings = Memo(_meetings)
 
     @property
     def settled(self) -> bool:
@@ -109,10 +110,6 @@ class OutsideView(DockedView):
     @property
     def extra(self) -> tuple[Item, ...]:
         return self.extensions.lines
-
-    @property
-    def framing(self) -> Framing:
-        return self._scopes.framing
 
     @property
     def size_px(self) -> Size | None:
@@ -158,10 +155,7 @@ class OutsideView(DockedView):
         if scope is None or size is None or not changed or state.view != target.view:
             return None
         options = target.of(OutsideOptions)
-        end = options.camera
-        if end is None and options.see:
-            end = self.framing.camera(host, size, scope.extent)
-        end = end or camera_for_all(host, size, scope.extent, self.extensions.points)
+        end = options.camera or camera_for_all(host, size, scope.extent, self.extensions.points)
         return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
@@ -174,14 +168,13 @@ class OutsideView(DockedView):
         if min(size) < SMALLEST_PX:
             self.unseen(host)  # nobody waits for what is not drawn
             return
-        self.scrubber.follow(host)
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         scale = framebuffer_scale()
         origin = imgui.get_cursor_screen_pos()
         extent = ImVec2(size[0] / scale, size[1] / scale)
         pixels = self._pixels.shown(host)
-        self.show("pixels", pixels, draw=self._pixels.switch if pixels else None)
+        self.show("pixels", pixels)
         scope = self._follow_mouse(host, size, origin, extent)
         self._widening.follow(host, scope, self.extensions.answers)
         texture = self._texture(host, scope.shown, size, scope)
@@ -309,13 +302,9 @@ class OutsideView(DockedView):
             refines=not self._scopes.moves,
         )  # fmt: skip
         screen = OutsideScreen(camera, size, nearest(camera, scope), *units_px(scope.extent))
-        marked, hits = self.rays(host, inner, both.size)
-        content = Content(
-            inner, both.size, replace(options, camera=None),
-            end_parameter(inner, host.focus.framed), tuple(hits), marked,
-            int(widest_px(screen, plane_corners(inner)) / (GRID_PX * screen.unit_px)),
-            state.options.notation,
-        )  # fmt: skip
+        content = self.content(host, screen)
+        if options.half_line and self._over:
+            content = replace(content, pointed=_pointed(content, scope))
         key = (
             content, ground, screen.near, units_px(scope.extent),
             live and live.number, state.images, theme.used(), extensions.items,
@@ -333,17 +322,54 @@ class OutsideView(DockedView):
             picture = both.textures.whole_raster(request, look_of(state.images))
         texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
-            exposure_ev, OPACITY, screen.unit_px, ground.mean, CASING, ground,
+            exposure_ev, options.image_opacity, screen.unit_px, ground.mean, CASING, ground,
             self.tools.layer.picture(extensions.cloud, screen, _ground(state)),
         )  # fmt: skip
         return MadePicture(key, texture, primitives, labels)
 
-    def rays(self, host: Host, camera: Camera, size: Size) -> tuple[RayEnd | None, list[RayEnd]]:
-        """Return the marked pixel's ray and the bundle's, with their ends as far as they
-        are known.
-        """
+    def content(self, host: Host, screen: OutsideScreen) -> Content:
+        """Return what is to be drawn on a screen, with rays' ends as far as they are known."""
         assert self.tools is not None
-        return ray_ends(self.tools.hits, host, camera, size, self.extensions.by_source)
+        both, state = host.renderers, host.state
+        camera, size, options = both.camera(state), both.size, state.of(OutsideOptions)
+        marked, hits = ray_ends(self.tools.hits, host, camera, size, self.extensions.by_source)
+        side_px = widest_px(screen, plane_corners(camera))
+        found: tuple[float, ...] = ()
+        if options.meetings and marked is not None:
+            ray = camera.ray(*marked.pixel, size)
+            found = self._meetings(state.scene, *ray.origin.tolist(), *ray.direction.tolist())
+        return Content(
+            camera, size, replace(options, camera=None),
+            end_parameter(camera, host.focus.framed), tuple(hits), marked,
+            int(side_px / (GRID_PX * screen.unit_px)), state.options.notation,
+            state.options.indexing.value,
+            None if host.has_tools or not options.grid else _number_step(size, side_px), found,
+        )  # fmt: skip
+
+
+def _meetings(scene: Scene, *ray: float) -> tuple[float, ...]:
+    return line_meetings(scene, np.array(ray[:3]), np.array(ray[3:]))
+
+
+def _number_step(size: Size, side_px: float) -> int:
+    """Return the least step from one number of a row, or of a column, to the next.
+
+    side_px: of the image plane's longer side.
+    """
+    text_px = NUMBER_SPACE * theme.type_px() * framebuffer_scale()
+    return math.ceil(max(size) * text_px / max(side_px, 1.0))
+
+
+def _pointed(content: Content, scope: Scope) -> float | None:
+    """Return the t of the marked pixel's line that is nearest to the mouse."""
+    if content.marked is None:
+        return None
+    ray = content.camera.ray(*content.marked.pixel, content.size)
+    origin, way = scope.ray(imgui.get_mouse_pos())
+    start, along = np.asarray(ray.origin), np.asarray(ray.direction)
+    sides = np.column_stack([along, -np.asarray(way)])
+    found, *_ = np.linalg.lstsq(sides, np.asarray(origin) - start, rcond=None)
+    return float(found[0])
 
 
 def _ground(state: AppState) -> theme.Rgb:

@@ -16,7 +16,8 @@ class PairOptions:
     """The drawings over both images.
 
     parallels: points of the world, through each of which a line is drawn in the direction `along`.
-    In perspective they meet in its vanishing point. vanishing: draw them.
+    In perspective they meet in its vanishing point. vanishing: draw them; extended:
+    how far, from their near ends.
     straight_lines: a grid of straight lines around the eye, bent as the lens bends them.
     footprint: an inset of the marked pixel's square, with the samples that its colour is made of.
     value: the colour at the pointer, as a function of its place.
@@ -25,6 +26,7 @@ class PairOptions:
     parallels: Annotated[tuple[Point, ...], AtMost(32)] = ()
     along: Point = (0.0, 0.0, -1.0)
     vanishing: bool = False
+    extended: Annotated[float, Range(0, 1)] = 1.0
     straight_lines: bool = False
     footprint: bool = False
     value: bool = False

@@ -49,6 +49,7 @@ class Pane:
     dark: DarkNote | None = None
     progress: float = 1.0
     legend: bool = True
+    has_tools: bool = True
     hovered: Pixel | None = None
     pins: Sequence[Pixel] = ()
     depths: tuple[float, float] | None = None
@@ -145,7 +146,7 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     if picture is not None:
         draw.pop_clip_rect()
-        draw_rulers(draw, screen, state, pane.fonts)
+        draw_rulers(draw, screen, state, pane.fonts, pane.has_tools)
         draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if pane.hovered is not None and grab is None:
         draw_hovered(draw, screen, pane.hovered)
@@ -153,9 +154,10 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
         draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
     if picture is not None:
-        if pane.legend:
+        if pane.legend and pane.has_tools:
             draw_legend(draw, screen, state, pane.depths, pane.fonts)
-        draw_corner(draw, screen, state, lambda size: _map(pane, state, screen, size))
+        if pane.has_tools:
+            draw_corner(draw, screen, state, lambda size: _map(pane, state, screen, size))
     if pane.note:
         draw_note(draw, screen, pane.note, pane.is_error)
     elif pane.dark is not None:

@@ -19,6 +19,7 @@ from app.widgets.theme import framebuffer_scale
 
 ADVANCE = 0.5  # of the fixed-width font, in its size
 GAP = 3.0  # between numbers and image
+MOST_NUMBERED = 12  # a side of an image whose pixels all have numbers in a lecture
 USUAL_DIGITS = 4  # of an image that follows its window
 
 
@@ -50,9 +51,13 @@ def numbered(first: int, last: int, base: int, step: int) -> Iterator[int]:
 
 
 def draw_rulers(
-    draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts
+    draw: imgui.ImDrawList, screen: Screen, state: AppState, fonts: theme.Fonts, has_tools: bool
 ) -> None:
-    """Draw columns above the image and rows at its left, if it leaves a margin."""
+    """Draw columns above the image and rows at its left, if it leaves a margin.
+
+    has_tools: as Host's. Without them, larger images than MOST_NUMBERED have only the first, the
+    last and the marked pixel numbered.
+    """
     if not any(screen.placement.margin):
         return
     low, high = screen.visible
@@ -67,6 +72,8 @@ def draw_rulers(
     step = max(
         thinning(screen.cell[0], digit * (len(str(columns)) + 1)), thinning(screen.cell[1], size)
     )
+    if not has_tools and max(screen.placement.size) > MOST_NUMBERED:
+        step = max(screen.placement.size)
     marked = state.marked or (-1, -1)
     draw.push_clip_rect(corner, high, intersect_with_current_clip_rect=True)
     for far in (ImVec2(high.x, low.y), ImVec2(low.x, high.y)):  # a mark's lines end at the image
@@ -82,7 +89,10 @@ def draw_rulers(
     for axis, (first, last) in enumerate(((top, bottom), (left, right))):
         is_row = axis == 0
         edges = ((corner.x, high.x), (corner.y, high.y))[is_row]
-        for pixel in _with(numbered(first, last, base, step), marked[axis], first, last):
+        listed = numbered(first, last, base, step)
+        if step >= last - first:
+            listed = iter((first, last - 1))
+        for pixel in _with(listed, marked[axis], first, last):
             text, place = str(pixel + base), screen.point(pixel + 0.5, pixel + 0.5)
             wide = digit * len(text)
             middle, long, needed = (

@@ -81,9 +81,11 @@ def draw_parallels(
             draw_curves(draw, screen, placed(bent, screen), color, 2.0)
             continue
         start, end = place(segment)
+        way = options.extended
+        end = ImVec2(start.x + way * (end.x - start.x), start.y + way * (end.y - start.y))
         for ink, width in ((dark, 4.0), (color, 2.0)):
             draw.add_line(start, end, ink, theme.line_px(width))
-    meets = vanishing_point(camera, options.along)
+    meets = vanishing_point(camera, options.along) if options.extended == 1 else None
     at = place(meets)[0] if meets is not None else ImVec2(math.nan, math.nan)
     if math.isfinite(at.x):  # the lens sees it
         for ink, width in ((dark, 6.0), (color, 3.0)):

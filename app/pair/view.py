@@ -166,6 +166,7 @@ class ImageView(DockedView):
             dark=dark,
             progress=progress,
             legend=legend,
+            has_tools=host.has_tools,
             hovered=self._hovered(host, placed(state)),
             pins=shared.pins(state),
             depths=both.depths() if state.images.channel == "depth" else None,
@@ -248,7 +249,7 @@ class ImageView(DockedView):
         return note
 
     def _strip(self, host: Host) -> None:
-        if not host.state.preferences.presentation:
+        if host.has_tools and not host.state.preferences.presentation:
             size = self.linked.photograph.file_size
             strip = Strip(self.name, host.ask_resolution, size)
             host.apply(image_strip(strip, host.state))

@@ -89,8 +89,6 @@ class ProbeView(DockedView):
         reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
         self.reading = reading
         host.apply(panel.toolbar(host.state, pixel, size, reading))
-        if pixel is not None:
-            self._outside.scrubber.draw(host)
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))

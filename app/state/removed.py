@@ -53,6 +53,8 @@ REMOVED: dict[str, Removed] = {
         "paste a matrix with Ctrl+V, which asks what it means",
         {"text": "", "pixel_origin": "center", "chosen": ""},
     ),
+    "outside.see": Removed("a step says from where to look by outside.camera", []),
+    "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 

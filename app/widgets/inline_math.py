@@ -39,13 +39,10 @@ class Setting:
         draw.add_image(texture, corner, far, (0, 0), (1, 1), theme.u32(ImVec4(1, 1, 1, 1)))
 
 
-def inline_math(
-    latex: str, size_px: float, color: ImVec4, display: bool = False, most_px: float = 1e9
-) -> Setting:
+def inline_math(latex: str, size_px: float, color: ImVec4, display: bool = False) -> Setting:
     """Typeset a formula in text of size_px. Call it every frame.
 
-    It is scaled down if wider than most_px. If MicroTeX rejects it, it is plain text in the current
-    font.
+    If MicroTeX rejects it, it is plain text in the current font.
     display: set it as between $$.
     """
     scale = framebuffer_scale()
@@ -58,9 +55,8 @@ def inline_math(
         except RuntimeError:
             made = None
         if made is not None and made.width > 0:
-            shrunk = min(1.0, most_px * scale / made.width) / scale
-            ascent = made.baseline_y * shrunk
-            return Setting(made.width * shrunk, ascent, made.height * shrunk - ascent, made)
+            ascent = made.baseline_y / scale
+            return Setting(made.width / scale, ascent, made.height / scale - ascent, made)
     text = plain_math(latex)
     extent = imgui.calc_text_size(text)
     return Setting(extent.x, 0.8 * extent.y, 0.2 * extent.y, None, text)

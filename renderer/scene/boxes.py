@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]
 
 
-def extent(vertices: F32) -> tuple[F32, F32]:
+def extent(vertices: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Return the lowest and the highest corner (3,) of points (n, 3), n > 0, in C order."""
     # Many numbers a row: along rows of three, NumPy takes ten times as long.
     whole = len(vertices) // 64 * 64

@@ -17,7 +17,6 @@ objects, and sphere s has the number m + s.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
@@ -236,8 +235,7 @@ def _room(entry: SceneObject) -> tuple[int, int]:
 
 def _ranges(counts: list[int]) -> I32:
     """Return (first, count) of each of several parts of an array, one after another."""
-    firsts = accumulate(counts[:-1], initial=0) if counts else ()
-    return np.array(list(zip(firsts, counts, strict=True)), np.int32).reshape(-1, 2)
+    return np.column_stack([np.cumsum(counts) - counts, counts]).astype(np.int32)
 
 
 def _stack(parts: list, dtype: type) -> np.ndarray:

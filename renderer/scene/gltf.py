@@ -46,6 +46,7 @@ TYPES = {
     "COLOR_0": ("VEC3", "VEC4"),
     "indices": ("SCALAR",),
 }
+SURFACES = TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN
 INSTANCED = {"TRANSLATION": "VEC3", "ROTATION": "VEC4", "SCALE": "VEC3"}
 
 
@@ -94,7 +95,7 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
     )
     if still := list(_not_moved(tree, nodes)):
         images.note(f"not shown: {', '.join(still)}", "shapes")
-    if left := [n for n in tree.extensions_used if n not in READ and not n.startswith(MATERIALS)]:
+    if left := [n for n in tree.extensions_used if n not in READ and not MATERIALS.match(n)]:
         images.note(f"not read: {', '.join(left)}", "extensions")
     materials = read_materials(file, {entry.primitive.material for entry in instances}, images)
     parts: dict[Hashable, Part] = {}
@@ -111,7 +112,8 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
             check_cancelled()
             fields = _fields(file, given, entry.field)
             colors = fields["vertex_colors"]
-            if material is not None and material.cutout is not None and _is_clear(colors):
+            is_cut = material is not None and material.cutout is not None
+            if is_cut and colors is not None and colors.shape[1] == 4 and _is_clear(colors[:, 3]):
                 images.note("the opacity of vertices cuts no holes", "materials")
             fields["vertex_colors"] = linear_colors(colors, linear=True)
             fields["uv"] = _coordinates(file, places, images)
@@ -128,6 +130,8 @@ def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
         yield "morph targets"
     if tree.animations:
         yield "animations"
+    if any(part.mode not in SURFACES for mesh in tree.meshes for part in mesh.primitives):
+        yield "points and lines"
 
 
 def _instances(file: OpenGltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
@@ -141,8 +145,8 @@ def _instances(file: OpenGltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
         matrices = _matrices(file, placed)
         for k, primitive in enumerate(mesh.primitives):
             where = f"meshes[{number}].primitives[{k}]"
-            if primitive.mode not in (TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN):
-                continue  # points and lines have no surface
+            if primitive.mode not in SURFACES:
+                continue
             if "POSITION" not in primitive.attributes:
                 raise LucidaError(where, "has no POSITION", "export it again")
             if primitive.material is not None:
@@ -203,12 +207,9 @@ def _coordinates(file: OpenGltf, number: int | None, images: ModelImages) -> NDA
         return None
 
 
-def _is_clear(colors: NDArray[Any] | None) -> bool:
-    """Return True if the colours of a primitive's vertices have an opacity below 1."""
-    if colors is None or colors.shape[1] < 4:
-        return False
-    most = np.iinfo(colors.dtype).max if colors.dtype.kind in "ui" else 1
-    return bool((colors[:, 3] < most).any())
+def _is_clear(opacity: NDArray[Any]) -> bool:
+    most = np.iinfo(opacity.dtype).max if opacity.dtype.kind in "ui" else 1
+    return bool((opacity < most).any())
 
 
 def _fields(file: OpenGltf, primitive: Primitive, where: str) -> dict[str, Any]:

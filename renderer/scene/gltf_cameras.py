@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from renderer.camera import Camera
 from renderer.camera_checks import volume
 from renderer.errors import LucidaError, under
-from renderer.scene.gltf_file import Gltf, Table, entry_at, invalid
+from renderer.scene.gltf_file import Gltf, Table, entry_at
 from renderer.scene.gltf_nodes import PlacedNode
 from renderer.scene.limits import VIEWS
 from renderer.scene.model import NamedView, View
+from renderer.scene.tables import explained
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
 UNCLIPPED = "lucida_unclipped"
@@ -92,7 +93,7 @@ def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
     try:
         fields = msgspec.convert(given, GltfCamera)
     except msgspec.ValidationError as error:
-        raise invalid(error).within(field) from None
+        raise explained(str(error)).within(field) from None
     eye, (u, v, w), straightened = _pose(placed)
     name = placed.node.name or fields.name
     with under(field):
@@ -129,13 +130,10 @@ def _unclipped(camera: Camera, extras: Any) -> Camera:
     them.
     """
     names = extras.get(UNCLIPPED) if isinstance(extras, dict) else None
-    if not isinstance(names, list):
-        return camera
-    return replace(
-        camera,
-        near=None if "znear" in names else camera.near,
-        far=None if "zfar" in names else camera.far,
-    )
+    if isinstance(names, list):
+        camera = replace(camera, near=None) if "znear" in names else camera
+        camera = replace(camera, far=None) if "zfar" in names else camera
+    return camera
 
 
 def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64], str]:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import base64
 import binascii
+import codecs
+import re
 import urllib.parse
 from pathlib import Path
 from typing import Annotated, Any
@@ -18,6 +20,7 @@ from renderer.errors import LucidaError, under
 from renderer.scene.images import inner_path, shown
 from renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
 from renderer.scene.reading import check_bytes, damaged, read_file, size_text
+from renderer.scene.tables import explained
 
 Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
@@ -26,7 +29,9 @@ TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN = 4, 5, 6
 TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
 LIGHTS, INSTANCING = "KHR_lights_punctual", "EXT_mesh_gpu_instancing"
 READ = (TRANSFORM, WEBP, LIGHTS, INSTANCING, "KHR_mesh_quantization")
-MATERIALS = "KHR_materials_"  # these change no geometry: gltf_materials.py names what is not shown
+MATERIALS = re.compile(
+    "KHR_materials_(?!variants)"
+)  # these change no geometry: gltf_materials.py names what is not shown
 
 
 class Table(msgspec.Struct, rename="camel"):
@@ -230,7 +235,7 @@ class Gltf(GltfVersion):
 def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     """Return the tree of a file's bytes, and the binary chunk of a .glb file. source: its name."""
     binary = None
-    text: bytes | memoryview = data
+    text: bytes | memoryview = data.removeprefix(codecs.BOM_UTF8)
     if data[:4] == b"glTF":
         text, binary = _chunks(data)
         if len(text) > GLTF_JSON_BYTES:
@@ -243,11 +248,11 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
             raise _of_version(version)
         tree = msgspec.json.decode(text, type=Gltf)
     except msgspec.ValidationError as error:
-        raise invalid(error) from None
-    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
-        raise damaged(f"is not glTF: {str(error)[:120]}") from None
+        raise explained(str(error)) from None
+    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
+        raise damaged("is not glTF: its JSON cannot be read") from None
     for name in tree.extensions_required:
-        if name not in READ and not name.startswith(MATERIALS):
+        if name not in READ and not MATERIALS.match(name):
             remedy = "open it in Blender, say, and export it without"
             raise LucidaError("extensionsRequired", f"{name[:60]} is not read", remedy)
     return tree, binary
@@ -339,11 +344,3 @@ def entry_at(entries: list[Any], number: int, field: str) -> Any:
             field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
         )
     return entries[number]
-
-
-def invalid(error: msgspec.ValidationError) -> LucidaError:
-    """Return the error for a value of a wrong type."""
-    reason, _, where = str(error).partition(" - at `$")
-    return LucidaError(
-        where.strip("`."), reason[:1].lower() + reason[1:].replace("`", ""), "export it again"
-    )

@@ -49,7 +49,7 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
     if any(given.emissive_factor):  # it multiplies the texture
         yield "emission"
     for name in given.extensions:
-        word = name.removeprefix(MATERIALS)
+        word = MATERIALS.sub("", name)
         yield WORDS.get(word, word.replace("_", " ")[:40])
 
 

@@ -88,7 +88,7 @@ def scaled(found: NDArray[Any], file: OpenGltf, number: int) -> NDArray[Any]:
     """Return the numbers of an accessor as it means them: normalized ones as fractions."""
     if found.dtype.kind not in "ui" or not file.tree.accessors[number].normalized:
         return found
-    return np.maximum(found / np.iinfo(found.dtype).max, -1)
+    return np.maximum(found / np.iinfo(found.dtype).max, -1).astype(np.float32)
 
 
 def whole_numbers(found: NDArray[Any], field: str) -> NDArray[np.int64]:

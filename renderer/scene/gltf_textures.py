@@ -62,13 +62,13 @@ def read_texture(
         )
         if found is None:
             return None
-        transform = info.extensions.transform
+        transform, wrap = info.extensions.transform, WRAP_NAMES.get
         (scale_u, scale_v), (offset_u, offset_v) = transform.scale, transform.offset
         # In glTF, v counts downwards, and the rotation is about the upper left corner.
         sine, cosine = math.sin(transform.rotation), math.cos(transform.rotation)
         return Texture(
             found.pixels,
-            (_wrap(sampler.wrap_s), _wrap(sampler.wrap_t)),
+            (wrap(sampler.wrap_s, "repeat"), wrap(sampler.wrap_t, "repeat")),
             (scale_u, scale_v),
             (offset_u + scale_v * sine, 1.0 - scale_v * cosine - offset_v),
             found.file,
@@ -77,10 +77,6 @@ def read_texture(
     except LucidaError as error:
         images.note(f"{error}; the plain colour is shown")
     return None
-
-
-def _wrap(number: int) -> str:
-    return WRAP_NAMES.get(number, "repeat")
 
 
 def _read(file: OpenGltf, image: GltfImage, field: str, has_opacity: bool) -> FoundImage:

@@ -74,9 +74,8 @@ def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
         raise LucidaError("", "has too many pixels", f"stay within {TEXTURE_SIDE} a side") from None
     except Image.UnidentifiedImageError:
         raise LucidaError("", f"is none of {', '.join(FORMATS)}", _REMEDY) from None
-    except Exception as error:  # Pillow raises what it likes for a damaged file
-        reason = (str(error).strip().splitlines() or [type(error).__name__])[0][:120]
-        raise LucidaError("", f"cannot be decoded: {reason}", _REMEDY) from None
+    except Exception:  # Pillow raises what it likes for a damaged file
+        raise LucidaError("", "is cut off or damaged", _REMEDY) from None
     pixels.setflags(write=False)
     return pixels
 

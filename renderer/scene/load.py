@@ -8,6 +8,7 @@ from pathlib import Path
 from renderer.errors import LucidaError
 from renderer.scene.files import read_scene_file
 from renderer.scene.model import Origin, Scene
+from renderer.scene.model_kinds import check_kind
 from renderer.scene.models import MODEL_ENDINGS, model_scene
 from renderer.scene.noting import Noted, noting
 from renderer.scene.reading import absence, close_matches, full_path, path_of, suggestion
@@ -46,6 +47,7 @@ def load_scene(source: str | Path) -> Scene:
         return _from(str(full_path(path)), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
     if _exists(path):
+        check_kind(path)
         raise LucidaError(
             "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
         )

@@ -30,11 +30,14 @@ from renderer.scene.model import (
     triangles_of,
     without_metal,
 )
+from renderer.scene.model_kinds import check_kind
 from renderer.scene.obj import read_obj
 from renderer.scene.parts import Part, build_mesh
-from renderer.scene.readers import READERS
+from renderer.scene.readers import read_off, read_ply, read_stl
 from renderer.scene.reading import MODEL_ENDINGS as MODEL_ENDINGS
 from renderer.scene.reading import check_count, naming
+
+READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl, ".off": read_off}
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +79,7 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
     damaged, holds no triangle, or too many.
     """
     ending = path.suffix.lower()
+    check_kind(path)
     if ending not in MODEL_ENDINGS:
         what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
@@ -86,11 +90,17 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
         try:
             if ending in (".glb", ".gltf"):
                 found = read_gltf(path, images, is_mapped)
-                objects = _gltf_objects(path, found.parts, images)
+                objects = _objects(path, found.parts, images)
                 views = camera_views(found.tree, found.nodes)
                 lights = scene_lights(found.tree, found.nodes, objects, images)
             else:
-                objects = _objects(path, ending, images, is_mapped)
+                parts = READERS[ending](path, images, is_mapped)
+                alone = len(parts) == 1
+                instances = [
+                    PlacedPart(part, "" if alone else part.name, np.eye(4), part.material)
+                    for part in parts
+                ]
+                objects = _objects(path, instances, images)
         except MemoryError:
             raise LucidaError("", "does not fit into memory", "give a smaller model") from None
         if not objects:
@@ -123,46 +133,37 @@ def model_scene(path: str | Path) -> Scene:
     )
 
 
-def _objects(path: Path, ending: str, images: ModelImages, is_mapped: bool) -> list[SceneObject]:
-    parts = read_obj(path, images, is_mapped) if ending == ".obj" else READERS[ending](path, images)
-    objects = []
-    for part in parts:
-        check_cancelled()
-        mesh = build_mesh(part)
-        if mesh is not None:
-            name = part.name if len(parts) > 1 else path.stem
-            material = _shown_on(mesh, part.material or _material(part), name, images)
-            objects.append(SceneObject(mesh, material, name))
-    return objects
-
-
-def _gltf_objects(
-    path: Path, instances: list[PlacedPart], images: ModelImages
-) -> list[SceneObject]:
-    built: dict[int, Mesh | None] = {}
+def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> list[SceneObject]:
+    """Return the objects of a file's parts. Instances of one part share its arrays."""
+    built: dict[int, list[Mesh]] = {}
     objects = []
     for instance in instances:
         part, matrix = instance.part, instance.matrix
-        if not matrix[:3, :3].any():  # by which files hide a node
+        linear = matrix[:3, :3]
+        if not linear.any():  # by which files hide a node
             continue
         check_cancelled()
-        if is_flat(matrix[:3, :3]):
-            points = np.asarray(part.vertices, np.float64) @ matrix[:3, :3].T
-            mesh = build_mesh(replace(part, vertices=points, normals=None))
+        if is_flat(linear):
+            points = np.asarray(part.vertices, np.float64) @ linear.T
+            meshes = _meshes(replace(part, vertices=points, normals=None))
             matrix = shapes.placement(matrix[:3, 3])
         else:
             if id(part) not in built:
-                built[id(part)] = build_mesh(part)
-            mesh = built[id(part)]
-        if mesh is None:
-            continue
-        name = instance.name or path.stem
-        material = _shown_on(mesh, instance.material or _material(part), name, images)
-        with under(f"node {name!r}"[:80]):
-            placed = mesh.placed(matrix @ mesh.transform)
-        is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
-        objects.append(SceneObject(placed, material, name, is_gone))
+                built[id(part)] = _meshes(part)
+            meshes = built[id(part)]
+        for mesh in meshes:
+            name = instance.name or path.stem
+            material = _shown_on(mesh, instance.material or _material(part), name, images)
+            with under(f"node {name!r}"[:80]):
+                placed = mesh.placed(matrix @ mesh.transform)
+            is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
+            objects.append(SceneObject(placed, material, name, is_gone))
     return objects
+
+
+def _meshes(part: Part) -> list[Mesh]:
+    mesh = build_mesh(part)
+    return [] if mesh is None else [mesh]
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:

@@ -6,6 +6,7 @@ Source: Alias|Wavefront, MTL material format.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -18,13 +19,8 @@ from renderer.scene.reading import read_file
 from renderer.scene.texts import tidy
 from renderer.scene.texture import Texture
 
-# Options and the most words that follow them; of -s, -o and -t all but the first may be left out.
-_OPTIONS = {
-    "-s": 3, "-o": 3, "-t": 3, "-mm": 2, "-clamp": 1, "-blendu": 1, "-blendv": 1, "-cc": 1,
-    "-bm": 1, "-boost": 1, "-texres": 1, "-imfchan": 1, "-type": 1, "-colorspace": 1,
-}  # fmt: skip
-
-
+_OPTION = re.compile(r"-[a-z]+", re.IGNORECASE)
+_LONGEST = {"-s": 3, "-o": 3, "-t": 3, "-mm": 2}  # words after an option; all others have one
 # What changes nothing, or little, in a picture; and values that change nothing.
 _HARMLESS = ("", "ka", "ni", "illum", "tf", "sharpness", "map_ka")
 _DEFAULTS = {"d": 1.0, "tr": 0.0, "ke": 0.0}
@@ -121,21 +117,18 @@ def _image_map(words: list[str]) -> ImageMap | None:
     """Return the options and the name after map_Kd, which may hold spaces; None for one without a
     name.
     """
-    found = ImageMap("")
-    while words and words[0].lower() in _OPTIONS and len(words) > 1:
-        option, *words = words
-        option = option.lower()
-        values: list[str] = []
-        while words[1:] and len(values) < _OPTIONS[option]:
-            if values and option in ("-s", "-o", "-t") and not is_number(words[0]):
-                break
-            values.append(words.pop(0))
-        if option in ("-s", "-o") and all(map(is_number, values)):
-            default = "1" if option == "-s" else "0"
-            u, v = (float(value) for value in (*values, default, default)[:2])
-            scaled = option == "-s"
-            found = replace(found, scale=(u, v)) if scaled else replace(found, offset=(u, v))
-        elif option == "-clamp" and values:
-            found = replace(found, is_clamped=values[0].lower() == "on")
+    given: dict[str, list[str]] = {}
+    while len(words) > 2 and _OPTION.fullmatch(words[0]):
+        option, end = words[0].lower(), 2
+        while end < min(_LONGEST.get(option, 1) + 1, len(words) - 1) and is_number(words[end]):
+            end += 1
+        given[option], words = words[1:end], words[end:]
     name = " ".join(words).strip("\"'")
-    return replace(found, name=name) if name else None
+    clamp = given.get("-clamp", [""])[0].lower() == "on"
+    return ImageMap(name, _pair(given, "-s", 1.0), _pair(given, "-o", 0.0), clamp) if name else None
+
+
+def _pair(given: dict[str, list[str]], option: str, default: float) -> tuple[float, float]:
+    values = [float(value) for value in given.get(option, ()) if is_number(value)]
+    u, v = [*values, default, default][:2]
+    return u, v

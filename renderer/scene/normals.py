@@ -36,7 +36,6 @@ def smooth_normals(
     vertices: Floats32,
     faces: Ints,
     merged: Ints | None = None,
-    crease_deg: float = CREASE_DEG,
     keep_apart: bool = False,
 ) -> tuple[Ints, Ints, Floats32]:
     """Return normals that are smooth except across creases.
@@ -53,7 +52,7 @@ def smooth_normals(
     normals = face_normals(vertices, joined)
     doubled = np.linalg.norm(normals, axis=1, keepdims=True)
     normals /= doubled
-    label = _components(joined.size, *_smooth_corners(joined, normals, len(vertices), crease_deg))
+    label = components(joined.size, *_smooth_corners(joined, normals, len(vertices)))
     roots = np.flatnonzero(label == np.arange(len(label)))
     number = np.empty(len(label), np.int64)
     number[roots] = np.arange(len(roots))
@@ -79,7 +78,7 @@ def smooth_normals(
 
 
 def _smooth_corners(
-    faces: Ints, normals: NDArray[np.float64], vertex_count: int, crease_deg: float
+    faces: Ints, normals: NDArray[np.float64], vertex_count: int
 ) -> tuple[Ints, Ints]:
     """Return pairs of corners that share a normal: those at both ends of each edge that is no
     crease.
@@ -94,28 +93,27 @@ def _smooth_corners(
     # Two faces of one winding run along their common edge in opposite directions.
     opposite = begin.reshape(-1)[first] == end.reshape(-1)[second]
     turn = np.einsum("ij,ij->i", normals[first // 3], normals[second // 3])
-    smooth = opposite & (turn >= math.cos(math.radians(crease_deg)))
+    smooth = opposite & (turn >= math.cos(math.radians(CREASE_DEG)))
     first, second = first[smooth], second[smooth]
     after_first, after_second = (edge - edge % 3 + (edge + 1) % 3 for edge in (first, second))
     return np.concatenate([first, after_first]), np.concatenate([after_second, second])
 
 
-def _components(count: int, a: Ints, b: Ints) -> Ints:
+def components(count: int, a: Ints, b: Ints) -> Ints:
     """Return the connected components of a graph with edges a[k] - b[k]: for each node the smallest
     member.
 
     Hooking and pointer jumping, after Shiloach and Vishkin 1982.
     """
     parent = np.arange(count)
-    while True:
-        root_a, root_b = parent[a], parent[b]
-        apart = root_a != root_b
-        if not apart.any():
-            return parent
-        a, b, root_a, root_b = a[apart], b[apart], root_a[apart], root_b[apart]
-        np.minimum.at(parent, np.maximum(root_a, root_b), np.minimum(root_a, root_b))
+    while len(a):
+        np.minimum.at(parent, np.maximum(a, b), np.minimum(a, b))
         while not np.array_equal(parent, jumped := parent[parent]):
             parent = jumped
+        a, b = parent[a], parent[b]
+        apart = a != b
+        a, b = a[apart], b[apart]
+    return parent
 
 
 def _corner_angles(

@@ -15,9 +15,7 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 
 _LONE_SIGN = re.compile(rb"[-+](?![0-9])")
-_EXACT = 1 << 53  # float64 holds all whole numbers up to it,
-_POWERS = 10.0 ** np.arange(23)  # and these powers of ten
-_NEWLINE, _PLUS, _MINUS, _DOT, _SLASH, _BLANK = 10, 43, 45, 46, 47, 32
+_NEWLINE, _SLASH, _BLANK = 10, 47, 32
 
 
 def is_number(word: str) -> bool:
@@ -42,13 +40,13 @@ def floats(text: bytes, begins: Ints) -> NDArray[np.float64]:
     """Return the text's words, which begin at `begins`, as numbers. Raises ValueError if one is not
     a number.
     """
-    fixed = _fixed_point(text, begins)
-    return _parsed(text, np.float64, len(begins)) if fixed is None else fixed
+    return _parsed(text, np.float64, len(begins))
 
 
-def corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
+def corners(text: bytes) -> tuple[list[Any], Ints]:
     """Return the first, second and third whole number of words such as 7, 7/8, 7//9 and 7/8/9: 0 if
-    a word lacks one, None if all do. Raises ValueError for any other word.
+    a word lacks one, None if all do; and how many words each line has. Raises ValueError for any
+    other word.
     """
     text = text.replace(b"//", b"/0/")
     octets = np.frombuffer(text, np.uint8)
@@ -57,7 +55,7 @@ def corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
         return corners(re.sub(rb"/(?=[\x00- ])", b"/0", text))
     if (b"-" in text or b"+" in text) and _LONE_SIGN.search(text):  # 0 to fromstring()
         raise ValueError("a sign without a number")
-    begins, _ = words(text)
+    begins, counts = words(text)
     more = np.diff(np.searchsorted(slashes, np.append(begins, len(text))))
     most = int(more.max(initial=0))
     numbers = _parsed(text.replace(b"/", b" "), np.int64, len(begins) + len(slashes))
@@ -66,12 +64,12 @@ def corners(text: bytes) -> tuple[Ints, Ints | None, Ints | None]:
         raise ValueError("too many numbers in a corner")
     if (more == most).all():
         columns[: most + 1] = numbers.reshape(-1, most + 1).T
-        return columns[0], columns[1], columns[2]
+        return columns, counts
     firsts = np.cumsum(more + 1) - more - 1
     for k in range(most + 1):
-        columns[k] = np.zeros(len(begins), np.int64)
-        columns[k][more >= k] = numbers[firsts[more >= k] + k]
-    return columns[0], columns[1], columns[2]
+        is_given = more >= k
+        columns[k] = np.where(is_given, numbers[np.where(is_given, firsts + k, 0)], 0)
+    return columns, counts
 
 
 def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
@@ -84,40 +82,3 @@ def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
     if len(numbers) != count:
         raise ValueError("not only numbers")
     return numbers
-
-
-def _fixed_point(text: bytes, begins: Ints) -> NDArray[np.float64] | None:
-    """Return words such as -12.345 as numbers, three times as fast; None if there is another kind
-    of word.
-
-    A whole number and a power of ten that float64 holds exactly are divided, so that the quotient
-    is rounded correctly.
-    """
-    if not len(begins) or text.translate(None, b"0123456789.+- \t\n"):
-        return None
-    octets = np.frombuffer(text, np.uint8)
-    first = octets[begins]
-    negative = first == _MINUS
-    signed = negative | (first == _PLUS)
-    if text.count(b"-") + text.count(b"+") != signed.sum():
-        return None
-    blank = octets <= _BLANK
-    ends = np.flatnonzero(blank[1:] > blank[:-1]) + 1
-    dots = np.flatnonzero(octets == _DOT)
-    word = np.arange(len(begins))
-    if len(dots) != len(begins) or (dots < begins).any() or (dots >= ends).any():
-        word = np.searchsorted(begins, dots, side="right") - 1
-    if (word[1:] == word[:-1]).any():  # two dots in a word
-        return None
-    places = np.zeros(len(begins), np.int64)
-    places[word] = ends[word] - dots - 1
-    digits = ends - begins - signed
-    digits[word] -= 1
-    if digits.min() < 1:
-        return None
-    whole = _parsed(text.replace(b".", b""), np.int64, len(begins))
-    if not (whole.min() >= -_EXACT and whole.max() <= _EXACT and places.max() < len(_POWERS)):
-        return None
-    values = whole / _POWERS[places]
-    values[negative & (whole == 0)] = -0.0
-    return values

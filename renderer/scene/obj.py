@@ -22,10 +22,14 @@ from renderer.scene.numerals import Ints
 from renderer.scene.obj_lines import Lines
 from renderer.scene.parts import Part, linear_colors, used_vertices
 from renderer.scene.polygons import triangulated
+from renderer.scene.reading import damaged
 from renderer.scene.texts import read_text_bytes
 
 _CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")
 _VALUES = {"v": "a vertex", "vn": "a normal"}
+_NOT_SHOWN = {"l": "lines", "p": "points"}
+# What changes no picture: smoothing and groups, without values; levels of detail, bevels.
+_HARMLESS = ("s", "g", "mg", "lod", "bevel", "c_interp", "d_interp", "end")
 Floats = NDArray[np.float64]
 Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
 
@@ -38,6 +42,8 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
     """
     lines = Lines(read_text_bytes(path))
     if not len(lines.numbers("f")):
+        if not len(lines.numbers("v")):
+            raise damaged("has no line that begins with v or f")
         return []
     last = lines.line(lines.numbers("f")[-1]).partition("#")[0].split()[1:]
     try:
@@ -51,26 +57,27 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
         _blame_line(path, lines)
     places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
+    if normals.shape[1] != 3:
+        normals = np.zeros((0, 3))
+    normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
     textured = [is_mapped or bool(material and material.texture) for _, _, material in named]
     coordinates = _coordinates(lines) if any(textured) else np.zeros((0, 0))
     if corners[1] is not None and any(textured):
         has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
         named = list(_by_coordinates(named, has_uv, images))
-    if lines.has_curves:
-        images.note("not shown: lines, points and curves", "shapes")
     parts = []
     for name, which, material in named:
         mine = [a if a is None else a[which] for a in corners]
         is_textured = is_mapped or (material is not None and material.texture is not None)
         uvs = coordinates if is_textured else np.zeros((0, 0))
-        source, faces, uv, normal = _merged(mine, len(uvs), len(normals))
+        source, faces, uv, normal = _merged(mine, len(uvs), len(normals) - 1)
         parts.append(
             Part(
                 name,
                 vertices[source, :3],
                 faces,
-                None if normal is None or normals.shape[1] != 3 else normals[normal],
+                None if normal is None else normals[normal],
                 linear_colors(vertices[source, 3:6]) if vertices.shape[1] >= 6 else None,
                 material=material,
                 uv=None if uv is None else uvs[uv, :2],
@@ -125,10 +132,9 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
 
     Indices count from 0; -1 means none, less an impossible one.
     """
-    text = lines.of("f")
-    _, counts = numerals.words(text)
     columns = []
-    for kind, column in zip(("v", "vt", "vn"), numerals.corners(text), strict=True):
+    found, counts = numerals.corners(lines.of("f"))
+    for kind, column in zip(("v", "vt", "vn"), found, strict=True):
         if column is not None:
             # Negative ones count from the end of what was defined above their line.
             if column.min() < 0:
@@ -138,7 +144,7 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
             else:
                 column = column - 1
         columns.append(column)
-    return columns, counts  # type: ignore[return-value]
+    return columns, counts
 
 
 def _are_within(indices: Ints, count: int) -> bool:
@@ -152,19 +158,19 @@ def _merged(
     vertex, and the faces.
 
     corners: triangles of vertices, texture coordinates and normals. uvs, normals: how many there
-    are. Corners that agree in all three become one vertex. uv and normal are None unless all
-    corners have them.
+    are. Corners that agree in all three become one vertex. uv is None unless all corners have
+    coordinates, normal if none has a normal; those without one are given number `normals`.
     """
     key = vertices = corners[0].reshape(-1)
     others: list[Ints | None] = []
     for indices, count in zip(corners[1:], (uvs, normals), strict=True):
-        flat = None if indices is None else indices.reshape(-1)
-        if flat is None or not _are_within(flat, count):
-            others.append(None)
-            continue
+        flat: Ints | None = None if indices is None else indices.reshape(-1)
+        if flat is not None and not _are_within(flat, count):
+            given = (flat >= 0) & (flat < count)
+            flat = np.where(given, flat, count) if others and given.any() else None
         others.append(flat)
-        if not np.array_equal(vertices, flat):
-            key = key * count + flat
+        if flat is not None and not np.array_equal(vertices, flat):
+            key = key * (count + 1) + flat
     if key is vertices:  # all of them have the numbers of the vertices
         source, faces = used_vertices(corners[0])
         uv, normal = (None if other is None else source for other in others)
@@ -184,13 +190,18 @@ def _named_parts(
     at, states = [-1], [0]
     found = used = ""
     libraries = []
+    left = [word for kind, word in _NOT_SHOWN.items() if len(lines.numbers(kind))]
     for number, keyword, rest in lines.statements():
         if keyword == "mtllib":
             libraries.append(rest)
-            continue
-        found, used = (rest, used) if keyword == "o" else (found, " ".join(rest.split()))
-        at.append(number)
-        states.append(keys.setdefault((found, used), len(keys)))
+        elif keyword in ("o", "usemtl"):
+            found, used = (rest, used) if keyword == "o" else (found, " ".join(rest.split()))
+            at.append(number)
+            states.append(keys.setdefault((found, used), len(keys)))
+        elif keyword not in _HARMLESS:
+            left.append(keyword[:20])
+    if left:
+        images.note(f"not shown: {', '.join([*dict.fromkeys(left)][:12])}", "shapes")
     part = np.array(states)[np.searchsorted(np.array(at), triangle_lines) - 1]
     order = np.argsort(part, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(part[order])) + 1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,8 @@ from renderer.scene.numerals import Ints
 _COMMENT = re.compile(rb"#[^\n]*")
 _INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
 _BLANKS = np.frombuffer(b" \t", np.uint8)
-_STATEMENTS = ("o", "usemtl", "mtllib")
-_POINTS_AND_LINES = np.frombuffer(b"pl", np.uint8)
-_INITIALS = np.frombuffer(b"oum", np.uint8)
+_NOTHING = np.frombuffer(b"#\n", np.uint8)
+_KINDS = ("v", "vn", "vt", "f", "l", "p", "s", "g")  # of which there may be many lines
 
 
 class Lines:
@@ -27,26 +27,22 @@ class Lines:
             octets, begins = _begins(text)
         self.text, self._octets = text, octets
         self._begins = np.append(begins, len(text))
-        first, second, third = octets[begins], octets[begins + 1], octets[begins + 2]
-        is_v, is_short, is_long = first == ord("v"), _is_blank(second), _is_blank(third)
-        chosen = {
-            "v": is_v & is_short,
-            "vn": is_v & is_long & (second == ord("n")),
-            "vt": is_v & is_long & (second == ord("t")),
-            "f": (first == ord("f")) & is_short,
-        }
-        self._numbers = {kind: np.flatnonzero(mask) for kind, mask in chosen.items()}
-        self.has_curves = bool(
-            (np.isin(first, _POINTS_AND_LINES) & is_short | (first == ord("c"))).any()
-        )
-        self._others = np.flatnonzero(np.isin(first, _INITIALS))
-        # Keywords become blanks: only numbers are left of these lines.
-        for kind, numbers in self._numbers.items():
-            for k in range(len(kind)):
-                octets[begins[numbers] + k] = ord(" ")
+        ahead = [octets[begins + k] for k in range(3)]
+        blank = [(letter == _BLANKS[0]) | (letter == _BLANKS[1]) for letter in ahead]
+        is_other = ~np.isin(ahead[0], _NOTHING)
+        self._numbers = {}
+        for kind in _KINDS:
+            mask = blank[len(kind)].copy()
+            for letter, wanted in zip(ahead, kind, strict=False):
+                mask &= letter == ord(wanted)
+            is_other &= ~mask
+            self._numbers[kind] = np.flatnonzero(mask)
+            for k in range(len(kind)):  # only numbers are left of these lines
+                octets[begins[mask] + k] = ord(" ")
+        self._others = np.flatnonzero(is_other)
 
     def numbers(self, kind: str) -> Ints:
-        """Return the numbers of the lines of this kind: v, vn, vt or f."""
+        """Return the numbers of the lines of this kind, one of _KINDS."""
         return self._numbers[kind]
 
     def of(self, kind: str) -> bytes:
@@ -63,14 +59,11 @@ class Lines:
         text = b"".join(pieces)
         return _COMMENT.sub(b"", text) if b"#" in text else text
 
-    def statements(self) -> list[tuple[int, str, str]]:
-        """Return line, keyword and the rest of each o, usemtl and mtllib."""
-        found = []
+    def statements(self) -> Iterator[tuple[int, str, str]]:
+        """Yield line, keyword and the rest of all other lines."""
         for number in self._others.tolist():
             keyword, _, rest = self.line(number).replace("\t", " ", 1).partition(" ")
-            if keyword in _STATEMENTS:
-                found.append((number, keyword, rest.strip()))
-        return found
+            yield number, keyword, rest.strip()
 
     def line(self, number: int) -> str:
         begin, end = self._begins[number : number + 2]
@@ -82,7 +75,3 @@ def _begins(text: bytes) -> tuple[NDArray[np.uint8], Ints]:
     octets = np.frombuffer(text + b"\n\n", np.uint8).copy()
     ends = np.flatnonzero(octets == ord("\n"))
     return octets, np.append(0, ends[:-3] + 1)
-
-
-def _is_blank(octets: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    return (octets == _BLANKS[0]) | (octets == _BLANKS[1])

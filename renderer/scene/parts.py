@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.camera_checks import LARGEST
 from renderer.errors import LucidaError
 from renderer.images.display import from_srgb
+from renderer.scene.boxes import extent
 from renderer.scene.model import BRIGHTEST, Material, Mesh
 from renderer.scene.normals import merge_positions, smooth_normals
 from renderer.scene.polygons import check_corners
@@ -59,16 +60,13 @@ def build_mesh(part: Part) -> Mesh | None:
     if not len(faces) or vertices is None or not count:
         return None
     check_corners(faces.reshape(-1), count)
-    vertex_colors = _rows(part.vertex_colors, count, 3)
     face_colors = _rows(part.face_colors, len(faces), 3)
-    normals = _rows(part.normals, count, 3)
-    uv, lost_places = _rows(part.uv, count, 2), 0
+    given = (part.normals, 3), (part.vertex_colors, 3), (part.uv, 2)
+    normals, colors, uv = (_rows(rows, count, width) for rows, width in given)
     if count > 3 * len(faces):  # parts may share one list of vertices
         source, faces = used_vertices(faces)
-        vertices = vertices[source]
-        vertex_colors, normals, uv = (
-            None if rows is None else rows[source] for rows in (vertex_colors, normals, uv)
-        )
+        vertices, normals, colors, uv = _taken(source, vertices, normals, colors, uv)
+    lost_places = 0
     if uv is not None:
         usable = np.abs(uv) <= LARGEST_UV  # false for NaN too
         lost_places = int(np.count_nonzero(~usable.all(axis=1)))
@@ -94,24 +92,26 @@ def build_mesh(part: Part) -> Mesh | None:
     if not len(faces):
         return None
     if face_colors is not None:  # a vertex for each corner, as it can have only one colour
-        vertex_colors = np.repeat(face_colors[keep], 3, axis=0)
-        normals = None if normals is None else normals[faces.reshape(-1)]
-        uv = None if uv is None else uv[faces.reshape(-1)]
-        positions = positions[faces.reshape(-1)]
+        positions, normals, uv = _taken(faces.reshape(-1), positions, normals, uv)
+        colors = np.repeat(face_colors[keep], 3, axis=0)
         faces = np.arange(len(positions)).reshape(-1, 3)
     unit = _unit(normals)
     if unit is None:
-        known = None if face_colors is not None else merged
-        apart = vertex_colors is not None or uv is not None
+        apart = colors is not None or uv is not None
+        known = merged if face_colors is None else None
         source, faces, unit = smooth_normals(positions, faces, known, keep_apart=apart)
     else:
         source, faces = used_vertices(faces)
         unit = unit[source]
-    colors = None if vertex_colors is None else vertex_colors[source]
+    positions, colors, uv = _taken(source, positions, colors, uv)
     transform = np.eye(4)
     transform[:3, 3] = origin
-    uv = None if uv is None else uv[source]
-    return Mesh(positions[source], faces.astype(np.int32), unit, colors, transform, uv)
+    return Mesh(positions, faces.astype(np.int32), unit, colors, transform, uv)
+
+
+def _taken(which: NDArray[np.int64], *arrays: NDArray[Any] | None) -> list[Any]:
+    """Return these rows of each array."""
+    return [None if rows is None else rows[which] for rows in arrays]
 
 
 def linear_colors(colors: ArrayLike | None, linear: bool = False) -> NDArray[np.float32] | None:
@@ -164,7 +164,7 @@ def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
     """
     used = np.zeros(len(vertices), bool)
     used[faces] = True
-    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
+    low, high = extent(vertices[used])
     size = float((high - low).max())
     middle = (low + high) / 2
     if not np.abs(middle).max() > FAR * size > 0:

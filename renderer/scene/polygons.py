@@ -38,36 +38,33 @@ def triangulated(
     """
     if (counts == 3).all():
         return np.arange(3 * len(counts)).reshape(-1, 3), np.arange(len(counts))
-    fan = np.maximum(counts - 2, 0)
-    owner = np.repeat(np.arange(len(counts)), fan)
     starts = np.cumsum(counts) - counts
-    places = starts[owner] + np.arange(len(owner)) - np.repeat(np.cumsum(fan) - fan, fan)
-    places = np.stack([starts[owner], places + 1, places + 2], axis=1)
-    large = np.flatnonzero(counts > 3)
-    if not len(large):
+    polygons = np.flatnonzero(counts > 2)
+    fan = counts[polygons] - 2
+    first = np.cumsum(fan) - fan
+    owner = np.repeat(polygons, fan)
+    second = np.repeat(starts[polygons] + 1 - first, fan) + np.arange(len(owner))
+    places = np.stack([starts[owner], second, second + 1], axis=1)
+    if not len(owner):
         return places, owner
-    of_large = np.flatnonzero(counts[owner] > 3)
-    x, y, z = points[corners[places[of_large]]].transpose(2, 1, 0)
+    x, y, z = points[corners[places]].transpose(2, 1, 0)
     with np.errstate(all="ignore"):
         (ax, bx), (ay, by), (az, bz) = (axis[1:] - axis[0] for axis in (x, y, z))
         cross = np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
-        ends = np.cumsum(fan[large])
-        area = np.add.reduceat(cross, ends - fan[large], axis=1)  # twice the polygon's
-        along = (cross * np.repeat(area, fan[large], axis=1)).sum(axis=0)
-        least = np.minimum.reduceat(along, ends - fan[large])
+        area = np.add.reduceat(cross, first, axis=1)  # twice the polygon's
+        along = (cross * np.repeat(area, fan, axis=1)).sum(axis=0)
         squared = (area * area).sum(axis=0)
-        turned = least < -TURNED * squared
-        triangles = np.add.reduceat((cross * cross).sum(axis=0), ends - fan[large])
-        odd = large[squared <= TURNED**2 * triangles].tolist()
-    replaced = np.zeros(len(counts), bool)
+        turned = np.minimum.reduceat(along, first) < -TURNED * squared
+        triangles = np.add.reduceat((cross * cross).sum(axis=0), first)
+        is_odd = (fan > 1) & (squared <= TURNED**2 * triangles)
+    odd = [*np.flatnonzero(counts < 3).tolist(), *polygons[is_odd].tolist()]
     found, owners = [], []
-    for polygon, normal in zip(large[turned].tolist(), area.T[turned], strict=True):
+    for polygon, normal in zip(polygons[turned].tolist(), area.T[turned], strict=True):
         span = np.arange(starts[polygon], starts[polygon] + counts[polygon])
         ears, is_whole = _ears(points[corners[span]], normal)
         if not is_whole:
             odd.append(polygon)
         if len(ears):
-            replaced[polygon] = True
             found.append(span[ears])
             owners.append(np.full(len(ears), polygon))
     if odd and images is not None:
@@ -75,7 +72,7 @@ def triangulated(
         images.note(f"{crossing}, the first is number {min(odd) + 1}", "shapes")
     if not found:
         return places, owner
-    kept = ~replaced[owner]
+    kept = ~np.isin(owner, np.concatenate(owners))
     places = np.concatenate([places[kept], *found])
     owner = np.concatenate([owner[kept], *owners])
     order = np.argsort(owner, kind="stable")

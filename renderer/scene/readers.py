@@ -6,6 +6,7 @@ Each count that a file declares is compared with the data that is there before m
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,6 +18,7 @@ from renderer.scene.gltf_file import TRIANGLE_STRIP
 from renderer.scene.gltf_numbers import triangles_of
 from renderer.scene.images import ModelImages
 from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES, TRIANGLES
+from renderer.scene.mtl import ImageMap, MtlMaterial
 from renderer.scene.numerals import floats, words
 from renderer.scene.parts import Part, linear_colors
 from renderer.scene.polygons import check_corners, triangulated
@@ -34,18 +36,23 @@ _PLY_TYPES = {
 }  # fmt: skip
 _PLY_LISTS = ("vertex_indices", "vertex_index")
 _COLORS = ("red", "green", "blue", "alpha")
+_PLACES = ("s", "t", "u", "v", "texture_u", "texture_v")
 # By element, the properties that are read, and those that change no picture.
 _PLY_READ = {
-    "vertex": ("x", "y", "z", "nx", "ny", "nz", *_COLORS, "confidence", "intensity", "quality"),
-    "face": (*_PLY_LISTS, *_COLORS, "flags", "quality"),
+    "vertex": (*"xyz", "nx", "ny", "nz", *_COLORS, *_PLACES, "confidence", "intensity", "quality"),
+    "face": (*_PLY_LISTS, *_COLORS, "texcoord", "texnumber", "flags", "quality"),
     "tristrips": _PLY_LISTS,
 }
 _PLY_TEXTURE = re.compile(r"(?m)^comment TextureFile (.*)$")
 Columns = dict[str, NDArray[Any]]
 
 
-def read_ply(path: Path, images: ModelImages) -> list[Part]:
-    """Return the mesh of a .ply file, text or binary. images: notes what is not read."""
+def read_ply(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
+    """Return the mesh of a .ply file, text or binary.
+
+    images: for its texture; notes what is not read.
+    is_mapped: with texture coordinates, even where it has no image.
+    """
     data = read_file(path, BINARY_MODEL_BYTES)
     end = _PLY_END.search(data[: 1 << 16])
     if not data.startswith(b"ply") or not end:
@@ -62,19 +69,23 @@ def read_ply(path: Path, images: ModelImages) -> list[Part]:
         at = 0
         for element in elements:
             found[element.name], at = _ply_columns(body, at, element, order, is_text)
-        is_whole = at == len(body)
     except (ValueError, TypeError, LookupError, OverflowError):
-        is_whole = False
-    if not is_whole:
-        raise damaged("does not hold what its PLY header declares")
+        raise damaged("does not hold what its PLY header declares") from None
     not_read = [e.name for e in elements if e.rows and e.name not in _PLY_READ]
     for element in elements:
         names = [name for name, _, _ in element.properties]
         not_read += [n for n in names if n not in _PLY_READ.get(element.name, names)]
-    not_read += _PLY_TEXTURE.findall(header)
+    part, material = _ply_part(found, path.stem, images), None
+    if at < len(body):
+        not_read.append("what follows the last element")
+    match _PLY_TEXTURE.findall(header):
+        case [name]:
+            material = MtlMaterial(path.parent, image=ImageMap(name.strip())).material(images)
+        case several:
+            not_read += several
     if not_read:
         images.note(f"not read: {', '.join(not_read)}", "PLY")
-    return [_ply_part(found, path.stem, images)]
+    return [replace(part, material=material, uv=part.uv if is_mapped or material else None)]
 
 
 class _PlyElement(NamedTuple):
@@ -109,6 +120,8 @@ def _ply_columns(
     """Return the columns of an element, and where it ends. A list has two: its numbers under its
     name, and their count in each row under "name count".
     """
+    if element.rows < 0:
+        raise ValueError
     if not element.rows or not element.properties:
         return {}, at
     # In a text, all numbers have been read as float64.
@@ -161,9 +174,9 @@ def _ragged_columns(
 def _ply_part(found: dict[str, Columns], name: str, images: ModelImages) -> Part:
     vertex, face = found.get("vertex", {}), found.get("face", {})
 
-    def rows(columns: Columns, *names: str) -> NDArray[Any] | None:
+    def rows(columns: Columns, *names: str, least: int = 3) -> NDArray[Any] | None:
         there = [columns[name] for name in names if name in columns]
-        return np.column_stack(there) if len(there) >= 3 else None
+        return np.column_stack(there) if len(there) >= least else None
 
     def lists(columns: Columns) -> tuple[NDArray[Any], NDArray[Any]]:
         for name in _PLY_LISTS:
@@ -171,47 +184,51 @@ def _ply_part(found: dict[str, Columns], name: str, images: ModelImages) -> Part
                 return columns[name], columns[f"{name} count"]
         return np.zeros(0), np.zeros(0)
 
-    points = rows(vertex, "x", "y", "z")
-    if points is None:
+    vertices: dict[str, Any] = {
+        "vertices": rows(vertex, *"xyz"),
+        "normals": rows(vertex, "nx", "ny", "nz"),
+        "vertex_colors": linear_colors(rows(vertex, *_COLORS)),
+        "uv": rows(vertex, *_PLACES, least=2),
+    }
+    if (points := vertices["vertices"]) is None:
         return Part(name, np.zeros((0, 3)), np.zeros((0, 3), np.int64))
-    faces, owner = _faces(points, *lists(face), images)
-    colors = linear_colors(rows(face, *_COLORS))
+    corners, counts = lists(face)
+    corners, places, owner = _faces(points, corners, counts, images)
+    faces, colors = corners[places], linear_colors(rows(face, *_COLORS))
     if len(strips := _strips(*lists(found.get("tristrips", {})))):
         check_corners(strips.reshape(-1), len(points))
         faces, colors = np.concatenate([faces, strips]), None
+    elif "texcoord count" in face and np.array_equal(
+        face["texcoord count"], 2 * counts
+    ):  # a vertex for each corner
+        vertices = {key: rows if rows is None else rows[corners] for key, rows in vertices.items()}
+        vertices["uv"], faces = face["texcoord"].reshape(-1, 2), places
     return Part(
-        name,
-        points,
-        faces,
-        rows(vertex, "nx", "ny", "nz"),
-        linear_colors(rows(vertex, *_COLORS)),
-        None if colors is None else colors[owner],
+        name, faces=faces, face_colors=None if colors is None else colors[owner], **vertices
     )
 
 
 def _strips(corners: NDArray[Any], counts: NDArray[Any]) -> NDArray[np.int64]:
     """Return the triangles of strips, which end with their list or at -1."""
     found = [np.zeros((0, 3), np.int64)]
-    for strip in np.split(corners.astype(np.int64), np.cumsum(counts[:-1]).astype(np.int64)):
-        for piece in np.split(strip, np.flatnonzero(strip == -1)):
-            found.append(triangles_of(piece[piece != -1], TRIANGLE_STRIP))
+    ends = np.append(np.cumsum(counts[:-1]), np.flatnonzero(corners == -1))
+    for strip in np.split(corners.astype(np.int64), np.sort(ends.astype(np.int64))):
+        found.append(triangles_of(strip[strip != -1], TRIANGLE_STRIP))
     return np.concatenate(found)
 
 
 def _faces(
     points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any], images: ModelImages
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return triangles of vertices, and the polygon of each."""
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the polygons' corners, and triangulated() of them."""
     with np.errstate(invalid="ignore"):
         corners = corners.astype(np.int64)
     check_corners(corners, len(points))
-    places, owner = triangulated(
-        points.astype(np.float64), corners, counts.astype(np.int64), images
-    )
-    return corners[places], owner
+    points, counts = points.astype(np.float64), counts.astype(np.int64)
+    return corners, *triangulated(points, corners, counts, images)
 
 
-def read_off(path: Path, images: ModelImages) -> list[Part]:
+def read_off(path: Path, images: ModelImages, _is_mapped: bool = False) -> list[Part]:
     """Return the mesh of an .off file, a text. images: notes what is not read."""
     text = re.sub(rb"#[^\n]*", b"", read_text_bytes(path)).lstrip()
     kind = re.match(rb"(?i)([a-z0-9]*?)off", text)
@@ -222,30 +239,32 @@ def read_off(path: Path, images: ModelImages) -> list[Part]:
         raise LucidaError("", f"is of the kind {kind[0].decode()}", "export a plain OFF")
     rest = b" %s\n" % rest
     begins, lengths = words(rest)
-    starts = np.cumsum(lengths) - lengths
+    lengths = lengths[lengths > 0]
+    rows = np.cumsum(lengths) - lengths
     try:
         numbers = floats(rest, begins)
-        rows = starts[lengths > 0]
         vertices, faces = (int(numbers[k]) for k in (0, 1))
         is_whole = min(vertices, faces) >= 0 and vertices + faces < len(rows)
-        if not is_whole or (lengths[lengths > 0][1 : vertices + 1] < 3).any():
+        if not is_whole or (lengths[1 : vertices + 1] < 3).any():
             raise ValueError
         points = numbers[rows[1 : vertices + 1, None] + np.arange(3)]
-        first = rows[vertices + 1 : vertices + 1 + faces]
-        sides, rest_of_row = numbers[first], lengths[lengths > 0][vertices + 1 :][:faces]
-        if not ((sides >= 0) & (sides < rest_of_row)).all():
+        which = slice(vertices + 1, vertices + 1 + faces)
+        first, room = rows[which], lengths[which]
+        sides = numbers[first]
+        if not ((sides >= 0) & (sides < room)).all():
             raise ValueError
         counts = sides.astype(np.int64)
         places = np.repeat(first + 1 - (np.cumsum(counts) - counts), counts)
         corners = numbers[places + np.arange(len(places))]
     except (ValueError, IndexError, OverflowError):
         raise damaged("does not hold what its OFF header declares") from None
-    if kind[1] or (rest_of_row > sides + 1).any():
+    if kind[1] or (room > sides + 1).any():
         images.note("not read: colours, normals and texture coordinates", "OFF")
-    return [Part(path.stem, points, _faces(points, corners, counts, images)[0])]
+    indices, cut, _ = _faces(points, corners, counts, images)
+    return [Part(path.stem, points, indices[cut])]
 
 
-def read_stl(path: Path, images: ModelImages) -> list[Part]:
+def read_stl(path: Path, images: ModelImages, _is_mapped: bool = False) -> list[Part]:
     """Return the solids of an .stl file, text or binary. images: notes what is not read."""
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")
@@ -283,6 +302,3 @@ def read_stl(path: Path, images: ModelImages) -> list[Part]:
         Part(name or path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))
         for name, points in solids
     ]
-
-
-READERS = {".ply": read_ply, ".stl": read_stl, ".off": read_off}

@@ -20,7 +20,17 @@ class StrictTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A table in which an unknown field is an error."""
 
 
-class CameraFields(StrictTable):
+class LensFields(StrictTable):
+    """The fields of [camera] in both forms."""
+
+    projection: str = "perspective"
+    near: float | None = None
+    far: float | None = None
+    lens: dict[str, Any] | None = None
+    fit: bool | None = None
+
+
+class CameraFields(LensFields):
     """[camera] as the camera is, in view files and scene files.
 
     Every field is by default the canonical camera's.
@@ -34,14 +44,9 @@ class CameraFields(StrictTable):
     w: Numbers3 = (0.0, 0.0, 1.0)
     distance: float = 1.0
     viewport: tuple[float, float, float, float] = (-0.5, 0.5, -0.5, 0.5)
-    projection: str = "perspective"
-    near: float | None = None
-    far: float | None = None
-    lens: dict[str, Any] | None = None
-    fit: bool | None = None
 
 
-class LookAtFields(StrictTable):
+class LookAtFields(LensFields, kw_only=True):
     """[camera] by what it looks at, in view files and scene files: given away by `target`.
 
     Give fov_y_deg, or the distance of a viewport 1 high. aspect: the viewport's width over its
@@ -54,11 +59,6 @@ class LookAtFields(StrictTable):
     fov_y_deg: float | None = None
     distance: float | None = None
     aspect: float = 1.0
-    projection: str = "perspective"
-    near: float | None = None
-    far: float | None = None
-    lens: dict[str, Any] | None = None
-    fit: bool | None = None
 
 
 class ViewFile(StrictTable):
@@ -178,22 +178,21 @@ class DiskTable(MeshTable, tag="disk"):
     segments: int = 64
 
 
-class CylinderTable(MeshTable, tag="cylinder"):
+class RoundTable(MeshTable):
+    """The fields of a cylinder and a cone."""
+
+    radius: float = 0.5
+    height: float = 1.0
+    segments: int = 64
+    smooth: bool = True
+
+
+class CylinderTable(RoundTable, tag="cylinder"):
     """About the y axis, closed."""
 
-    radius: float = 0.5
-    height: float = 1.0
-    segments: int = 64
-    smooth: bool = True
 
-
-class ConeTable(MeshTable, tag="cone"):
+class ConeTable(RoundTable, tag="cone"):
     """About the y axis, its tip up, closed."""
-
-    radius: float = 0.5
-    height: float = 1.0
-    segments: int = 64
-    smooth: bool = True
 
 
 class TorusTable(MeshTable, tag="torus"):

@@ -7,6 +7,7 @@ closed shapes have no gaps.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable
 
@@ -25,20 +26,16 @@ Ints = NDArray[np.int64]
 def box(size: float | Iterable[float] = 1.0) -> Mesh:
     """Return a box with sides `size`: one length, or three along x, y and z. Flat normals."""
     x, y, z = (side / 2 for side in _sides("size", size))
-    signs = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    half = np.array([x, y, z])
-    corners = []
-    for axis in range(3):
-        for side in (1, -1):
-            for first, second in signs:
-                corner = np.zeros(3)
-                corner[axis] = side
-                # The other two axes in cyclic order turn counter-clockwise about +axis.
-                corner[(axis + 1) % 3], corner[(axis + 2) % 3] = first * side, second
-                corners.append(corner * half)
+    signs = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    corners = np.empty((3, 2, 4, 3))
+    for axis, side in itertools.product(range(3), (1, -1)):
+        quad = corners[axis, int(side < 0)]
+        quad[:, axis] = side
+        # The other two axes in cyclic order turn counter-clockwise about +axis.
+        quad[:, (axis + 1) % 3], quad[:, (axis + 2) % 3] = signs[:, 0] * side, signs[:, 1]
     quads = np.arange(24).reshape(6, 4)
     faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
-    return _built(np.array(corners), faces)
+    return _built(corners.reshape(-1, 3) * (x, y, z), faces)
 
 
 def rectangle(width: float = 1.0, depth: float = 1.0) -> Mesh:
@@ -111,13 +108,10 @@ def torus(
     )
     middle = np.insert(radius * ring, 1, 0.0, axis=-1)
     vertices = (middle + tube_radius * normals).reshape(-1, 3)
-    i, j = np.arange(segments)[:, None], np.arange(sides)[None]
-    i1, j1 = (i + 1) % segments, (j + 1) % sides
-    a, b, c, d = (
-        np.broadcast_to(row * sides + column, (segments, sides)).reshape(-1)
-        for row, column in ((i, j), (i1, j), (i1, j1), (i, j1))
-    )
-    faces = np.stack([a, d, c, a, c, b], axis=1).reshape(-1, 3)
+    a = np.arange(len(vertices)).reshape(segments, sides)
+    b, d = np.roll(a, -1, axis=0), np.roll(a, -1, axis=1)
+    c = np.roll(b, -1, axis=1)
+    faces = np.stack([a, d, c, a, c, b], axis=-1).reshape(-1, 3)
     return _assemble(vertices, faces, normals.reshape(-1, 3), [], smooth)
 
 
@@ -155,16 +149,6 @@ def placement(
 def transformed(mesh: Mesh, matrix: Floats) -> Mesh:
     """Return the mesh moved by `matrix` (4, 4) in world space."""
     return mesh.placed(matrix @ mesh.transform)
-
-
-def translate(mesh: Mesh, offset: Iterable[float]) -> Mesh:
-    """Return the mesh moved by `offset`, world units."""
-    return transformed(mesh, placement(translate=offset))
-
-
-def scale(mesh: Mesh, factors: float | Iterable[float]) -> Mesh:
-    """Return the mesh scaled about the world's origin: one factor, or three."""
-    return transformed(mesh, placement(scale=factors))
 
 
 # Parts of round shapes.

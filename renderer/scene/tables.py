@@ -82,7 +82,7 @@ def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
     try:
         return msgspec.convert(value, kind)
     except msgspec.ValidationError as error:
-        raise _explained(str(error), value, kind, prefix) from None
+        raise explained(str(error), value, kind, prefix) from None
     except RecursionError:
         raise LucidaError(prefix, "is nested too deeply", "write it with fewer brackets") from None
 
@@ -98,7 +98,7 @@ def _syntax_error(message: str, text: str) -> LucidaError:
     return LucidaError(f"line {line}, column {column}", reason, "correct the TOML there")
 
 
-def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
+def explained(message: str, value: Any = None, kind: Any = None, prefix: str = "") -> LucidaError:
     """Return msgspec's error in this project's words."""
     text, _, path = message.partition(" - at `$")
     path = path.rstrip("`").lstrip(".")
@@ -124,7 +124,8 @@ def _explained(message: str, value: Any, kind: Any, prefix: str) -> LucidaError:
         kinds = [name for name in wrong[1].split(" | ") if name != "null"]
         wanted = " or ".join(_NAMES.get(name, name) for name in kinds)
         return LucidaError(field, f"is {_NAMES.get(wrong[2], 'a ' + wrong[2])}", f"give {wanted}")
-    return LucidaError(field, text[:1].lower() + text[1:], "correct it")
+    wanted = re.sub("`([a-z]+)`", lambda name: _NAMES.get(name[1], name[1]), text)
+    return LucidaError(field, wanted[:1].lower() + wanted[1:], "correct it")
 
 
 def _fields(value: Any, kind: Any, path: str) -> list[str]:

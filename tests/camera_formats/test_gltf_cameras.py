@@ -182,7 +182,7 @@ def lens(**changes: Any) -> dict[str, Any]:
 
 
 BROKEN = {
-    "yfov": (tree(lens(yfov=4)), r"cameras\[0\]\.perspective\.yfov: expected float < 3\.14"),
+    "yfov": (tree(lens(yfov=4)), r"cameras\[0\]\.perspective\.yfov: expected a number < 3\.14"),
 
 
     "planes": (tree(lens(znear=60)), r"cameras\[0\]\.far: 50 is not above near = 60"),
@@ -191,12 +191,12 @@ BROKEN = {
 
     "nobody": (tree(nodes=[{"camera": 3}]), r"nodes\[0\]\.camera: names entry 3"),
 
-    "no list": (tree(nodes=[{"camera": 0}], cameras={}), r"cameras: expected array"),
+    "no list": (tree(nodes=[{"camera": 0}], cameras={}), r"cameras: is a table; give a list"),
     "flat": (tree(PERSPECTIVE, nodes=[{"camera": 0, "scale": [0, 1, 1]}]), r"nodes\[0\]: is sc"),
     "none": (tree(), r"holds no camera"),
     "mag": (
         tree(ORTHOGRAPHIC | {"orthographic": {"xmag": -1, "ymag": 1, "znear": 0, "zfar": 1}}),
-        r"orthographic\.xmag: expected float > 0",
+        r"orthographic\.xmag: expected a number > 0",
     ),
 }  # fmt: skip
 

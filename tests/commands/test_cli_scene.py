@@ -59,7 +59,10 @@ def test_a_mistake_is_one_line_and_status_2(words, problem, capsys):
 
 def test_sound_shapes_are_not_odd():
     sound = [shapes.box(), shapes.torus(), shapes.cylinder(), shapes.cone(smooth=False)]
-    small = [shapes.scale(shapes.box(), 1e-6), shapes.translate(shapes.box(), (1e4, 0, 0))]
+    small = [
+        shapes.transformed(shapes.box(), shapes.placement(scale=1e-6)),
+        shapes.transformed(shapes.box(), shapes.placement((1e4, 0, 0))),
+    ]
     assert kinds(*sound, *small, Sphere((0, 5, 0))) == []
 
 

@@ -29,7 +29,7 @@ def test_it_is_what_the_image_shows(name):
 
 def test_what_is_behind_is_not_met_and_inside_counts():
     ball = SceneObject(Sphere((0, 0, 0), 1.0))
-    box = SceneObject(shapes.translate(shapes.box(1.0), (0, 0, -5)))
+    box = SceneObject(shapes.transformed(shapes.box(1.0), shapes.placement((0, 0, -5))))
     scene = Scene((box, ball))
     away, toward = np.array([0.0, 0, 2.0]), np.array([0.0, 0, -2.0])
     assert object_on_ray(scene, np.array([0.0, 0, 5]), away) is None

@@ -17,7 +17,7 @@ from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.lecture.step_options import state_of
 from app.lecture_page import exercises, pdf
-from app.lecture_page.figures import OUTSIDE, Figures
+from app.lecture_page.figures import Figures
 from app.lecture_page.mathml import inline
 from app.lecture_page.page import Still, page
 from app.page.bundle import bundle
@@ -201,14 +201,16 @@ def go(tab, number: int) -> None:
     tab.get_by_text(f"{number} / {len(STEPS)}", exact=True).wait_for()
 
 
+OUTSIDE = (640, 420)  # the outside view in modules/outside.js
+
+
 def test_figures_begin_as_their_steps_do(lecture):
     figures, modes = Figures(), set()
     for step in lecture.builds:
         figure = figures.of(step, state_of(step, AppState.for_scene(step.scene, step.view)))
         options = figure["options"] if figure else {}
         modes.add(options.get("mode"))
-        see = step.options.get("outside", {}).get("see", ())
-        if "eye" in see and "outside" in options:
+        if "outside" in options and not step.view.camera.is_parallel:
             looking = view_from_table(options["outside"]["camera"]).camera
             seen = looking.project(step.view.camera.eye, OUTSIDE)
             assert 0 < seen.row < OUTSIDE[1], step.title

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -59,16 +58,28 @@ def test_it_only_grows(camera, pixel, one, other) -> None:
     assert all(part == 1 for part, later in itertools.pairwise(parts) if later > 0)
 
 
-def test_parallel_begins_as_perspective_and_then_its_direction_is_frozen() -> None:
-    camera = replace(CAMERA, projection="parallel")
-    (started,) = growth(camera, SIZE, (5, 50), STAGES.index("w") + 0.28).vectors
-    as_perspective = replace(CAMERA, distance=1.0).ray(5, 50, SIZE)
-    start, turned = as_perspective.direction, -np.asarray(camera.w)
-    assert np.allclose((started.end - started.start) / np.linalg.norm(started.end - started.start),
-                       start / np.linalg.norm(start), atol=0.2)  # fmt: skip
-    for position in (3.0, 3.4, 4.5, 6.0):
-        (way,) = (one for one in growth(camera, SIZE, (5, 50), position).vectors if one.name == "d")
-        assert np.allclose(way.end - way.start, turned)
+def test_from_perspective_to_parallel_each_ray_goes_through_its_pixel() -> None:
+    pixel = RayEnd((5, 50), 2.0)
+    u, v, w = (np.asarray(axis) for axis in (CAMERA.u, CAMERA.v, CAMERA.w))
+    x, y = CAMERA.image_point(5, 50, SIZE)
+    across = float(x) * u + float(y) * v
+    for share in (0.01, 0.3, 0.7, 1.0):
+        options = OutsideOptions(formula=6.0, to_parallel=share)
+        items = grown_diagram(Content(CAMERA, SIZE, options, 9.0, marked=pixel))
+        (ray,) = (one for one in items if isinstance(one, Segments) and one.name == "ray")
+        start, end = ray.segments[0]
+        center = np.asarray(CAMERA.eye) - (1 - share) * CAMERA.distance * w + across
+        assert np.linalg.norm(np.cross(end - start, center - start)) < 1e-9
+        assert abs((start - CAMERA.eye) @ w) < 1e-9  # its origin is in the eye's plane
+    assert np.allclose(start, np.asarray(CAMERA.eye) + across)
+    assert np.allclose(np.cross(end - start, w), 0)
+
+
+def test_numbers_take_the_place_of_the_formulas_letters() -> None:
+    options = OutsideOptions(formula=6.0, numbers=True)
+    content = Content(Camera.canonical(), (10, 10), options, 9.0, marked=RayEnd((2, 6), None))
+    texts = {item.text for item in grown_diagram(content) if isinstance(item, Label)}
+    assert {"0.15 vec(u)", "0.25 vec(v)", "-1 vec(w)", "vec(d) = (0.15, 0.25, -1)"} <= texts
 
 
 def _names(position: float | None, camera: Camera = CAMERA) -> set[tuple[type, str]]:

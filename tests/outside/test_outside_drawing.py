@@ -286,6 +286,8 @@ def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presente
         color = role_color(name, ground)
         assert contrast.contrast((color.x, color.y, color.z), ground) >= 3.0
         own = role_color(name)
+        if look == "light" and max(ground) < 0.35:
+            own = theme.PRESENTED_DARK.BASIS[name]
         if contrast.contrast((own.x, own.y, own.z), ground) >= 3.0:
             assert (color.x, color.y, color.z) == (own.x, own.y, own.z)
         assert contrast.contrast(figure_color(name, 0.0, ground), ground) >= 3.0

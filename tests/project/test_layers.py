@@ -112,10 +112,10 @@ DRAW = {
     "pixelgrid rulers straight_lines toolbar vanishing",
     "compare": "composed differences",
     "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
-    "painting parts pixel_plane scrubber tint tools widening",
+    "painting parts pixel_plane tint tools widening",
     "objects": "handles in_views inspector material_fields outliner value_fields",
     "probe": "",
-    "stepper": "controls listing numbers plan",
+    "stepper": "controls drawing numbers pictures questions",
     "costs": "plots",
     "your_code": "code_pictures",
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",

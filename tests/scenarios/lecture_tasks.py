@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from unittest.mock import patch
 
 import numpy as np
-import pytest
-from lecture_window import answer, item, lecture_of, number_of, shown
+from lecture_window import answer, item, lecture_of, shown
 from objects_window import handle_px
 from outside_window import place
 from window_driver import Driver, Key, changed
@@ -16,8 +14,6 @@ from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 from app.objects.choosing import chosen
-from app.outside import scrubber
-from app.outside.growing import GROWS
 from app.outside.options import OutsideOptions
 from app.outside.view import OUTSIDE, OutsideView
 from app.stepper.model import Moment
@@ -30,43 +26,6 @@ from renderer.scene_editing.moving import bounds_of
 
 def _looking(d: Driver) -> Camera | None:
     return d.window.state.of(OutsideOptions).camera
-
-
-def drive_the_formula_plays_in_the_outside_view(d: Driver) -> None:
-    lecture = load_lecture(BUILTIN)
-    number = [step.title for step in lecture.steps].index("Any camera")
-    lecture_of(d).give(lecture, BUILTIN, (number, 0))
-    d.settle()
-    outside, seen = d.window.view(OutsideView), set[float]()
-
-    def position() -> float:
-        found = d.window.state.of(OutsideOptions).formula
-        assert found is not None
-        seen.add(found)
-        return found
-
-    assert position() == 6
-    d.window.change(d.window.state.with_options(preferences={"reduced_motion": True}))
-    with patch.object(scrubber, "STAGE_S", 0.3):
-        d.ctx.key_press(int(Key.y))
-        d.until(lambda: outside.scrubber.playing)
-        d.until(lambda: position() == 6 and not outside.scrubber.playing)
-    assert {round(one % 1, 6) for one in seen} <= {0.0, GROWS}  # it jumps
-    d.settle()
-    assert "ray" in {part.name for part in outside.primitives}
-    low = d.ctx.item_info(f"//{LECTURE}/stages").rect_full
-    middle = (low.min.y + low.max.y) / 2
-    d.drag((low.min.x + 5, middle), ((low.min.x + low.max.x) / 2, middle))
-    assert position() == pytest.approx(3, abs=0.05)
-    d.settle()
-    assert "ray" not in {part.name for part in outside.primitives}
-    d.window.undo()
-    assert position() == 6  # one drag is one step
-    d.ctx.key_press(int(Key.y))
-    d.until(lambda: outside.scrubber.playing)
-    d.window.lecture.go(d.window, number_of(d) + 1)
-    d.settle()
-    assert not outside.scrubber.playing
 
 
 def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
@@ -203,7 +162,7 @@ def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
 
     def walked() -> tuple[Moment, list[float]]:
         d.settle()
-        rays = [one for one in outside.primitives if one.name == "image ray"]
+        rays = [one for one in outside.primitives if one.name == "ray"]
         return stepper.moments[Order.IMAGE], rays[0].points.ravel().tolist() if rays else []
 
     before, ray = walked()

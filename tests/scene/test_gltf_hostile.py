@@ -56,20 +56,20 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"nodes": [{"mesh": 0, "scale": [1e300, 1e300, 1]}]}, "node 'x'.transform: is too large"),
     (
         {"nodes": [{"mesh": 0, "matrix": [1] * 15}]},
-        "nodes[0].matrix: expected array of len",
+        "nodes[0].matrix: expected a list of length",
     ),
     (
         {"nodes": [{"mesh": 0, "translation": ["a", 0, 0]}]},
-        "nodes[0].translation[0]: expected float",
+        "nodes[0].translation[0]: is text in quotes; give a number",
     ),
     ({"scene": 9}, "scene: names entry 9"),
     (
         {"scenes.0.nodes": list(range(10001)), "nodes": [{"mesh": 0}] * 10001},
         "nodes: make more than 10000 objects",
     ),
-    ({"asset": None}, "object missing required field asset"),
+    ({"asset": None}, "asset: is missing"),
     ({"asset": {"version": "1.0"}, "meshes": {"a": {"primitives": []}}}, "is glTF 1.0; export it"),
-    ({"asset": {"version": "2.0"}, "meshes": {"a": 1}}, "meshes: expected array, got object"),
+    ({"asset": {"version": "2.0"}, "meshes": {"a": 1}}, "meshes: is a table; give a list"),
     (
         {"extensionsRequired": ["KHR_draco_mesh_compression"]},
         "extensionsRequired: KHR_draco_mesh_compression is not read",
@@ -81,9 +81,9 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"accessors.0.count": 10**11}, "accessors[0]: declares 100000000000 elements in a view of 36"),
     ({"accessors.1.count": 10**11}, "has 33333333333 triangles"),
     ({"accessors.1.count": 10**7}, "accessors[1]: declares 10000000 elements"),
-    ({"accessors.0.count": -1}, "accessors[0].count: expected int >= 0"),
+    ({"accessors.0.count": -1}, "accessors[0].count: expected a whole number >= 0"),
     ({"accessors.0.bufferView": None}, "accessors[0]: has no bufferView"),
-    ({"accessors.0.sparse": {"count": 1}}, "accessors[0].sparse: object missing"),
+    ({"accessors.0.sparse": {"count": 1}}, "accessors[0].sparse.indices: is missing"),
     (sparse(count=9), "accessors[0].sparse.indices: declares 9 elements"),
     (sparse(kind=5126), "accessors[0].sparse.indices: declares 3 elements in a view of 6 bytes"),
     (sparse(indices_at=24), "accessors[0].sparse.indices: names element"),
@@ -120,9 +120,9 @@ def test_gltf(changes: dict[str, Any], message: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[" * 1_000_000, "expected object, got array"),
+        ("[" * 1_000_000, "is a list; give a table"),
         ('{"asset":{"version":"2.0"},"extras":' + "[" * 1_000_000, "is not glTF: "),
-        ('{"x":NaN}', "is not glTF: JSON is malformed"),
+        ('{"x":NaN}', "is not glTF: its JSON"),
     ],
     ids=range(3),
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import struct
 from pathlib import Path
@@ -102,10 +103,14 @@ def test_faces_without_coordinates_keep_the_others_textured(tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("obj", "mtl", "wanted"),
     [
-        ("l 1 2\n", "", "shapes: not shown: lines, points and curves"),
+        (
+            "l 1 2\np 1\nvp 0 1\nsurf 0 1 0 1 1\nsp 1\n",
+            "",
+            "shapes: not shown: lines, points, vp, surf, sp",
+        ),
         ("", "d 0.5\nillum 2\nNi 1.5\n", "materials: not shown: d"),
         ("", "map_Bump b.png\nKe 1 1 1\n", "materials: not shown: map_bump, ke"),
-        ("s 1\ng x\n", "d 1.0\nKe 0 0 0\nTr 0\n", None),
+        ("s 1\ns\ng x\n#c\nlod 1\n", "d 1.0\nKe 0 0 0\nTr 0\n", None),
     ],
 )
 def test_what_obj_and_mtl_hold_besides_is_named(
@@ -114,6 +119,42 @@ def test_what_obj_and_mtl_hold_besides_is_named(
     text = f"mtllib m.mtl\n{SQUARE}{obj}usemtl m\nf 1 2 3 4\n"
     scene = loaded(tmp_path, "t.obj", text, m=f"newmtl m\nKd 1 0 0\n{mtl}")
     assert [line.partition(": ")[2] for line in scene.notes] == ([wanted] if wanted else [])
+
+
+def test_faces_without_normals_are_flat_beside_those_that_have_some(tmp_path: Path) -> None:
+    text = f"{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf 1//9 2//9 4//9\n"
+    mesh = loaded(tmp_path, "t.obj", text).objects[0].shape
+    found = mesh.normals[mesh.faces].reshape(-1, 9)
+    np.testing.assert_array_equal(found, [[0, 0, 1] * 3, [0] * 9, [0] * 9])
+
+
+# Kinds.
+
+
+@pytest.mark.parametrize("ending", ["fbx", "obj", "stl", "ply", "gltf"])
+@pytest.mark.parametrize(
+    ("content", "kind"),
+    [
+        (b"Kaydara FBX Binary  \0\x1a\0", "FBX"),
+        (b"; FBX 7.3.0 project file\n", "FBX"),
+        (b'\xef\xbb\xbf<?xml version="1.0"?>\n<COLLADA version="1.4.1">', "COLLADA"),
+        (b"#usda 1.0\n", "USD"),
+        (b"PK\x03\x04" + bytes(40), "a ZIP archive"),
+        (b"BLENDER-v300", "Blender's"),
+        (b"ISO-10303-21;\nHEADER;\n", "STEP"),
+        (b"MM\x20\0\0\0" + bytes(26), "3DS"),
+    ],
+)
+def test_other_programs_kinds_are_named_by_their_content(
+    content: bytes, kind: str, ending: str, tmp_path: Path
+) -> None:
+    with pytest.raises(LucidaError, match=f"t.{ending}: is {kind}.*, which is not read; export"):
+        loaded(tmp_path, f"t.{ending}", content)
+
+
+def test_a_text_that_is_no_obj_is_told_what_was_looked_for(tmp_path: Path) -> None:
+    with pytest.raises(LucidaError, match="has no line that begins with v or f"):
+        loaded(tmp_path, "t.obj", "hello\n")
 
 
 # PLY, STL, OFF.
@@ -131,13 +172,45 @@ def test_ply_strips(tmp_path: Path) -> None:
     assert (np.cross(b - a, c - a)[:, 2] > 0).all()
 
 
+SPLIT = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+PLACED = [
+    (
+        f"{SPLIT}property float s\nproperty float t\nelement face 1\n"
+        "property list uchar int vertex_index\n",
+        "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n",
+    ),
+    (
+        f"{SPLIT}element face 1\nproperty list uchar int vertex_indices\n"
+        "property list uchar float texcoord\n",
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n",
+    ),
+]
+
+
+@pytest.mark.parametrize(("head", "body"), PLACED, ids=["vertex", "face"])
+def test_ply_textures(head: str, body: str, tmp_path: Path) -> None:
+    Image.new("RGB", (2, 2), "red").save(tmp_path / "my t.png")
+    head = f"ply\nformat ascii 1.0\ncomment TextureFile my t.png\n{head}end_header\n"
+    scene = loaded(tmp_path, "t.ply", head + body)
+    (entry,) = scene.objects
+    assert entry.material.texture is not None and not scene.notes
+    np.testing.assert_array_equal(entry.shape.uv, entry.shape.vertices[:, :2])
+    assert area(scene) == pytest.approx(1)
+    bare = loaded(tmp_path, "t.ply", head.replace("comment TextureFile my t.png\n", "") + body)
+    assert bare.objects[0].shape.uv is None and not bare.notes
+    several = head.replace("format", "comment TextureFile b.png\nformat")
+    assert note(loaded(tmp_path, "t.ply", several + body)) == "PLY: not read: b.png, my t.png"
+
+
 def test_what_ply_and_off_hold_besides_is_named(tmp_path: Path) -> None:
-    head = f"ply\nformat ascii 1.0\ncomment TextureFile a.png\n{VERTICES}property float s\n"
+    head = f"ply\nformat ascii 1.0\n{VERTICES}property float w\n"
     edges = "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
     text = f"{head}element face 1\nproperty list uchar int vertex_index\n{edges}end_header\n"
     rows = ROWS.replace("\n", " 0.5\n")
     scene = loaded(tmp_path, "t.ply", f"{text}{rows}3 0 1 2\n0 1\n")
-    assert note(scene) == "PLY: not read: edge, s, a.png"
+    assert note(scene) == "PLY: not read: edge, w"
+    scene = loaded(tmp_path, "t.ply", f"{text}{rows}3 0 1 2\n0 1\n7\n")
+    assert note(scene) == "PLY: not read: edge, w, what follows the last element"
     off = "OFF4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2"
     assert not loaded(tmp_path, "t.off", off).notes
     assert "not read: colours" in note(loaded(tmp_path, "t.off", f"{off} 255 0 0\n"))
@@ -217,10 +290,18 @@ CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
 
 
 def test_extensions_that_are_not_read_are_named_or_refused(tmp_path: Path) -> None:
-    scene = load_gltf(gltf(extensionsUsed=["MSFT_lod", LIGHTS]), tmp_path)
-    assert note(scene) == "extensions: not read: MSFT_lod"
+    used = ["MSFT_lod", LIGHTS, "KHR_materials_variants", "KHR_materials_unlit"]
+    scene = load_gltf(gltf(extensionsUsed=used), tmp_path)
+    assert note(scene) == "extensions: not read: MSFT_lod, KHR_materials_variants"
     with pytest.raises(LucidaError, match="extensionsRequired: MSFT_lod is not read"):
         load_gltf(gltf(extensionsRequired=["MSFT_lod"]), tmp_path)
+
+
+def test_gltf_points_and_lines_are_named_and_a_byte_order_mark_is_passed(tmp_path: Path) -> None:
+    tree = gltf()
+    tree["meshes"][0]["primitives"].append(tree["meshes"][0]["primitives"][0] | {"mode": 1})
+    scene = loaded(tmp_path, "t.gltf", b"\xef\xbb\xbf" + json.dumps(tree).encode())
+    assert len(scene.objects) == 1 and note(scene) == "shapes: not shown: points and lines"
 
 
 @pytest.mark.parametrize(

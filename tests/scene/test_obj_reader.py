@@ -97,9 +97,10 @@ def plainly_read(text: str) -> dict[tuple[str | None, str | None], Triangles]:
     parts: dict[tuple[str | None, str | None], Triangles] = {}
     for key in dict.fromkeys(key for key, _ in faces):
         mine = [triangle for other, triangle in faces if other == key]
-        bare = any(corner[2] < 0 for triangle in mine for corner in triangle)
+        bare = all(corner[2] < 0 for triangle in mine for corner in triangle)
+        normals = [[]] if bare else [*rows["vn"], [0.0, 0.0, 0.0]]  # the last one for a flat face
         parts[key] = [
-            tuple((*rows["v"][v][:3], *([] if bare else rows["vn"][vn])) for v, _, vn in triangle)
+            tuple((*rows["v"][v][:3], *normals[-1 if bare else vn]) for v, _, vn in triangle)
             for triangle in mine
         ]
     return parts

@@ -81,9 +81,9 @@ def test_placement_scales_then_rotates_about_x_y_z_then_translates() -> None:
 
 
 def test_moving_a_mesh_moves_it_in_world_space() -> None:
-    mesh = shapes.translate(shapes.box(), (1, 0, 0))
+    mesh = shapes.transformed(shapes.box(), shapes.placement((1, 0, 0)))
     mesh = shapes.transformed(mesh, shapes.placement(rotate_deg=(0, 90, 0)))
-    mesh = shapes.scale(mesh, 2)
+    mesh = shapes.transformed(mesh, shapes.placement(scale=2))
     np.testing.assert_array_equal(mesh.transform[:3, 3], [0, 0, -2])
     np.testing.assert_array_equal(mesh.transform[:3, :3], [[0, 0, 2], [0, 2, 0], [-2, 0, 0]])
 
@@ -101,8 +101,8 @@ def test_moving_a_mesh_moves_it_in_world_space() -> None:
         (lambda: shapes.box((1, -1, 1)), "size"),
         (lambda: shapes.box((1, 1)), "size"),
         (lambda: shapes.torus(0.5, 0.5), "tube_radius"),
-        (lambda: shapes.scale(shapes.box(), 0), "scale"),
-        (lambda: shapes.translate(shapes.box(), (0, 0, math.nan)), "translate"),
+        (lambda: shapes.transformed(shapes.box(), shapes.placement(scale=0)), "scale"),
+        (lambda: shapes.transformed(shapes.box(), shapes.placement((0, 0, math.nan))), "translate"),
     ],
 )
 def test_wrong_numbers_are_named(make, field: str) -> None:

@@ -22,7 +22,9 @@ TWO_BALLS = Scene(
 )
 TWO_BOXES = Scene(
     tuple(
-        SceneObject(shapes.translate(shapes.box((size, size, size)), place), color, name)
+        SceneObject(
+            shapes.transformed(shapes.box((size, size, size)), shapes.placement(place)), color, name
+        )
         for name, size, place, color in (
             ("far", 4.0, (0.0, 0.0, -7.0), Material((0.9, 0.1, 0.1))),
             ("near", 1.0, (0.3, 0.0, -3.0), Material((0.1, 0.9, 0.1))),

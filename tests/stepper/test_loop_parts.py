@@ -11,7 +11,7 @@ from renderer.scene.model import Scene, SceneObject
 
 
 def test_an_object_has_a_name_a_box_and_its_own_triangles() -> None:
-    box = shapes.translate(shapes.box((1, 2, 3)), (5, 0, 0))
+    box = shapes.transformed(shapes.box((1, 2, 3)), shapes.placement((5, 0, 0)))
     scene = Scene((*TWO_BALLS.objects, SceneObject(box), SceneObject(box, name="its twin")))
     far, _, one, twin = Model(scene).objects
     assert (far.name, one.name, twin.name) == ("far", "object 2", "its twin")

@@ -25,7 +25,8 @@ from renderer.trace.bvh.sah_split import (
     bounds_of_records,
     partition,
 )
-from renderer.trace.compile.compiled import kernel, pasted
+from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.compile.emit import greater, lesser
 from renderer.trace.scalar.traverse import Tree
 from renderer.trace.scalar.vectors import row
 from renderer.trace.simd.lanes import LANES
@@ -195,7 +196,7 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
             return
         # Pointers: their indices are not checked for being negative.
         corners, points, boxes = pointer(faces), pointer(vertices), pointer(records)
-        for i in range(start, min(start + CHUNK, count)):
+        for i in range(start, lesser(start + CHUNK, count)):
             at = RECORD * i
             numbers[i, NUMBER] = i | np.int64(NUMBERED)
             boxes[at + HIGH + 3] = 0
@@ -204,8 +205,8 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
                 third = 3 * np.int64(corners[3 * i + 2])
                 for axis in range(3):
                     a, b, c = points[first + axis], points[second + axis], points[third + axis]
-                    boxes[at + axis] = -min(min(a, b), c)
-                    boxes[at + HIGH + axis] = max(max(a, b), c)
+                    boxes[at + axis] = -lesser(lesser(a, b), c)
+                    boxes[at + HIGH + axis] = greater(greater(a, b), c)
                 continue
             s = i - triangles
             for axis in range(3):
@@ -226,7 +227,7 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
         start = take_next(control) * CHUNK
         if start >= count:
             return
-        for i in range(start, min(start + CHUNK, count)):
+        for i in range(start, lesser(start + CHUNK, count)):
             number = order[i]
             if number >= triangles:
                 for k in range(4):
@@ -264,7 +265,7 @@ def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, contr
         )  # fmt: skip
 
 
-@pasted
+@inlined
 def _grow(
     records, bounds, links, levels, job, largest, leaf_size, waiting, waiting_bounds, scratch
 ):

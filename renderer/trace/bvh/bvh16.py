@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
 from renderer.trace.compile.compiled import kernel
-from renderer.trace.compile.emit import emitted
+from renderer.trace.compile.emit import emitted, greater, i64, lesser
+from renderer.trace.scalar.vectors import cross, dot, minus, times
 from renderer.trace.simd.gather import gather
 from renderer.trace.simd.lanes import (
     LANES,
@@ -34,6 +35,7 @@ from renderer.trace.simd.lanes import (
     vmin,
     vsqrt,
 )
+from renderer.trace.simd.math import select_lanes, store3
 from renderer.trace.simd.memory import load, pointer, stack_room, store
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.thread_pool import Team, new_control
@@ -182,7 +184,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
         fewer = first + (below[first] > below[first + 1])
         few, many = np.int64(row[fewer]), np.int64(row[2 * first + 1 - fewer])
         least = splat(_FAR)
-        for k in range(1, min(below[fewer], WIDTH - 1) + 1):
+        for k in range(1, lesser(np.int64(below[fewer]), WIDTH - 1) + 1):
             # Lane i - 1 is for i slots: k for one child, i - k for the other, which has none in the
             # first k lanes.
             rest = vmax(load(costs, many - k), load(costs, WIDTH - k))
@@ -200,7 +202,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
     while top > 0:
         top -= 1
         node, level = waiting[3 * top + 1], waiting[3 * top + 2]
-        levels = max(levels, level)
+        levels = greater(levels, level)
         # Choose the members with the least cost. Open a member if its slots cost less than a node
         # of its own. Always open one with a slot for each leaf, which costs nothing, and the
         # first one, which becomes the node.
@@ -215,8 +217,8 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
                 continue
             first = np.int64(links[2 * m])
             left, right = np.int64(row[first]) - 1, np.int64(row[first + 1]) - 1
-            least, of_left = _FAR, min(below[first], s - 1)
-            for k in range(max(1, s - below[first + 1]), of_left + 1):
+            least, of_left = _FAR, lesser(np.int64(below[first]), s - 1)
+            for k in range(greater(1, s - below[first + 1]), of_left + 1):
                 cost = costs[left + k] + costs[right + s - k]
                 if cost < least:
                     least, of_left = cost, k
@@ -253,50 +255,42 @@ def _fill_leaves(vertices, faces, order, leaves, corner, face, normal, control):
     """Store the corners, numbers and normals of the leaves' triangles, in lanes; threads share the
     leaves.
     """
-    lane = i32_of(lane_row() * np.float32(4) + lane_column())
     while True:
         first = take_next(control) * _CHUNK
         if first >= len(leaves):
             return
-        for k in range(first, min(first + _CHUNK, len(leaves))):
-            here = mask_of((np.int64(1) << leaves[k, 1]) - 1)
-            f = gather(pointer(order), lane + np.int32(leaves[k, 0]), here)
-            store(pointer(face), k * WIDTH, select(here, f, np.int32(-1)))
-            a = _corner(pointer(vertices), pointer(faces), f * np.int32(3), here)
-            b = _corner(pointer(vertices), pointer(faces), f * np.int32(3) + np.int32(1), here)
-            c = _corner(pointer(vertices), pointer(faces), f * np.int32(3) + np.int32(2), here)
-            _store_corner(pointer(corner), k * CORNERS, a, here)
-            _store_corner(pointer(corner), k * CORNERS + 3 * WIDTH, b, here)
-            _store_corner(pointer(corner), k * CORNERS + 6 * WIDTH, c, here)
-            # Float64 keeps the normals of small triangles far from the origin accurate.
-            ux, uy, uz = _minus(b, a)
-            vx, vy, vz = _minus(c, a)
-            nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-            length = vsqrt(nx * nx + ny * ny + nz * nz)
-            scale = select(length > 0.0, 1.0 / length, 0.0)
-            store(pointer(normal), 3 * k * WIDTH, to_f32(nx * scale))
-            store(pointer(normal), (3 * k + 1) * WIDTH, to_f32(ny * scale))
-            store(pointer(normal), (3 * k + 2) * WIDTH, to_f32(nz * scale))
+        for k in range(first, lesser(first + _CHUNK, len(leaves))):
+            _fill_leaf(
+                pointer(vertices), pointer(faces), pointer(order), leaves[k, 0], leaves[k, 1], k,
+                pointer(corner), pointer(face), pointer(normal),
+            )  # fmt: skip
+
+
+@emitted
+def _fill_leaf(vertices, faces, order, start, count, k, corner, face, normal):
+    """Store leaf k, the triangles order[start : start + count]."""
+    lane = i32_of(lane_row() * np.float32(4) + lane_column())
+    here = mask_of((i64(1) << count) - 1)
+    f = gather(order, lane + start, here)
+    store(face, k * WIDTH, select(here, f, np.int32(-1)))
+    a, b, c = (_corner(vertices, faces, f * np.int32(3) + np.int32(n), here) for n in range(3))
+    for n, point in enumerate((a, b, c)):
+        point = select_lanes(here, point, (_NO_CORNER,) * 3)
+        store3(corner, k * CORNERS + 3 * WIDTH * n, point)
+    # Float64 keeps the normals of small triangles far from the origin accurate.
+    across = cross(_minus(b, a), _minus(c, a))
+    length = vsqrt(dot(across, across))
+    scale = select(length > 0.0, 1.0 / length, 0.0)
+    store3(normal, 3 * k * WIDTH, [to_f32(part) for part in times(scale, across)])
 
 
 @emitted
 def _corner(vertices, faces, corner, here):
     """Return x, y, z of 16 triangles' corners; 0 in the lanes outside `here`."""
     at = gather(faces, corner, here) * np.int32(3)
-    return (
-        gather(vertices, at, here),
-        gather(vertices, at + np.int32(1), here),
-        gather(vertices, at + np.int32(2), here),
-    )
-
-
-@emitted
-def _store_corner(array, at, point, here):
-    store(array, at, select(here, point[0], _NO_CORNER))
-    store(array, at + WIDTH, select(here, point[1], _NO_CORNER))
-    store(array, at + 2 * WIDTH, select(here, point[2], _NO_CORNER))
+    return tuple(gather(vertices, at + np.int32(axis), here) for axis in range(3))
 
 
 @emitted
 def _minus(a, b):
-    return to_f64(a[0]) - to_f64(b[0]), to_f64(a[1]) - to_f64(b[1]), to_f64(a[2]) - to_f64(b[2])
+    return minus(tuple(map(to_f64, a)), tuple(map(to_f64, b)))

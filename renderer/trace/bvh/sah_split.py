@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import emitted
+from renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
 from renderer.trace.simd.lanes import (
     LANES,
     bits,
@@ -100,14 +100,14 @@ def _units(count, per_primitive):
     return to_f32(vfloor((f64_of(count) - 0.5) * per_primitive) + 1.0)
 
 
-@inlined
+@emitted
 def _count_record(records, i, origin, scale, bins, counts):
     """Add record i to its bins, one per axis."""
     own = _bounds(records, i)
     number = i32_of(vmin(vmax((own + origin) * scale, np.float32(0)), np.float32(BINS - 1)))
     for axis in range(3):
-        into = axis * BINS + np.int64(lane_of(number, _HIGH_CENTRE + axis))
-        counts[into] += 1
+        into = axis * BINS + i64(lane_of(number, _HIGH_CENTRE + axis))
+        counts[into] = counts[into] + 1
         store_half(bins, RECORD * into, larger(load_half(bins, RECORD * into), own))
 
 
@@ -169,10 +169,11 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     return best_axis, best_bin
 
 
-@inlined
+@emitted
 def _steps_of(start, end):
     """Return the step with which best_split() samples records[start:end]; 1 if there are few."""
-    return 1 if end - start <= 2 * SAMPLE else (end - start) // SAMPLE
+    count = end - start
+    return choose(count <= 2 * SAMPLE, lambda: 1, lambda: count // SAMPLE)
 
 
 @inlined
@@ -198,8 +199,8 @@ def partition(records, start, end, bounds, axis, last_bin):
         store_half(records, RECORD * j, a)
 
 
-@inlined
+@emitted
 def _bin_of(records, i, axis, origin, scale):
     """Return the bin of record i, computed in the same way as in best_split()."""
     centre = records[RECORD * i + HIGH + axis] - records[RECORD * i + axis]
-    return min(max(int((centre + origin) * scale), 0), BINS - 1)
+    return lesser(greater(i64((centre + origin) * scale), 0), BINS - 1)

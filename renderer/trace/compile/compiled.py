@@ -5,14 +5,19 @@ from __future__ import annotations
 import shutil
 import threading
 from collections.abc import Callable
-from functools import partial, wraps
+from functools import cache, partial, wraps
 from typing import Any
 
 import numba
 from numba import config
+from numba.core import typed_passes, untyped_passes
+from numba.core.compiler import CompilerBase, Flags, compile_extra
+from numba.core.compiler_machinery import PassManager
+from numba.core.registry import cpu_target
 
 from renderer import compile_note
 from renderer.trace.compile.cache_folder import cache_folder
+from renderer.trace.compile.emit import defined
 
 _cache_dir_lock = threading.Lock()
 _has_failed = threading.Event()  # set once machine code could not be loaded or saved
@@ -23,25 +28,86 @@ def is_cached() -> bool:
     return cache_folder() is not None and not _has_failed.is_set()
 
 
+# numba's passes, without those for what parts do not use: closures, `with`, array expressions and
+# counted references.
+_PASSES = (
+    untyped_passes.TranslateByteCode,
+    untyped_passes.FixupArgs,
+    untyped_passes.IRProcessing,
+    untyped_passes.RewriteSemanticConstants,
+    untyped_passes.DeadBranchPrune,
+    untyped_passes.GenericRewrites,
+    untyped_passes.ReconstructSSA,
+    typed_passes.NopythonTypeInference,
+    typed_passes.PreLowerStripPhis,
+    typed_passes.AnnotateTypes,
+    typed_passes.NativeLowering,
+    typed_passes.NoPythonBackend,
+)
+
+
+_FLAGS = {
+    "no_compile": True,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+    "error_model": "numpy",
+}
+
+
+class _PartCompiler(CompilerBase):
+    """numba's compiler for parts of kernels."""
+
+    def define_pipelines(self) -> list[PassManager]:
+        pipeline = PassManager("part")
+        for each in _PASSES:
+            pipeline.add_pass(each)
+        pipeline.finalize()
+        return [pipeline]
+
+
 def inlined(function: Callable[..., Any]) -> Any:
     """Decorate a function with loops or branches that is compiled as a part of kernels.
 
     Straight-line ones compile in a fraction of the time if they are emitted (emit.py). It must not
-    create arrays. Not fast-math: watertight intersection needs the operations in the
-    order written.
+    create arrays or raise errors. Not fast-math: watertight intersection needs the operations in
+    the order written.
+
+    With numba.njit, each function would be optimized and made machine code together with all that
+    it calls, and then again as a part of its callers. Here it stays LLVM's code, which is available
+    to kernels, and which LLVM optimizes where it is inlined.
     """
-    return numba.njit(
-        error_model="numpy", forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
-    )(function)
 
+    @cache
+    def compiled(kinds: tuple[Any, ...]) -> Any:
+        flags = Flags()
+        for flag, value in _FLAGS.items():
+            setattr(flags, flag, value)
+        typing, context = cpu_target.typing_context, cpu_target.target_context
+        result = compile_extra(
+            typing, context, function, kinds, None, flags, {}, pipeline_class=_PartCompiler
+        )
+        code = result.library.get_function(result.fndesc.llvm_func_name)
+        code.linkage = "available_externally"  # no machine code
+        level, config.OPT = config.OPT, 0
+        try:
+            result.library.finalize()  # links the functions that it calls
+        finally:
+            config.OPT = level
+        return result
 
-def pasted(function: Callable[..., Any]) -> Any:
-    """Decorate a function with a single caller, into which its code is copied before compilation.
+    def kind_of(typing, kinds):
+        return compiled(kinds).signature.return_type
 
-    For the large ones: each function that is only `inlined` is optimised together with all that it
-    calls, and then once more as a part of its caller.
-    """
-    return numba.njit(inline="always")(function)
+    def lower(context, builder, sig, args):
+        part = compiled(sig.args)
+        context.active_code_library.add_linking_library(part.library)
+        code = context.declare_function(builder.module, part.fndesc)
+        _status, result = context.call_conv.call_function(
+            builder, code, sig.return_type, sig.args, args, ("alwaysinline",)
+        )
+        return result
+
+    return defined(function, kind_of, lower)
 
 
 def kernel(function: Callable[..., Any]) -> Any:

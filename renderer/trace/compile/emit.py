@@ -1,10 +1,10 @@
 """Functions that Python runs while a kernel is compiled, to emit LLVM's instructions.
 
-numba takes about a millisecond for each statement, and optimizes each function on its own before it
-does so in the functions that call it. A function that is decorated by emitted() costs it nothing:
-wherever a kernel calls it, Python calls it with Values, whose operators emit instructions right
-there. Such a function has no runtime branches or loops: a condition must be known from the types,
-as `lens is None` is, or use choose(). It may call other emitted functions, but none of numba's.
+numba takes about a millisecond for each statement. A function that is decorated by emitted() costs
+it nothing: wherever a kernel calls it, Python calls it with Values, whose operators emit
+instructions right there. Such a function has no runtime branches or loops: a condition must be
+known from the types, as `lens is None` is, or use choose(). It may call other emitted functions,
+but none of numba's.
 """
 
 from __future__ import annotations
@@ -179,9 +179,26 @@ def _joined(builder: Any, blocks: list, a: Any, b: Any) -> Any:
     return Value(a.kind, joined)
 
 
+def defined(function: Any, kind_of: Any, lower: Any) -> Any:
+    """Define for numba what a function's calls return, kind_of(typing context, arguments' types),
+    and the code that they lower to.
+    """
+    signature = inspect.signature(function)
+
+    def typer_of(typing: Any) -> Any:
+        def typer(*kinds):
+            return kind_of(typing, kinds)
+
+        typer.__signature__ = signature  # type: ignore[attr-defined]
+        return typer
+
+    type_callable(function)(typer_of)
+    lower_builtin(function, types.VarArg(types.Any))(lower)  # type: ignore[attr-defined]
+    return function
+
+
 def emitted(function: Any) -> Any:
     """Decorate a function that kernels, and other emitted functions, call (see the module)."""
-    signature = inspect.signature(function)
 
     def run(target: _Target, kinds: tuple[Any, ...], values: list) -> Value:
         _targets.append(target)
@@ -195,21 +212,24 @@ def emitted(function: Any) -> Any:
     def kind_of(typing: Any, kinds: tuple[Any, ...]) -> Any:
         return run(_Target(typing), kinds, [None] * len(kinds)).kind
 
-    def typer_of(typing: Any) -> Any:
-        def typer(*kinds):
-            return kind_of(typing, kinds)
-
-        typer.__signature__ = signature  # type: ignore[attr-defined]
-        return typer
-
     def lower(context, builder, sig, args):
         target = _Target(context.typing_context, context, builder)
         result = run(target, sig.args, args)
         return context.cast(builder, result.llvm, result.kind, sig.return_type)
 
-    type_callable(function)(typer_of)
-    lower_builtin(function, types.VarArg(types.Any))(lower)  # type: ignore[attr-defined]
-    return function
+    return defined(function, kind_of, lower)
+
+
+@emitted
+def lesser(a, b):
+    """Return the lesser of two numbers of one type."""
+    return choose(a < b, lambda: a, lambda: b)
+
+
+@emitted
+def greater(a, b):
+    """Return the greater of two numbers of one type."""
+    return choose(a > b, lambda: a, lambda: b)
 
 
 def instruction(define: Any) -> Any:

@@ -60,8 +60,6 @@ def prepared(typing, function, always, room):
 
     function: decorated by inlined(); it returns nothing and raises nothing.
     """
-    if not isinstance(function, types.Dispatcher):
-        raise TypingError(f"a compiled function is needed, not {function}")
     signature = function.get_call_type(typing, (always, *_EACH), {})
 
     def codegen(context, builder, sig, args):
@@ -69,32 +67,24 @@ def prepared(typing, function, always, room):
         if context.get_abi_sizeof(always_type) > ROOM_BYTES:
             raise TypingError(f"{sig.args[1]} has no room in {ROOM_BYTES} bytes")
         builder.store(args[1], builder.bitcast(args[2], always_type.as_pointer()))
-        code = _code(context, builder.module, function, signature, always_type)
+
+        def arguments(builder, own):
+            at = builder.bitcast(own[0], always_type.as_pointer())
+            return [builder.load(at, typ=always_type), *own[1:]]
+
+        code = _calling(context, builder.module, function, signature, _CODE, arguments)
         return builder.ptrtoint(code, ir.IntType(64))
 
     return types.int64(function, always, room), codegen
 
 
-def _code(context, module, function, signature, always_type):
-    """Return a function of type _CODE that calls numba's function."""
-
-    def arguments(builder, own):
-        at = builder.bitcast(own[0], always_type.as_pointer())
-        return [builder.load(at, typ=always_type), *own[1:]]
-
-    return _calling(context, module, function, signature, _CODE, arguments)
-
-
 def _calling(context, module, function, signature, code_type, arguments):
-    """Return an LLVM function that calls numba's function with arguments(builder, its own)."""
+    """Return an LLVM function that calls a part with arguments(builder, its own)."""
     code = ir.Function(module, code_type, module.get_unique_name("lucida_stage"))
     code.linkage = "internal"
     builder = ir.IRBuilder(code.append_basic_block())
     values = arguments(builder, code.args)
-    compiled = function.dispatcher.get_compile_result(signature)
-    context.active_code_library.add_linking_library(compiled.library)
-    callee = context.declare_function(builder.module, compiled.fndesc)
-    context.call_conv.call_function(builder, callee, signature.return_type, signature.args, values)
+    context.get_function(function, signature)(builder, values)
     builder.ret_void()
     return code
 

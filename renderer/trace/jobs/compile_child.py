@@ -29,6 +29,9 @@ def main(*parts: str) -> None:
     if len(parts) == 1:
         os._exit(_compile(parts[0]))
     import_compiler()
+    import numba
+
+    numba.njit(lambda: 0)()  # prepares numba's compiler, once for all
     copies = [_start_copy(part) for part in parts]
     os._exit(max(os.waitpid(copy, 0)[1] != 0 for copy in copies))
 

@@ -23,8 +23,7 @@ from __future__ import annotations
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted, i64
+from renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
 from renderer.trace.packets.tile import (
     AHEAD,
     BEHIND,
@@ -88,13 +87,13 @@ def open_squares(view, footprint, depth, scratch):
     return i64(footprint) & bits(_is_open(view, load(scratch.least, 0), depth))
 
 
-@inlined
+@emitted
 def open_pixels(view, footprint, square, depth, scratch):
     """Return the pixels of a footprint's square, bits, that see nothing nearer than depth."""
-    pixels = np.int64(footprint) >> np.int64(16)
+    pixels = i64(footprint) >> 16
     x, y = (square & 3) * 4, (square >> 2) * 4
-    first_column, last_column = max((pixels & 15) - x, 0), min((pixels >> 4 & 15) - x, 3)
-    first_row, last_row = max((pixels >> 8 & 15) - y, 0), min((pixels >> 12 & 15) - y, 3)
+    first_column, last_column = greater((pixels & 15) - x, 0), lesser((pixels >> 4 & 15) - x, 3)
+    first_row, last_row = greater((pixels >> 8 & 15) - y, 0), lesser((pixels >> 12 & 15) - y, 3)
     columns = (2 << last_column) - (1 << first_column)
     rows = ((16 << 4 * last_row) - (1 << 4 * first_row)) & 0x1111
     best = load(scratch.best, LANES * square)
@@ -104,7 +103,7 @@ def open_pixels(view, footprint, square, depth, scratch):
 @emitted
 def pixels_of(footprint):
     """Return the number of pixels in a footprint."""
-    pixels = i64(footprint) >> np.int64(16)
+    pixels = i64(footprint) >> 16
     across = (pixels >> 4 & 15) - (pixels & 15) + 1
     return across * ((pixels >> 12 & 15) - (pixels >> 8 & 15) + 1)
 

@@ -12,7 +12,6 @@ import numpy as np
 
 from renderer import shared_numbers
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
-from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
 from renderer.trace.packets.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.scalar.vectors import cross, dot, minus, plus, times, triple
@@ -151,16 +150,16 @@ def blended(array, vertices, weights):
     )
 
 
-@inlined
+@emitted
 def have_normals(normals, vertices):
     """Return True if none of a triangle's three vertex normals is 0."""
-    a, b, c = vertices.a, vertices.b, vertices.c
-    return _is_set(normals, a) and _is_set(normals, b) and _is_set(normals, c)
+    a, b, c = (_is_set(normals, vertex) for vertex in vertices)
+    return a & b & c
 
 
-@inlined
+@emitted
 def _is_set(normals, at):
-    return normals[at] != 0 or normals[at + 1] != 0 or normals[at + 2] != 0
+    return (normals[at] != 0) | (normals[at + 1] != 0) | (normals[at + 2] != 0)
 
 
 @emitted

@@ -203,31 +203,27 @@ def _first_point(tile, square):
     return tile.x + f32((square & 3) * SQUARE), tile.y + f32((square >> 2) * SQUARE)
 
 
-@inlined
+@emitted
 def clear_tile(view, tile, row, column, scratch):
     """Reset the keys and hits. Mark pixels outside the image as done: nothing is nearer. Return the
     tile's least key."""
-    least = _clear_tile(view.lens, view, tile, row, column, scratch)
     scratch.kept[0] = NOTHING
-    return least
-
-
-@inlined
-def _clear_tile(lens, view, tile, row, column, scratch):
+    nothing, lens = np.float32(np.inf), view.lens
     for square in range(SQUARES):
-        store(scratch.hit_slot, LANES * square, splat(NOTHING))
+        at = LANES * square
+        store(scratch.hit_slot, at, splat(NOTHING))
         if lens is None:
-            below = row + square // 4 * SQUARE >= view.height
-            outside = below or column + square % 4 * SQUARE >= view.width
-            key = np.float32(np.inf) if outside else view.key_far
-            store(scratch.best, LANES * square, splat(key))
+            i, j = row + square // 4 * SQUARE, column + square % 4 * SQUARE
+            key = choose(
+                (i < view.height) & (j < view.width), lambda: view.key_far, lambda: nothing
+            )
+            store(scratch.best, at, splat(key))
             scratch.least[square] = key
         else:
-            ahead = load(lens.ahead, tile.first + LANES * square)
-            is_seen = ahead > np.float32(0)
-            best = select(is_seen, view.key_far / ahead, np.float32(np.inf))
-            store(scratch.best, LANES * square, best)
-            store(scratch.key_near, LANES * square, view.key_near / ahead)
+            ahead = load(lens.ahead, tile.first + at)
+            best = select(ahead > np.float32(0), view.key_far / ahead, nothing)
+            store(scratch.best, at, best)
+            store(scratch.key_near, at, view.key_near / ahead)
             scratch.least[square] = smallest(best)
     return view.key_far if lens is None else smallest(load(scratch.least, 0))
 

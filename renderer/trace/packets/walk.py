@@ -7,11 +7,13 @@ see is dropped.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
-from renderer.trace.compile.compiled import inlined, pasted
-from renderer.trace.compile.emit import choose, emitted
+from renderer.trace.compile.compiled import inlined
+from renderer.trace.compile.emit import choose, emitted, i64
 from renderer.trace.packets.footprint import ANY_DEPTH, WHOLE_TILE, children_in_tile, open_squares
 from renderer.trace.packets.leaf import rasterize_leaf
 from renderer.trace.packets.lens_frame import turn_rows
@@ -69,7 +71,7 @@ def push_children(view, children, child, node, top, scratch):
     return top
 
 
-@pasted
+@inlined
 def walk_world(view, world, tile, least, scratch):
     """Trace the scene for the tile: the upper tree, spheres and instances. least: its
     least key."""
@@ -101,22 +103,30 @@ def walk_world(view, world, tile, least, scratch):
             set_space(view, space, tile, scratch)
 
 
-@inlined
+@emitted
 def _prefetch_next(world, base, top, scratch):
     """Ask for the memory that visits of the next two entries will read."""
-    for ahead in range(1, 3):
-        if top - ahead >= base:
-            node = np.int64(scratch.waiting[2 * (top - ahead)])
-            if node >= 0:
-                prefetch(world.child, node * WIDTH)
-                for line in range(0, BOX, LANES):
-                    prefetch(world.box, node * BOX + line)
-            else:
-                for line in range(0, CORNERS, LANES):
-                    prefetch(world.corner, (FIRST_LEAF - node) * CORNERS + line)
+    for entry in top - 1, top - 2:
+        choose(entry >= base, partial(_prefetch, world, scratch.waiting, entry), lambda: None)
 
 
-@pasted
+@emitted
+def _prefetch(world, waiting, entry):
+    node = i64(waiting[2 * entry])
+
+    def inner():
+        prefetch(world.child, node * WIDTH)
+        for line in range(0, BOX, LANES):
+            prefetch(world.box, node * BOX + line)
+
+    def leaf():
+        for line in range(0, CORNERS, LANES):
+            prefetch(world.corner, (FIRST_LEAF - node) * CORNERS + line)
+
+    choose(node >= 0, inner, leaf)
+
+
+@inlined
 def walk_instance(view, world, space, footprint, tile, base, least, scratch):
     """Trace an instance, whose space is set up, for the tile. Return the new least key."""
     _push(base, ANY_DEPTH, world.root[space], footprint, scratch)

@@ -12,6 +12,7 @@ import numpy as np
 from renderer.trace.arguments.image import Image
 from renderer.trace.bvh.instances import World
 from renderer.trace.compile.compiled import inlined, kernel
+from renderer.trace.compile.emit import lesser
 from renderer.trace.compile.stage import StagedCode, new_room, prepared
 from renderer.trace.packets.effects import Effects
 from renderer.trace.packets.lens_frame import is_later_frame, is_own_pixel, tile_view
@@ -151,7 +152,7 @@ def write_rows(view, tile, image, channel, numbers, row, column, picture, scratc
     of a tile's later frames only their own pixels.
     """
     width = image.width
-    rows, columns = min(TILE, image.height - row), min(TILE, width - column)
+    rows, columns = lesser(TILE, image.height - row), lesser(TILE, width - column)
     to = numbers * (row * width + column)
     at = 0
     is_in_lines = columns == TILE and width % TILE == 0 and is_line(channel, to)

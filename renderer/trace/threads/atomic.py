@@ -8,56 +8,47 @@ An ordinary array element would not work: the compiler may read it only once, be
 
 from __future__ import annotations
 
-import numpy as np
 from llvmlite import ir
 from numba.core import types
-from numba.extending import intrinsic
 
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.simd.types import address_of
+from renderer.trace.compile.emit import emitted, instruction
+from renderer.trace.simd.types import INT64, first_address
 from renderer.trace.threads.thread_pool import CANCELLED, DONE, NEXT
 
 
-def _element(context, builder, signature, args):
-    """Return the address of array[index], the first two arguments."""
-    data = address_of(context, builder, signature.args[0], args[0])
-    return builder.gep(data, [args[1]])
+def _address(builder, control, index):
+    return builder.gep(first_address(builder, control), [ir.Constant(INT64, index)])
 
 
-@intrinsic
-def fetch_add(typing, array, index, value):
-    """Atomically add value to array[index] (int64). Return the previous value."""
-
-    def codegen(context, builder, signature, args):
-        at = _element(context, builder, signature, args)
-        return builder.atomic_rmw("add", at, args[2], "seq_cst")
-
-    return types.int64(array, types.int64, types.int64), codegen
+def _add_one(builder, control, index):
+    """Add 1 to control[index] (int64), atomically. Return the previous value."""
+    at = _address(builder, control, index)
+    return builder.atomic_rmw("add", at, ir.Constant(INT64, 1), "seq_cst")
 
 
-@intrinsic
-def read(typing, array, index):
-    """Return array[index] (int64) as it is in memory now."""
-
-    def codegen(context, builder, signature, args):
-        at = _element(context, builder, signature, args)
-        return builder.load_atomic(at, "monotonic", 8, typ=ir.IntType(64))
-
-    return types.int64(array, types.int64), codegen
-
-
-@inlined
+@instruction
 def take_next(control):
     """Claim the next piece of work. Return its number."""
-    return fetch_add(control, np.int64(NEXT), np.int64(1))
+    return types.int64, lambda builder: _add_one(builder, control, NEXT)
 
 
-@inlined
+@instruction
 def count_done(control):
     """Count a finished piece of work."""
-    fetch_add(control, np.int64(DONE), np.int64(1))
+    return types.void, lambda builder: _add_one(builder, control, DONE)
 
 
-@inlined
+@instruction
+def _next(control):
+    """Return the number of the next piece of work as it is in memory now."""
+
+    def emit(builder):
+        at = _address(builder, control, NEXT)
+        return builder.load_atomic(at, "monotonic", 8, typ=INT64)
+
+    return types.int64, emit
+
+
+@emitted
 def is_cancelled(control):
-    return read(control, np.int64(NEXT)) >= CANCELLED
+    return _next(control) >= CANCELLED
