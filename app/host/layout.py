@@ -248,16 +248,6 @@ def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
     reset()
 
 
-def docks(views: Iterable[DockedView]) -> dict[str, int]:
-    """Return ImGui's ids of the docks of the visible ones of these views; 0 for a floating view."""
-    found = {}
-    for view in views:
-        if window_of(view).is_visible:
-            window = imgui.internal.find_window_by_name(view.label)
-            found[view.name] = int(window.dock_id) if window is not None else 0
-    return found
-
-
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Return the position and the size of all views together, in ImGui's pixels."""
     params = hello_imgui.get_runner_params().docking_params

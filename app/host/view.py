@@ -214,10 +214,6 @@ class DockedView:
     def drop_pending(self) -> None:
         """Discard that entry."""
 
-    def as_set(self, state: AppState) -> AppState:
-        """Return the current state without what the view has since fitted to its size."""
-        return state
-
     def begin_anew(self) -> None:
         """Reset what the view keeps outside the state, because a lecture moved by a step."""
 

@@ -19,7 +19,7 @@ from app.host import layout
 from app.host.view import DockedView, Host, view_of
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
-from app.lecture.arrangement import Arrangement
+from app.lecture.arrangement import arrange
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
@@ -29,7 +29,7 @@ from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
-from app.lecture.step_options import is_own, own, state_of
+from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.outside.growing import stage_at, stages_of
@@ -44,7 +44,6 @@ from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
 from app.widgets.messages import wrapped
 from renderer.errors import LucidaError
-from renderer.memo import Memo
 
 LECTURE = "Lecture"
 FADE_S = 0.5  # of a text that is added
@@ -72,7 +71,7 @@ class LectureView(DockedView):
         self._before: AppState | None = None  # what the window showed when the lecture began
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._answered = self._begun = False
-        self._arrangement = Arrangement()
+        self.arrangements = 0  # how often the views have been put into their places
         self._layout = ""  # the one that was shown when the lecture began
         self._moved_s = 0.0  # when the mouse moved last
         self._typed = ""  # digits of a step's number
@@ -81,12 +80,6 @@ class LectureView(DockedView):
         self._seek = False  # the text is scrolled to what was just added
         self._added_s: float | None = None  # when that was, while it fades in
         self._drawn_answer = DrawnAnswer()
-        self._is_own = Memo(is_own)
-
-    @property
-    def arrangements(self) -> int:
-        """The number of times that the views have been put into their places."""
-        return self._arrangement.count
 
     @property
     def _others(self) -> list[DockedView]:
@@ -272,7 +265,8 @@ class LectureView(DockedView):
             self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
-            self._arrangement.arrange(self._others, self.session.step)
+            arrange(self._others, self.session.step)
+            self.arrangements += 1
             self._arranged = True
             imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
             host.animate()
@@ -321,19 +315,6 @@ class LectureView(DockedView):
             session.take(outcome.value.lecture)
             self.restore(host)
         session.error = outcome.value.mistake
-
-    def _is_as_given(self, host: Host, step: Step) -> bool:
-        """Return True if state and views are the step's own."""
-        state, options = host.state, host.state.options
-        if options.marked_size is not None:  # the shown image's, once there is one
-            state = replace(state, options=replace(options, marked_size=None))
-        for view in self._others:
-            state = view.as_set(state)
-        if not self._is_own(step, state):
-            return False
-        if not self._arranged:
-            return True
-        return self._arrangement.is_kept(self._others, step)
 
     # The column.
 
@@ -458,7 +439,7 @@ class LectureView(DockedView):
     def _foot(self, host: Host, session: LectureSession) -> None:
         is_shown = not host.state.preferences.presentation or self.shows_controls
         imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
-        asked = foot(session, self._is_as_given(host, session.step), self._typed)
+        asked = foot(session, self._typed)
         imgui.pop_style_var()
         if asked == END:
             self.leave(host)
