@@ -31,7 +31,7 @@ class TestTheBuiltInLecture:
             "What is an image?",
             "Representations",
             "Two algorithms",
-            "Losing a dimension",
+            "Cameras",
             "Rays",
             "The camera",
             "One camera, two renderers",
@@ -40,9 +40,9 @@ class TestTheBuiltInLecture:
         ]
         titles = [step.title for step in self.lecture.steps]
         order = [
-            "What is an image?", "Kinds of raster image", "Object order: rasterization",
+            "An image is a function", "2D arrays of numbers", "Object order: rasterization",
             "The camera conundrum", "Perspective projection", "Parallel projection",
-            "A ray is half a line", "A simple camera", "From pixel to ray", "Any camera",
+            "A ray is half a line", "A simple camera", "From pixel to (u, v)", "Any camera",
             "The program", "One camera, two renderers",
         ]  # fmt: skip
         assert [title for title in titles if title in order] == order
@@ -52,7 +52,7 @@ class TestTheBuiltInLecture:
         for step, language in itertools.product(self.lecture.steps, LANGUAGES):
             shown = texts.in_language(step.blocks, language)
             words = len(re.findall(r"\w+", plain_text(shown)))
-            assert 5 <= words <= 85, (step.title, language, words)
+            assert 3 <= words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
