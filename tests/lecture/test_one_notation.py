@@ -98,7 +98,7 @@ def stepper(notation: Notation) -> Found:
 
 
 def drawn(notation: Notation) -> Found:
-    options = OutsideOptions(target=(0, 0, 0), parameters=True)
+    options = OutsideOptions(target=(0, 0, 0))
     for step in STEPS:
         camera = step.view.for_size((64, 48))
         end = RayEnd((24, 32), 2.0)
