@@ -1,9 +1,8 @@
-"""The stepper's loops and the lecture's program: in all languages they draw the same."""
+"""The stepper's loops: in all languages they draw the same."""
 
 from __future__ import annotations
 
 import re
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -113,38 +112,6 @@ def test_every_line_has_its_line_in_julia(order):
         kept = set(re.findall(r"\w+", line)) - {"def", "range", "0", "5"}
         assert kept <= set(re.findall(r"\w+", twin)), (line, twin)
     assert "j - 0.5" in "".join(written.lines) and "j + 0.5" in "".join(lines)
-
-
-# The lecture's program.
-
-PROGRAMS = {
-    block.language: block.text
-    for step in load_lecture(BUILTIN).steps
-    if texts.languages(step.blocks)
-    for block in step.blocks
-    if isinstance(block, texts.Code)
-}
-CAMERA = {"e": (1.0, 2.0, 3.0), "u": (1.0, 0.0, 0.5), "v": (0.0, 1.0, 0.25), "w": (0.5, 0, 1)}
-
-
-def drawn_by(program: str, canvas: Any) -> np.ndarray:
-    vectors = {name: np.array(value) for name, value in CAMERA.items()}
-    names = {
-        **{"H": 3, "W": 4, "canvas": canvas},
-        "cam": SimpleNamespace(**vectors, d=1.5),
-        "closest": lambda p, d: p[0] + d @ np.array([10.0, 100.0, 1000.0]),
-        "color": lambda hit: hit,
-    }
-    exec(compile(program, "lecture", "exec"), names)
-    return np.asarray(getattr(canvas, "made", canvas))
-
-
-def test_the_lectures_program_is_the_same_in_all_languages(tmp_path):
-    assert set(PROGRAMS) == {"python", "julia"}
-    told = drawn_by(PROGRAMS["python"], np.full((3, 4), np.nan))
-    assert np.isfinite(told).all() and len(np.unique(told)) == 12
-    julias = loops_read_back(tuple(PROGRAMS["julia"].splitlines()))
-    np.testing.assert_array_equal(drawn_by(julias, FromOne(np.full((3, 4), np.nan))), told)
 
 
 def test_one_of_a_texts_programs_is_shown():

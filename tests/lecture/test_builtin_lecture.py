@@ -27,23 +27,21 @@ class TestTheBuiltInLecture:
     def test_it_covers_the_lecture_in_its_order(self):
         parts = [part for part, _ in self.lecture.outline()]
         assert parts == [
-            "Rendering",
+            "Where were we?",
             "What is an image?",
             "Representations",
-            "Two algorithms",
             "Cameras",
             "Rays",
             "The camera",
             "One camera, two renderers",
             "Lenses",
-            "Images, rays and cameras",
         ]
         titles = [step.title for step in self.lecture.steps]
         order = [
-            "An image is a function", "2D arrays of numbers", "Object order: rasterization",
+            "Two rendering algorithms", "An image is a function", "2D arrays of numbers",
             "The camera conundrum", "Perspective projection", "Parallel projection",
-            "A ray is half a line", "A simple camera", "From pixel to (u, v)", "Any camera",
-            "The program", "One camera, two renderers",
+            "A ray is half a line", "Ray tracing", "A simple camera", "From pixel to (u, v)",
+            "Any camera", "The program", "One camera, two renderers",
         ]  # fmt: skip
         assert [title for title in titles if title in order] == order
         assert 20 <= len(titles) == len(set(titles))
@@ -52,7 +50,7 @@ class TestTheBuiltInLecture:
         for step, language in itertools.product(self.lecture.steps, LANGUAGES):
             shown = texts.in_language(step.blocks, language)
             words = len(re.findall(r"\w+", plain_text(shown)))
-            assert 3 <= words <= 85, (step.title, language, words)
+            assert words <= 85, (step.title, language, words)
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}

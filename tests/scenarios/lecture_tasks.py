@@ -5,20 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from lecture_window import answer, item, lecture_of, shown
+from lecture_window import answer, item, lecture_of
 from objects_window import handle_px
 from outside_window import place
 from window_driver import Driver, Key, changed
 
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.view import LECTURE
 from app.objects.choosing import chosen
 from app.outside.options import OutsideOptions
 from app.outside.view import OUTSIDE, OutsideView
-from app.stepper.model import Moment
-from app.stepper.recording import Order
-from app.stepper.view import STEPPER, StepperView
 from app.storage.kept_lecture import Judgement
 from renderer.camera import Camera
 from renderer.scene_editing.moving import bounds_of
@@ -149,32 +145,3 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     d.ctx.key_press(int(Key.page_down))  # and keeps nothing for the next
     d.settle()
     assert chosen(d.window.state) == ()
-
-
-def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
-    lecture = load_lecture(BUILTIN)
-    number = [step.title for step in lecture.steps].index("Image order: ray tracing")
-    lecture_of(d).give(lecture, BUILTIN, (number, 0))
-    d.settle()
-    assert shown(d) == {LECTURE, STEPPER, OUTSIDE}
-    d.press(int(Key.f9))  # off the stage, where views have tools
-    stepper, outside = d.window.view(StepperView), d.window.view(OutsideView)
-
-    def walked() -> tuple[Moment, list[float]]:
-        d.settle()
-        rays = [one for one in outside.primitives if one.name == "ray"]
-        return stepper.moments[Order.IMAGE], rays[0].points.ravel().tolist() if rays else []
-
-    before, ray = walked()
-    d.ctx.item_click(f"//###{STEPPER}/###step")
-    after, _ = walked()
-    assert after.step == before.step + 1
-    d.ctx.item_click(f"//###{STEPPER}/###pixel")
-    d.ctx.item_click(f"//###{STEPPER}/###step")
-    d.ctx.item_click(f"//###{STEPPER}/###pixel")
-    for _ in range(4):  # until its ray is there
-        d.ctx.item_click(f"//###{STEPPER}/###step")
-    after, other = walked()
-    assert after.pixel != before.pixel and ray and other and ray != other
-    d.ctx.key_press(int(Key.end))  # a low view has no button for it
-    assert walked()[0].finished
