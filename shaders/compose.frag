@@ -7,6 +7,7 @@ uniform sampler2D marks;   // labels as bytes, row 0 at the top
 uniform sampler2D colors;  // of the labels, one row; label 0 is nothing
 uniform vec2 extent;       // of the target
 uniform float divider;     // the first column of `right`
+uniform float rise;        // 0 to 1: the opacity of `right` over `left`
 uniform float muted;       // 0 to 1
 uniform bool has_marks;
 
@@ -19,7 +20,7 @@ vec3 fetch(sampler2D picture) {
 }
 
 void main() {
-    vec3 rgb = gl_FragCoord.x < divider ? fetch(left) : fetch(right);
+    vec3 rgb = mix(fetch(left), fetch(right), gl_FragCoord.x < divider ? 0.0 : rise);
     rgb = mix(rgb, vec3(MUTED * dot(rgb, LUMINANCE)), muted);
     if (has_marks) {
         int label = int(255.0 * texelFetch(marks, ivec2(gl_FragCoord.xy), 0).r + 0.5);

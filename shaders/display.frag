@@ -7,6 +7,7 @@
 
 uniform vec2 origin;           // the image's upper left corner, in the target
 uniform vec2 texels_per_pixel;
+uniform float square;          // texels along a side of the squares that show one texel each
 
 out vec4 color;
 
@@ -38,7 +39,7 @@ void main() {
         value = mean_seen((center - half_pixel) * texels_per_pixel,
                           (center + half_pixel) * texels_per_pixel, vec2(size));
     } else {
-        ivec2 texel = ivec2(floor(center * texels_per_pixel));
+        ivec2 texel = ivec2(square * (floor(center * texels_per_pixel / square) + 0.5));
         value = seen(clamp(texel, ivec2(0), size - 1));
     }
     color = vec4(encoded(value), 1.0);

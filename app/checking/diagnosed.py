@@ -16,8 +16,8 @@ from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase
 from app.checking.mistakes.render import render_program, render_values
 from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_by_kind, diagnose_values
-from app.checking.mistakes.value_programs import value_case, value_program
-from app.checking.ray_words import in_the_tasks_words, ray_task
+from app.checking.mistakes.value_programs import value_case
+from app.checking.own_words import asked_rays, in_the_tasks_words, programs
 from app.checking.tasks import CheckCase, CheckTask
 
 MOST = 1000  # of rays that are examined; large images have more
@@ -26,40 +26,39 @@ MOST = 1000  # of rays that are examined; large images have more
 def diagnosis(
     task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: Flags
 ) -> Diagnosis | None:
-    """Return the diagnosis of a task's wrong answers; None if there is nothing to say.
+    """Return the diagnosis of wrong answers in the task's words; None if there is nothing to say.
 
     given: the answers in the kind's own form.
     wrong: the wrong ones, bool (N,).
     """
     with np.errstate(all="ignore"):  # a student's numbers may be anything
-        if task.kind == "viewing-ray":
-            return _of_rays(task, cases, np.asarray(given), wrong)
-        if task.kind == "render":
-            return _of_images(task, cases, given, wrong)
-        if task.kind == "closest-hit" and np.isinf(np.asarray(given)[:, 1]).all():
-            return Diagnosis(("You never find a hit.",))
-        program = value_program(
-            task.kind,
-            task.weights,
-            task.inclusive,
-            task.conventions.base,
-            task.column_major,
-            task.stride,
-        )
-        asked = [
-            value_case(
-                task.kind, case.values, np.asarray(case.right, float), answer, case.tolerance
-            )
-            for case, answer in zip(cases, given, strict=True)
-        ]
-        return diagnose_values(program, asked, wrong)
+        found = _diagnosis(task, cases, given, wrong)
+    return found and replace(found, sentences=in_the_tasks_words(task, found.sentences))
+
+
+def _diagnosis(
+    task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: Flags
+) -> Diagnosis | None:
+    """Return the same in the words of the programs."""
+    if task.kind == "viewing-ray":
+        return _of_rays(task, cases, np.asarray(given), wrong)
+    if task.kind == "render":
+        return _of_images(task, cases, given, wrong)
+    if task.kind == "closest-hit" and np.isinf(np.asarray(given)[:, 1]).all():
+        return Diagnosis(("You never find a hit.",))
+    (program,) = programs(task)
+    asked = [
+        value_case(task.kind, case.values, np.asarray(case.right, float), answer, case.tolerance)
+        for case, answer in zip(cases, given, strict=True)
+    ]
+    return diagnose_values(program, asked, wrong)
 
 
 def _of_images(
     task: CheckTask, cases: Sequence[CheckCase], given: Any, wrong: Flags
 ) -> Diagnosis | None:
-    """Diagnose images. The student's loops count from 0, whatever the task's base is."""
-    rays = ray_task(replace(task.conventions, base=0))
+    """Diagnose images."""
+    rays = asked_rays(task)
     kinds, asked = [], []
     for case, image in zip(cases, given, strict=True):
         assert case.camera is not None and case.size is not None
@@ -72,8 +71,8 @@ def _of_images(
         known |= {"target": np.asarray(case.target), "up": np.asarray(case.up)}
         judged = case.values["judged"]
         asked.append(ValueCase(known, case.right, image, case.tolerance, judged))
-    programs = {kind: render_program(replace(rays, projection=kind)) for kind in kinds}
-    return diagnose_by_kind(programs, kinds, asked, wrong)
+    made = {kind: render_program(replace(rays, projection=kind)) for kind in kinds}
+    return diagnose_by_kind(made, kinds, asked, wrong)
 
 
 def _of_rays(
@@ -91,16 +90,13 @@ def _of_rays(
         for case in (cases[number] for number in chosen.tolist())
         if case.camera is not None and case.size is not None and case.pixel is not None
     ]
-    found = diagnose_rays(
+    return diagnose_rays(
         asked,
         given[chosen],
         wrong[chosen],
-        ray_task(task.conventions),
+        asked_rays(task),
         any_origin=task.conventions.any_origin,
     )
-    if found is None:
-        return None
-    return replace(found, sentences=in_the_tasks_words(task, found.sentences))
 
 
 def _some(wrong: Flags) -> NDArray[np.intp]:

@@ -1,14 +1,9 @@
-"""Translation of a task's words into those of the table of wrong lines, and back."""
+"""Translation of a task's words into those of the table of wrong lines."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
-
 from app.checking.conventions import PAIRS, Conventions
-from app.checking.mistakes.diagnosis import AS_IF
 from app.checking.mistakes.rays import EDGES, GRID, SIZES, WORDS, RayTask, has_corners
-from app.checking.tasks import CheckTask
 from renderer.pixels import Indexing
 
 LETTERS = {"row": "i", "column": "j"}  # names in the table
@@ -51,33 +46,3 @@ def ray_task(conventions: Conventions) -> RayTask:
         words=frozenset(words),
         axes=conventions.axes,
     )
-
-
-def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
-    """Return the sentences, followed by the task's names for the letters of a pixel in them.
-
-    Lines of code are left out if the task has other words than the camera's own.
-    """
-    if task.conventions.vision:
-        sentences = [_of_k(task.conventions, one) for one in sentences if not one.startswith(AS_IF)]
-    if not {"i", "j", "row", "column", "ij", "ji"} & task.conventions.words:
-        sentences = [
-            one.replace("row i.", "row.").replace("column j.", "column.") for one in sentences
-        ]
-    text = " ".join(sentences)
-    called = []
-    for name, word in task.conventions.arguments:
-        for place, part in enumerate(PAIRS.get(word, (word,))):
-            letter = LETTERS.get(part, part)
-            own = name if word not in PAIRS else f"{name}[{place}]"
-            if own != letter and re.search(rf"\b{letter}\b", text):
-                called.append(f"{letter} is your `{own}`")
-    return (*sentences, f"Here {' and '.join(called)}.") if called else tuple(sentences)
-
-
-def _of_k(conventions: Conventions, sentence: str) -> str:
-    """Return a sentence on half a pixel for a K whose integers are at the pixels' centres."""
-    is_at_corners = conventions.first_center == 0.5
-    if is_at_corners or not ("0.5" in sentence or "half a pixel" in sentence):
-        return sentence
-    return f"K counts from centre to centre: the first pixel's is at {conventions.first_center:g}."

@@ -107,13 +107,14 @@ class Composed:
         muted: bool = False,
         labels: NDArray[np.uint8] | None = None,
         enlarged: bool = True,
+        rise: float = 1.0,
     ) -> Picture:
         """Return a picture of (width, height): `left` up to the column `divider`, then `right`;
         without `right`, only `left`.
 
         muted: gray and dark. labels: renderer/compare.py's, uint8 (height, width): the pixels to
         mark in their causes' colours. enlarged: with a border, so that they are visible from a
-        distance.
+        distance. rise: the opacity of `right` over `left`.
         """
         marks, colors = self._upload_marks(labels, enlarged), (self._label_colors, None)
         return self._compose.draw(
@@ -122,6 +123,7 @@ class Composed:
             extent=(float(size[0]), float(size[1])),
             divider=float(divider),
             muted=float(muted),
+            rise=rise,
             has_marks=marks is not None,
         )
 

@@ -18,6 +18,7 @@ class CompareOptions:
 
     gain: what the difference is multiplied with before it gets a colour.
     divider: the wipe's, in parts of the image's width.
+    rise: how far the ray image has come up on its side of the wipe, over the raster image.
     flipped: flip shows the ray image.
     causes: differing pixels are marked in the colours of their causes.
     """
@@ -25,6 +26,7 @@ class CompareOptions:
     mode: CompareMode = "wipe"
     gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
     divider: Part = 0.5
+    rise: Part = 1.0
     flipped: bool = False
     causes: bool = False
 

@@ -70,10 +70,13 @@ class CompareView(ImageView):
         self._held = None
 
     def draw(self, host: Host) -> None:
+        if not host.has_tools:
+            self._image(host)
+            host.renderers.trace(host.state)
+            return
         if imgui.get_window_height() > panel.SMALL_EM * imgui.get_font_size():
             super()._strip(host)
-        if host.has_tools:
-            host.apply(panel.toolbar(host.state))
+        host.apply(panel.toolbar(host.state))
         available = imgui.get_content_region_avail()
         size = ImVec2(available.x, max(1.0, available.y - self._footer_px))
         flat, without = imgui.ChildFlags_.nav_flattened, imgui.WindowFlags_.no_background
@@ -164,12 +167,14 @@ class CompareView(ImageView):
                 divider = self._first_ray_column(both, state)
                 if ray is not None:
                     right = ray.held
-                elif divider < both.size[0]:
+                elif divider < both.size[0] and options.rise == 1.0:
                     return None  # not the raster image in the ray image's place
             verdict = both.verdict(state)
             labels = verdict.comparison.labels if verdict and options.causes else None
             enlarged = min(placement.unit) < LARGE_PX
-            picture = composed.compose(both.size, left, right, divider, muted, labels, enlarged)
+            picture = composed.compose(
+                both.size, left, right, divider, muted, labels, enlarged, options.rise
+            )
             self._show(shown, picture.held)
             seen = shown.picture(name, AS_IT_IS, placement)
             self._error = None

@@ -409,5 +409,10 @@ class Renderers(ImageSize):
 def look_of(options: ImageOptions) -> Look:
     """Return the look of both images."""
     return Look(
-        options.channel, options.exposure_ev, options.transfer, options.component, options.tinted
+        options.channel,
+        options.exposure_ev,
+        options.transfer,
+        options.component,
+        options.tinted,
+        options.dissolved,
     )

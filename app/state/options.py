@@ -31,7 +31,7 @@ MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 # Fields of ImageOptions that say how an image is shown, not which one.
 DISPLAY = (
     *("channel", "component", "transfer", "exposure_ev", "magnification", "center"),
-    *("tinted", "grid", "values"),
+    *("tinted", "grid", "values", "dissolved"),
 )
 
 Channel = Literal["color", "depth", "normal", "id"]
@@ -53,7 +53,8 @@ class ImageOptions:
     fraction of the image's width and height. tinted: show a single component in its own colour,
     else gray. grid: draw lines between pixels, and their numbers, if those are large enough.
     values: how the numbers of a colour are written. samples: of the ray image's colour, once that
-    is full: its pixels show their mean. lens_enlargement: texels along a side
+    is full: its pixels show their mean. dissolved: how far both images have dissolved into flat
+    squares, of which there are 32 in a row in the end. lens_enlargement: texels along a side
     per pixel, in the pinhole images in which the raster image of a lens is looked up.
     """
 
@@ -69,6 +70,7 @@ class ImageOptions:
     grid: bool = True
     values: Literal["bytes", "floats"] = "bytes"
     samples: Annotated[int, OneOf(SAMPLES)] = 1
+    dissolved: Part = 0.0
     lens_enlargement: Annotated[int, OneOf(ENLARGEMENTS)] = ENLARGEMENT
 
     def displayed_as(self, other: ImageOptions) -> ImageOptions:

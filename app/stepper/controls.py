@@ -63,10 +63,10 @@ class Asked:
     wish: Wish = ""
 
 
-def controls(now: Asked, playing: bool, is_low: bool) -> Asked:
-    """Draw the controls; in a low view only the buttons that have no better key."""
+def controls(now: Asked, playing: bool) -> Asked:
+    """Draw the controls."""
     wish: Wish = ""
-    for number, (name, label, told, keys, *_) in enumerate(STEPS[1:-1] if is_low else STEPS):
+    for number, (name, label, told, keys, *_) in enumerate(STEPS):
         # Play and Pause have the same width.
         width = button_width("Pause" if name == "play" else label)
         if number:
@@ -75,8 +75,6 @@ def controls(now: Asked, playing: bool, is_low: bool) -> Asked:
         if imgui.button(f"{shown}###{name}", ImVec2(width, 0)):
             wish = name
         imgui.set_item_tooltip(f"{told} ({keys})")
-    if is_low:
-        return replace(now, wish=wish)
     options, canvas = _speed(now.options), now.options.canvas
     # A lecture's file may ask for any size.
     sizes = CANVASES | {canvas: f"{canvas[0]} x {canvas[1]} pixels"}
@@ -84,9 +82,12 @@ def controls(now: Asked, playing: bool, is_low: bool) -> Asked:
         "pixels", sizes, canvas, options, lambda o, v: replace(o, canvas=v, steps=(0, 0))
     )
     options = _combo("order", ORDERS, options.order, options, lambda o, v: replace(o, order=v))
+    follow(imgui.calc_text_size("depth").x + 1.5 * imgui.get_frame_height())
+    options = replace(options, depth=checkbox("depth", options.depth)[1])
+    tip("the nearest t of each pixel so far, near ones bright, in object order's canvas")
     follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
     changed, is_julia = checkbox("Julia", now.language == "julia")
-    tip("the same lines in Julia, for reading; Python is what runs")
+    tip("the same lines in Julia; what runs is Python")
     language: Language = "julia" if is_julia else "python"
     return Asked(options, language if changed else now.language, wish)
 

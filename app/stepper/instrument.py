@@ -11,16 +11,9 @@ from app.stepper.view import StepperView
 SYNONYMS = {
     "Loop stepper": "algorithm code debug",
 }
-
-PAGES: dict[str, dict[str, object]] = {
-    "Loop stepper: both loops": {"order": "both"},
-    "Loop stepper: object order": {"order": "object"},
-    "Loop stepper: image order": {"order": "image"},
-}
 INSTRUMENT = Instrument(
     lambda views: [StepperView(view_of(views, OutsideView))],
     STEPPING,
     heading="Loop stepper, once it is clicked",
     synonyms=SYNONYMS,
-    pages=PAGES,
 )

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.explaining.columns import Column
 from app.explaining.notation import number, text_tuple
@@ -29,7 +28,7 @@ NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not se
 class Variable:
     """A variable's name and value as text.
 
-    changed: set by the line that has just run. stale: of the turn before, not set in this one yet.
+    changed: set by the line that has just run.
     note: the meaning of the value, for an edge
     function: the side of the edge that the pixel is on.
     """
@@ -37,32 +36,8 @@ class Variable:
     name: str
     text: str
     changed: bool
-    stale: bool = False
     note: str = ""
     value: Any = None
-
-
-@dataclass(frozen=True)
-class Counters:
-    """Counts at a moment.
-
-    tests: tests of an object or a triangle at a pixel.
-    writes: to the canvas.
-    overwrites: those to a pixel that had been written before.
-    """
-
-    tests: int
-    writes: int
-    overwrites: int
-
-
-@dataclass(frozen=True)
-class Test:
-    """One execution of the inner line. t is infinite if the object does not affect the pixel."""
-
-    pixel: tuple[int, int]
-    object: int
-    t: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +48,7 @@ class Moment:
     and corners (its own, in the image): None outside the loop that sets them.
     canvas: linear light (height, width, 3), NaN where unset.
     depth: (height, width), None in image order.
-    tests: of the current inner loop: in object order those of the object or the triangle, in image
-    order those of the pixel.
+    t: of the closest hit so far of the pixel's ray; infinite for none.
     """
 
     step: int
@@ -88,8 +62,7 @@ class Moment:
     corners: tuple[Corner, ...] | None
     canvas: Floats
     depth: Floats | None
-    tests: tuple[Test, ...]
-    counters: Counters
+    t: float
     finished: bool
 
 
@@ -108,6 +81,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
     thing: Object | None = now.get("object") if in_object else None
     if triangle is not None:
         thing = triangle.object
+    closest: Hit | None = now.get("closest")
     box: tuple[Any, Any] = now.get("rows"), now.get("columns")
     writes = recording.write_steps.count_upto(step)
 
@@ -115,6 +89,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
         """Return True if a variable was set since the loop's present turn began."""
         return _since(recording, name, step)[0] > int(turns[turns.count_upto(step) - 1])
 
+    is_tested = in_pixel and is_fresh("closest", recording.pixel_steps)
     return Moment(
         step=step,
         line=line,
@@ -131,12 +106,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
         ),
         canvas=_canvas(recording, writes, now),
         depth=_depth(recording, step, now),
-        tests=_tests(recording, step, in_pixel, in_object),
-        counters=Counters(
-            recording.test_steps.count_upto(step),
-            writes,
-            int(recording.overwrites[writes - 1]) if writes else 0,
-        ),
+        t=closest.t if closest and is_tested else math.inf,
         finished=recording.complete and step == len(recording) - 1,
     )
 
@@ -154,33 +124,6 @@ def next_object(recording: Recording, step: int) -> int:
     return _after(recording, recording.object_steps, step)
 
 
-def step_of_pixel(recording: Recording, pixel: tuple[int, int], step: int) -> int | None:
-    """Return the step at which a pixel's turn begins: the first after `step`, else the first of
-    all.
-
-    None if it never begins.
-    """
-    steps = recording.pixel_steps.upto(len(recording.pixel_steps))
-    if not len(steps):
-        return None
-    mine = steps[(_pixels_at(recording, steps) == pixel).all(axis=1)]
-    if not len(mine):
-        return None
-    later = mine[mine > step]
-    return int(later[0] if len(later) else mine[0])
-
-
-def _pixels_at(recording: Recording, steps: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Return rows and columns at these steps of pixels' turns, (n, 2)."""
-    found = np.zeros((len(steps), 2), np.int64)
-    for k, name in enumerate("ij"):
-        changes, values = recording.values[name]
-        count = len(changes)
-        at = np.searchsorted(changes.upto(count), steps, side="right") - 1
-        found[:, k] = np.array(values[:count])[at]
-    return found
-
-
 def _after(recording: Recording, steps: Column, step: int) -> int:
     at = steps.count_upto(step)
     return int(steps[at]) if at < len(steps) else len(recording) - 1
@@ -196,35 +139,12 @@ def _since(recording: Recording, name: str, step: int) -> tuple[int, Any]:
     return (int(changes[at - 1]), values[at - 1]) if at else (-1, None)
 
 
-def _stale(recording: Recording, step: int) -> set[str]:
-    """Return the variables that a loop sets in each turn, and not in the present one yet."""
-    source, stale = recording.source, set[str]()
-    outer, inner = sorted((source.pixels, source.objects), key=lambda loop: loop.first)
-    begun = {
-        loop: int(turns[count - 1]) if (count := turns.count_upto(step)) else 0
-        for loop, turns in (
-            (source.pixels, recording.pixel_steps),
-            (source.objects, recording.object_steps),
-        )
-    }
-    lines = recording.lines.upto(step)
-    for name, where in source.sets.items():
-        if all(outer.runs(line) for line in where):
-            is_inner = all(inner.runs(line) for line in where)
-            first = max(begun.values()) if is_inner else begun[outer]
-            if where.isdisjoint(lines[max(first - 1, 0) :].tolist()):
-                stale.add(name)
-    return stale
-
-
 def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
-    stale = _stale(recording, step)
     return [
         Variable(
             name,
             describe(now[name]),
             _since(recording, name, step)[0] == step,
-            name in stale,
             ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
             now[name],
         )
@@ -280,20 +200,3 @@ def _depth(recording: Recording, step: int, now: dict[str, Any]) -> Floats | Non
     pixels = recording.depth_pixels.upto(count)
     array[pixels[:, 0], pixels[:, 1]] = recording.depth_t.upto(count)
     return array
-
-
-def _tests(recording: Recording, step: int, in_pixel: bool, in_object: bool) -> tuple[Test, ...]:
-    """Return the tests since the outer loop's turn began."""
-    pixels, objects = recording.source.pixels, recording.source.objects
-    outer_is_pixel = pixels.first < objects.first
-    if not (in_pixel if outer_is_pixel else in_object):
-        return ()
-    begun = recording.pixel_steps if outer_is_pixel else recording.object_steps
-    first_step = int(begun[begun.count_upto(step) - 1])
-    first, last = (recording.test_steps.count_upto(at) for at in (first_step, step))
-    return tuple(
-        Test((int(row[0]), int(row[1])), int(row[2]), float(t))
-        for row, t in zip(
-            recording.tests.upto(last)[first:], recording.test_t.upto(last)[first:], strict=True
-        )
-    )

@@ -1,4 +1,4 @@
-"""The options of the loop stepper: the runs, and the step of each."""
+"""The options of the loop stepper: a lecture's picture, the runs, and the step of each."""
 
 from __future__ import annotations
 
@@ -9,21 +9,32 @@ from app.state.bounds import Range
 
 Step = Annotated[int, Range(0, 1_000_000)]  # of a run
 
+Runs = Annotated[float, Range(0, 8)]
+
 
 @dataclass(frozen=True)
 class StepperOptions:
     """The options of the loop stepper.
 
+    picture: what a lecture shows: the two loops in words; ray tracing in three lines, first at
+    the marked pixel; the whole program; or its questions: an image, a frame, a ray.
+    parts: how far the picture's runs are, in object order and in image order. A run begins after
+    each whole number and is complete at the next. Ray tracing's lines are executed at the marked
+    pixel up to 1, 2 and 3, and at the other pixels up to 4. The questions appear up to 1, 2 and 3.
     canvas: (width, height).
     order: the visible algorithms.
     steps: of the run in object order, and of the one in image order; a step past the end is the
     last.
+    depth: show object order's depth buffer in place of its canvas.
     speed: steps per second while it plays.
     """
 
+    picture: Literal["loops", "rays", "program", "questions"] = "loops"
+    parts: tuple[Runs, Runs] = (0.0, 0.0)
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)
     order: Literal["both", "object", "image"] = "both"
     steps: tuple[Step, Step] = (0, 0)
+    depth: bool = False
     speed: Annotated[float, Range(1, 20_000)] = 8.0
 
 

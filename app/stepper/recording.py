@@ -7,7 +7,6 @@ One thread runs; others read what is there so far.
 
 from __future__ import annotations
 
-import math
 import sys
 import time
 from collections.abc import Callable
@@ -20,7 +19,6 @@ from app.state.bounds import check, whole_range_of
 from app.stepper.loop_parts import Model
 from app.stepper.loops import image_order, rasterization
 from app.stepper.options import StepperOptions
-from app.stepper.raster_parts import t_of
 from app.stepper.source import Source, source_of
 from renderer.camera import Camera, Size
 
@@ -35,11 +33,6 @@ class Order(Enum):
 
     RASTER = "rasterization"
     IMAGE = "image order"
-
-    @property
-    def has_depth(self) -> bool:
-        """True if the run has a depth buffer: object order."""
-        return self is Order.RASTER
 
     @property
     def renderer(self) -> Callable[..., Any]:
@@ -69,19 +62,15 @@ class Recording:
         self.source: Source = source_of(order.renderer)
         self.complete = False  # run to its end
         self.truncated = False  # stopped after MOST_STEPS
-        self._cancelled = False
         self._steps = 0
         # Of each step its line. Of each variable, from which step on it has which value.
         self.lines = Column("u1")
         self.values: dict[str, tuple[Column, list[Any]]] = {}
         # Steps at which the bodies of the two loops begin.
         self.pixel_steps, self.object_steps = Column("i4"), Column("i4")
-        # Tests: the step from which on the result is there; row, column, object; t.
-        self.test_steps, self.tests, self.test_t = Column("i4"), Column("i4", 3), Column("f8")
-        # Writes to the canvas and to the depth buffer: step, row and column, colour or t; and how
-        # many writes so far went to a pixel that had been written before.
+        # Writes to the canvas and to the depth buffer: step, row and column, colour or t.
         self.write_steps, self.write_pixels = Column("i4"), Column("i4", 2)
-        self.write_colors, self.overwrites = Column("f8", 3), Column("i4")
+        self.write_colors = Column("f8", 3)
         self.depth_steps, self.depth_pixels = Column("i4"), Column("i4", 2)
         self.depth_t = Column("f8")
 
@@ -89,12 +78,9 @@ class Recording:
         """Return the number of steps so far."""
         return self._steps
 
-    def cancel(self) -> None:
-        """End the run soon. From any thread."""
-        self._cancelled = True
-
-    def run(self) -> None:
-        """Run to the end, to MOST_STEPS, or until cancel()."""
+    def run(self, is_wanted: Callable[[], bool] = lambda: True) -> None:
+        """Run to the end, to MOST_STEPS, or until it is no longer wanted."""
+        self._is_wanted = is_wanted
         recorder = _Recorder(self)
         before = sys.gettrace()
         sys.settrace(recorder.enter)
@@ -102,7 +88,7 @@ class Recording:
             self.order.renderer(self.model, self.camera, self.size)
             self.complete = True
         except RunCancelledError:
-            self.truncated = not self._cancelled
+            self.truncated = self._steps >= MOST_STEPS
         finally:
             sys.settrace(before)
 
@@ -115,8 +101,7 @@ class _Recorder:
         self._code = recording.order.renderer.__code__
         self._shown = recording.source.shown
         self._last: dict[str, Any] = dict.fromkeys(self._code.co_varnames, _MISSING)
-        self._written: set[tuple[int, int]] = set()
-        self._after_test = self._failed = False
+        self._failed = False
         self._break_s = time.perf_counter()
 
     def enter(self, frame: FrameType, event: str, argument: Any) -> Any:
@@ -129,18 +114,12 @@ class _Recorder:
         if self._failed:  # unwinding is not a step
             return self._line
         to, step = self._to, self._to._steps
-        if to._cancelled or step >= MOST_STEPS:
+        if step >= MOST_STEPS or not (step % _BREAK_EVERY or to._is_wanted()):
             raise RunCancelledError
         line = self._shown[frame.f_lineno - to.source.first_line]
         values = frame.f_locals
         self._log_values(values, step)
         self._log_writes(values, step)
-        if self._after_test:
-            number, t = self._result(values)
-            to.test_t.append(t)
-            to.tests.append((values["i"], values["j"], number))
-            to.test_steps.append(step)
-        self._after_test = line == to.source.test
         if line == to.source.pixels.first:
             to.pixel_steps.append(step)
         if line == to.source.objects.first:
@@ -150,18 +129,6 @@ class _Recorder:
         if step % _BREAK_EVERY == 0:
             self._take_a_break()
         return self._line
-
-    def _result(self, values: dict[str, Any]) -> tuple[int, float]:
-        """Return the object that has just been tested, and the t at which it affects the pixel, if
-        it does.
-        """
-        if "hit" in values:
-            return values["object"].number, values["hit"].t
-        edges = values["ea"], values["eb"], values["ec"]
-        inside = min(edges) >= 0
-        z = sum(e * values[corner].z for e, corner in zip(edges, "abc", strict=True))
-        triangle = values["triangle"]
-        return triangle.object.number, t_of(z, triangle, *edges) if inside else math.inf
 
     def _log_values(self, values: dict[str, Any], step: int) -> None:
         last = self._last
@@ -182,10 +149,6 @@ class _Recorder:
         if canvas is not None:
             while len(to.write_steps) < len(canvas.log):
                 i, j, color = canvas.log[len(to.write_steps)]
-                again = (i, j) in self._written
-                before = to.overwrites[len(to.write_steps) - 1] if len(to.write_steps) else 0
-                self._written.add((i, j))
-                to.overwrites.append(before + again)
                 to.write_pixels.append((i, j))
                 to.write_colors.append(color)
                 to.write_steps.append(step)

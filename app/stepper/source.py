@@ -46,9 +46,6 @@ class Source:
     shown: the number in `lines` of each of Python's, -1 for the docstring.
     pixels: the loop over columns j, inside that over rows.
     objects: the loop over objects, or over triangles.
-    test: the line that intersects an object, or the last of a triangle's edge functions.
-    write: the line that sets a pixel of the canvas.
-    sets: the lines that set each variable.
     """
 
     name: str
@@ -57,9 +54,6 @@ class Source:
     shown: tuple[int, ...]
     pixels: Loop
     objects: Loop
-    test: int
-    write: int
-    sets: dict[str, frozenset[int]]
 
 
 @cache
@@ -83,20 +77,6 @@ def source_of(function: Callable[..., Any]) -> Source:
         for node in ast.walk(tree)
         if isinstance(node, ast.For)
     }
-    test = max(
-        node.lineno
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and ast.unparse(node.func) in ("intersect", "edge")
-    )
-    write = next(
-        node.lineno
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("canvas[")
-    )
-    sets: dict[str, set[int]] = {}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            sets.setdefault(node.id, set()).add(shown[node.lineno - 1])
     return Source(
         name=function.__name__,
         lines=tuple(lines),
@@ -104,10 +84,15 @@ def source_of(function: Callable[..., Any]) -> Source:
         shown=tuple(shown),
         pixels=loops["j"],
         objects=loops["object"] if "object" in loops else loops["triangle"],
-        test=shown[test - 1],
-        write=shown[write - 1],
-        sets={name: frozenset(where) for name, where in sets.items()},
     )
+
+
+@cache
+def shown_lines(
+    lines: tuple[str, ...], notation: Notation, indexing: Indexing = Indexing.ARRAY
+) -> tuple[str, ...]:
+    """Return lines of the loops as they are shown."""
+    return tuple(shown_code(line, notation, indexing) for line in lines)
 
 
 def shown_code(code: str, notation: Notation, indexing: Indexing = Indexing.ARRAY) -> str:

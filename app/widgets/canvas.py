@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 
 from app.state.options import Pixel
 from app.widgets import theme
-from app.widgets.areas import focused_steps, pixel_from, press_area, press_point
+from app.widgets.areas import focused_steps, pixel_from, press_point
 from renderer.images.display import to_srgb8
 
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
 LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels
 POINT = 1.0  # texels, half a side of the point in an unset pixel
 SMALLEST_CELL = 5.0  # pixels of this size have outlines
-MOST_DOTS = 500
 
 
 @dataclass(frozen=True)
@@ -26,13 +25,11 @@ class Marks:
 
     pixel: the current one.
     box: rows and columns of a bounding box.
-    dots: the tested pixels, and whether the object was hit there.
     corners: of the current triangle, (x, y) in pixels from the upper left corner.
     """
 
     pixel: Pixel | None = None
     box: tuple[range, range] | None = None
-    dots: tuple[tuple[Pixel, bool], ...] = ()
     corners: tuple[tuple[float, float], ...] = ()
 
 
@@ -70,26 +67,17 @@ def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.u
     return large
 
 
-def canvas(
-    texture: int | None,
-    size: tuple[int, int],
-    room: ImVec2,
-    marks: Marks,
-    name: str,
-) -> Pixel | None:
-    """Draw a canvas of (width, height) pixels as large as possible. Return the clicked pixel, or
-    None.
-
-    texture: the OpenGL name of its picture.
-    """
+def canvas_unit(size: tuple[int, int], room: ImVec2) -> float:
+    """Return the side of a pixel of the largest canvas that the room has, whole if it can be."""
     unit = max(1.0, min(room.x / size[0], room.y / size[1]))
-    if unit > 4:
-        unit = float(int(unit))
-    corner = imgui.get_cursor_screen_pos()
-    far = corner + ImVec2(*size) * unit
-    clicked = press_area(name, far - corner)
-    walked = walked_pixel(marks.pixel, size)
-    draw = imgui.get_window_draw_list()
+    return float(int(unit)) if unit > 4 else unit
+
+
+def draw_canvas(
+    texture: int | None, size: tuple[int, int], corner: ImVec2, unit: float, marks: Marks
+) -> None:
+    """Draw a canvas at a place. unit: the side of a pixel."""
+    draw, far = imgui.get_window_draw_list(), corner + ImVec2(*size) * unit
     if texture is not None:
         draw.add_image(imgui.ImTextureRef(texture), corner, far)
     if unit >= SMALLEST_CELL:
@@ -102,7 +90,6 @@ def canvas(
             draw.add_line((corner.x, y), (far.x, y), color)
     draw.add_rect(corner, far, theme.u32(theme.PLAIN))
     _draw_marks(draw, corner, far, unit, marks)
-    return walked or (pressed_pixel(corner, unit, size) if clicked else None)
 
 
 def pressed_pixel(corner: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
@@ -120,16 +107,7 @@ def walked_pixel(pixel: Pixel | None, size: tuple[int, int]) -> Pixel | None:
 def _draw_marks(
     draw: imgui.ImDrawList, corner: ImVec2, far: ImVec2, unit: float, marks: Marks
 ) -> None:
-    black, white = theme.rgb("#000000"), theme.u32(theme.rgb("#ffffff"))
-    if len(marks.dots) <= MOST_DOTS and unit >= SMALLEST_CELL:
-        radius = max(1.5, 0.14 * unit)
-        for (i, j), is_hit in marks.dots:
-            middle = corner + ImVec2(j + 0.5, i + 0.5) * unit
-            draw.add_circle_filled(middle, radius + 1, theme.u32(black, 0.6))
-            if is_hit:
-                draw.add_circle_filled(middle, radius, theme.u32(theme.MARK))
-            else:
-                draw.add_circle(middle, radius, white)
+    black = theme.rgb("#000000")
     if marks.corners:
         _triangle(draw, corner, far, [corner + ImVec2(*at) * unit for at in marks.corners])
     frames = [] if marks.box is None else [(*marks.box, theme.rgb("#cc79a7"), 0.0)]
@@ -147,28 +125,14 @@ def _draw_marks(
 
 
 def _triangle(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, points: list[ImVec2]) -> None:
-    """Draw the triangle's sides, as far as they are on the canvas, and the names of its corners."""
-    black, width = theme.rgb("#000000"), theme.line_px(1.5)
-    sides = [_within(low, high, points[k - 1], points[k]) for k in range(len(points))]
-    for color, thick in ((theme.u32(black, 0.6), width + 2), (theme.u32(theme.RAY), width)):
-        for side in filter(None, sides):
-            draw.add_line(*side, color, thick)
-    em = imgui.get_font_size()
+    """Draw the triangle's sides and the names of its corners, as far as they are on the canvas."""
+    black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
+    width = theme.line_px(1.5)
+    draw.push_clip_rect(low, high, True)
+    for color, thick in ((black, width + 2), (theme.u32(theme.RAY), width)):
+        for number, point in enumerate(points):
+            draw.add_line(points[number - 1], point, color, thick)
     for name, point in zip("abc", points, strict=True):
-        x = min(max(point.x + 3, low.x + 2), high.x - 0.6 * em)
-        y = min(max(point.y - 0.5 * em, low.y), high.y - em)
-        if abs(x - point.x) + abs(y - point.y) < 2 * em:  # otherwise the name is too far away
-            draw.add_text((x + 1, y + 1), theme.u32(black), name)
-            draw.add_text((x, y), theme.u32(theme.rgb("#ffffff")), name)
-
-
-def _within(low: ImVec2, high: ImVec2, a: ImVec2, b: ImVec2) -> tuple[ImVec2, ImVec2] | None:
-    """Return the part of a line inside a rectangle. Source: Liang and Barsky, 1984."""
-    enter, leave, way = 0.0, 1.0, b - a
-    for start, step, least, most in zip(a, way, low, high, strict=True):
-        if step:
-            first, second = sorted(((least - start) / step, (most - start) / step))
-            enter, leave = max(enter, first), min(leave, second)
-        elif not least <= start <= most:
-            return None
-    return (a + way * enter, a + way * leave) if enter <= leave else None
+        draw.add_text(point + ImVec2(4, 1), black, name)
+        draw.add_text(point + ImVec2(3, 0), white, name)
+    draw.pop_clip_rect()

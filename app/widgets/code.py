@@ -1,6 +1,6 @@
-"""A few lines of Python on the screen, one of them lit.
+"""A few lines of Python on the screen, some of them lit.
 
-Names have the same colours as in the formulas. Hovering over a called function shows its source.
+Names have the same colours as in the formulas.
 """
 
 from __future__ import annotations
@@ -13,46 +13,31 @@ from collections.abc import Mapping, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.explaining.breaking import broken
 from app.widgets import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
 NAMED = ("ray", "hit", "closest")
 
 
-def code(lines: Sequence[str], lit: int, width_px: float, called: Mapping[str, str]) -> None:
-    """Draw the lines in the current font, which has a fixed width.
+def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> None:
+    """Draw the lines in the current font.
 
-    lit: the number of the line about to run.
-    width_px: of the highlight; longer lines go on in the next row.
-    called: sources of functions, by name.
+    lit: for the numbers of the highlighted lines, their opacity; one for the line about to run.
+    width_px: of the highlight.
     """
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter, line_px = imgui.calc_text_size("0").x, LINE * imgui.get_font_size()
     bar, margin = 0.7 * letter, 0.5 * (line_px - imgui.get_text_line_height())
-    letters, names = letters_in(width_px, imgui.get_font_size()), tuple(called)
-    rows = [(number, row) for number, line in enumerate(lines) for row in broken(line, letters)]
-    for place, (number, text) in enumerate(rows):
-        low = corner + ImVec2(0, place * line_px)
-        if number == lit:
-            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE), theme.u32(theme.RAY)
+    for number, text in enumerate(lines):
+        low = corner + ImVec2(0, number * line_px)
+        if part := lit.get(number, 0.0):
+            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE, part), theme.u32(theme.RAY, part)
             draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
             draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
-        for column, word in code_words(text, names):
-            at = low + ImVec2(2 * bar + column * letter, margin)
+        for column, word in code_words(text):
+            at = low + ImVec2(2 * bar + imgui.calc_text_size(text[:column]).x, margin)
             draw.add_text(at, theme.u32(_color(word)), word)
-            if word in called:
-                _call(draw, at, word, called[word])
-    imgui.dummy((width_px, len(rows) * line_px))
-
-
-def _call(draw: imgui.ImDrawList, at: ImVec2, name: str, source: str) -> None:
-    """Underline a function's name, and show its source under the mouse."""
-    far = at + imgui.calc_text_size(name)
-    y = far.y - theme.px(1)
-    draw.add_line((at.x, y), (far.x, y), theme.u32(theme.PLAIN, 0.8), theme.line_px())
-    if imgui.is_window_hovered() and imgui.is_mouse_hovering_rect(at, far):
-        imgui.set_tooltip(source)
+    imgui.dummy((width_px, len(lines) * line_px))
 
 
 def letters_in(width_px: float, size_px: float) -> int:
@@ -62,9 +47,10 @@ def letters_in(width_px: float, size_px: float) -> int:
     return max(12, int((width_px - 0.9 * size_px) / math.ceil(0.5 * size_px)))
 
 
-def row_count(lines: Sequence[str], letters: int) -> int:
-    """Return the number of rows of the lines, each so many letters long."""
-    return sum(len(broken(line, letters)) for line in lines)
+def code_size(lines: Sequence[str]) -> ImVec2:
+    """Return the room that code() needs for the lines, in the current font."""
+    width = max(imgui.calc_text_size(line).x for line in lines) + 2.4 * imgui.calc_text_size("0").x
+    return ImVec2(width, len(lines) * LINE * imgui.get_font_size())
 
 
 def _color(word: str) -> ImVec4:
@@ -74,7 +60,7 @@ def _color(word: str) -> ImVec4:
 
 
 @functools.lru_cache(maxsize=256)
-def code_words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...]:
+def code_words(text: str) -> tuple[tuple[int, str], ...]:
     """Split a line into parts, with the column of each: coloured names, and the text between
     them.
     """
@@ -85,7 +71,7 @@ def code_words(text: str, called: tuple[str, ...]) -> tuple[tuple[int, str], ...
     indent = len(text) - len(text.lstrip())
     words, after = [], 0
     for token in tokens:
-        if token.type == tokenize.NAME and token.string in (*NAMED, *called):
+        if token.type == tokenize.NAME and token.string in NAMED:
             start = indent + token.start[1]
             words += [(after, text[after:start]), (start, token.string)]
             after = start + len(token.string)

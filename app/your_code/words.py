@@ -11,7 +11,7 @@ import numpy as np
 
 from app.checking.checked import TaskResult
 from app.checking.kinds.values import text_of
-from app.checking.reports.told import diagnosis_told, told
+from app.checking.reports.told import told
 from app.checking.tasks import CheckTask
 from app.state.options import Pixel
 from app.your_code.model import BASIS, CodeRays
@@ -120,7 +120,7 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
             found = others  # of the task's many cameras
         if found is None and tried is None:
             yield ToldLine("dim", "looking for the reason ...")
-        for sentence in diagnosis_told(rays.task, found):
+        for sentence in found.sentences if found else ():
             yield ToldLine("text", sentence)
         if is_basis and result.first is not None:
             yield ToldLine("code", f"yours    {result.first.given}")

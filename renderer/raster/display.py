@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from renderer.raster.resources import Owner, new_texture
 from renderer.raster.screen_pass import cover, new_array, plain_state, set_uniforms
 
+SQUARES = 32
 COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
@@ -23,7 +24,8 @@ class Look:
     """The appearance of an image. channel, component: the part that is shown.
 
     exposure_ev, transfer: of the colour. tinted: a single component in its own colour, otherwise
-    gray.
+    gray. dissolved: 0 to 1, how far the image has dissolved into flat squares, each with the value
+    of its middle, until there are SQUARES of them in a row.
     """
 
     channel: Literal["color", "depth", "normal", "id"] = "color"
@@ -31,6 +33,7 @@ class Look:
     transfer: Literal["srgb", "linear"] = "srgb"
     component: Literal["rgb", "red", "green", "blue"] = "rgb"
     tinted: bool = False
+    dissolved: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,7 @@ class Display:
                 tinted=look.tinted,
                 origin=section.origin,
                 texels_per_pixel=section.texels_per_pixel,
+                square=max(1.0, source.width / SQUARES) ** look.dissolved,
             )
 
     def release(self) -> None:
@@ -98,7 +102,7 @@ class Display:
             "SHOWS_NORMAL": look.channel == "normal",
             "IS_LINEAR": look.channel == "color" and look.transfer == "linear",
             "IS_WHOLE": look.component == "rgb" or not has_components,
-            "AVERAGED": section.averaged,
+            "AVERAGED": section.averaged and not look.dissolved,
         }
         key = tuple(constants.values())
         if key not in self._screens:

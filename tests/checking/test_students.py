@@ -51,8 +51,8 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, bool | None]] = {
         *("w points backwards",) * 2,
         True,
     ),
-    "forgot_d": ([("camera.distance * w", "w")], "The image plane is at cam.d, not at 1", "", True),
-    "point": ([("d = us", "d = e + us")], "subtract cam.e", "", True),
+    "forgot_d": ([("camera.distance * w", "w")], "is at camera.d, not at 1", "", True),
+    "point": ([("d = us", "d = e + us")], "subtract camera.e", "", True),
     "ij": (
         [("(j +", "(row +"), ("(i +", "(j +"), ("(row +", "(i +")],
         *("the column j gives u, the row i gives v",) * 2,
@@ -89,8 +89,8 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, bool | None]] = {
     ),
     "v_flipped": (
         [("+ vs * v", "- vs * v")],
-        "v points up: the direction has + v*cam.v",
-        "v points up: the origin has + v*cam.v",
+        "v points up: the direction has + v*camera.v",
+        "v points up: the origin has + v*camera.v",
         True,
     ),
     "camera_space": (
@@ -117,7 +117,7 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, bool | None]] = {
     "square_pixels": (
         [("(camera.top - camera.bottom) * (i + 0.5) / height",
           "(camera.right - camera.left) * (i + 0.5) / width")],
-        *("Pixels need not be square: a row is (top - bottom) / H high.",) * 2,
+        *("Pixels need not be square: a row is (camera.top - camera.bottom) / H high.",) * 2,
         True,
     ),
     "symmetric": (
@@ -152,7 +152,7 @@ WRONG_RAYS: dict[str, tuple[Edits, str, str, bool | None]] = {
 
 # Edits of one function of right05_values: the task, the edit, and the phrase.
 WRONG_VALUES = [
-    ("basis", "np.cross(up, w)", "np.cross(w, up)", "cam.u = cross(up, cam.w), in this order"),
+    ("basis", "np.cross(up, w)", "np.cross(w, up)", "u = cross(up, w), in this order"),
     ("basis", "np.subtract(target, eye)", "np.array(target, float)", "The target is a point"),
     ("basis", "np.cross(w, u), w", "np.array(up) / norm(up), w", "up only says which way is up"),
     ("basis", "np.cross(w, u), w", "np.cross(w, u), -w", "w points back"),

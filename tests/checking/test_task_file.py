@@ -122,7 +122,7 @@ def test_what_such_tasks_ask(tmp_path):
 
 MISTAKES = {
     'kind = "rays"': (6, "tasks[1].kind", "'rays' is unknown"),
-    "points = -1": (7, "tasks[1].points", "expected `float` >= 0"),
+    "points = -1": (7, "tasks[1].points", "expected a number >= 0"),
     'function = "a b"': (7, "tasks[1].function", "'a b' is no name"),
     'arguments = ["i", "k"]': (7, "tasks[1].arguments[1]", "'k' is unknown"),
     "arguments = []": (7, "tasks[1].arguments", "is empty"),
@@ -134,7 +134,7 @@ MISTAKES = {
     "cameras = []": (7, "tasks[1].cameras", "is empty"),
     "cases = 0": (7, "tasks[1].cases", "there are no views"),
     "size = [500, 500]": (7, "tasks[1].size", "500000"),
-    "seed = -1": (7, "tasks[1].seed", "expected `int` >= 0"),
+    "seed = -1": (7, "tasks[1].seed", "expected a whole number >= 0"),
     "pixels_from = 2": (7, "tasks[1].pixels_from", "2 is unknown"),
     "weight = 1": (7, "tasks[1].weight", "did you mean 'weights'"),
     "unit = 1": (7, "tasks[1].unit", "give true or false"),
@@ -165,8 +165,8 @@ def test_mistakes_name_file_line_and_field(tmp_path, line):
 OTHERS = {
     "tasks = []": ("1: tasks", "holds 0 tasks"),
     "title = 3": ("1: title", "give text"),
-    "seconds = 0\n" + RAYS: ("1: seconds", "expected `float` > 0"),
-    "memory_mb = 1\n" + RAYS: ("1: memory_mb", "expected `int` >= 64"),
+    "seconds = 0\n" + RAYS: ("1: seconds", "expected a number > 0"),
+    "memory_mb = 1\n" + RAYS: ("1: memory_mb", "expected a whole number >= 64"),
     '[conventions]\ncamera = { a = "b" }\n' + RAYS: ("2: conventions.camera.a", "unknown"),
     "[conventions]\nrow = 1\n" + RAYS: ("2: conventions.row", "did you mean 'rows'"),
     '[[tasks]]\nkind = "basis"\ncameras = ["turned"]': ("3: tasks[0].cameras", "no cameras"),

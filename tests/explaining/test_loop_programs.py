@@ -16,10 +16,9 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
 from app.state.app_state import AppState
 from app.stepper import loop_parts, raster_parts
-from app.stepper.listing import shown_lines
 from app.stepper.loop_parts import Model
 from app.stepper.recording import Order
-from app.stepper.source import source_of
+from app.stepper.source import shown_lines, source_of
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 

@@ -30,9 +30,8 @@ from app.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
 from app.probe.model import Probe
 from app.state.options import Notation
 from app.stepper import loop_parts, raster_parts
-from app.stepper.listing import shown_lines
 from app.stepper.recording import Order
-from app.stepper.source import shown_code, source_of
+from app.stepper.source import shown_code, shown_lines, source_of
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 

@@ -115,7 +115,7 @@ DRAW = {
     "painting parts pixel_plane tint tools widening",
     "objects": "handles in_views inspector material_fields outliner value_fields",
     "probe": "",
-    "stepper": "controls listing numbers plan",
+    "stepper": "controls drawing numbers pictures questions",
     "costs": "plots",
     "your_code": "code_pictures",
     "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",

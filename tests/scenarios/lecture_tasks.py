@@ -161,7 +161,7 @@ def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
 
     def walked() -> tuple[Moment, list[float]]:
         d.settle()
-        rays = [one for one in outside.primitives if one.name == "image ray"]
+        rays = [one for one in outside.primitives if one.name == "ray"]
         return stepper.moments[Order.IMAGE], rays[0].points.ravel().tolist() if rays else []
 
     before, ray = walked()

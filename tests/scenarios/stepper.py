@@ -98,15 +98,15 @@ def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
 
 def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
     enter(d, steps=(0, 0), canvas=(16, 12), order="both")
-    assert strokes(d, "image ray") == strokes(d, "raster triangle") == 0
+    assert strokes(d, "ray") == strokes(d, "triangle") == 0
     for name in ("object", "pixel", "step", "step", "step", "step"):
         press(d, name)
     d.settle()
-    assert strokes(d, "image ray") > 0
-    assert strokes(d, "raster triangle") > 0 and strokes(d, "bounding box") > 0
+    assert strokes(d, "ray") > 0
+    assert strokes(d, "triangle") > 0 and strokes(d, "bounding box") > 0
     d.window.shell.stage.show(STEPPER, False)
     d.ctx.yield_(4)
-    assert strokes(d, "image ray") == strokes(d, "raster triangle") == 0
+    assert strokes(d, "ray") == strokes(d, "triangle") == 0
     d.window.shell.stage.show(STEPPER)
     d.ctx.yield_(4)
 
@@ -143,17 +143,18 @@ def drive_the_palette_and_the_keys_step(d: Driver) -> None:
     leave(d)
 
 
-def drive_the_same_lines_stand_beside_it_in_julia(d: Driver) -> None:
-    enter(d, steps=(0, 0), canvas=(16, 12), order="image")
+def drive_the_same_lines_in_julia_and_the_depth_buffer(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="both")
     d.ctx.item_click(f"{WINDOW}/Julia")
+    d.ctx.item_click(f"{WINDOW}/depth")
     d.ctx.yield_(2)
-    assert d.window.state.options.language == "julia"
+    options = d.window.state.options
+    assert options.language == "julia" and options.stepper.depth
     for _ in range(3):
-        press(d, "step")  # with two listings in the panel as with one
+        press(d, "step")
     assert view(d).moments[Order.IMAGE].step == 3
     d.ctx.item_click(f"{WINDOW}/Julia")
+    d.ctx.item_click(f"{WINDOW}/depth")
     d.ctx.yield_(2)
     assert d.window.state.options.language == "python"
-    d.window.undo()
-    assert d.window.state.options.language == "julia"
     leave(d)

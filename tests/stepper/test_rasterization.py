@@ -75,7 +75,8 @@ def test_spheres_are_there_before_the_triangles() -> None:
     ball = SceneObject(Sphere((0.4, 0.1, -3.4), 0.7), Material((0.1, 0.9, 0.1)))
     run = recorded(Scene((SceneObject(wall), ball), LIGHT), Order.RASTER)
     begun = moment_at(run, 2)
-    assert begun.counters.tests == 0 and begun.counters.writes == np.isfinite(begun.depth).sum() > 0
+    drawn = (begun.canvas != run.model.background).any(axis=2)
+    assert np.array_equal(drawn, np.isfinite(begun.depth)) and drawn.any()
 
 
 # What is cut off.
@@ -235,7 +236,8 @@ def test_the_box_of_a_triangle_is_its_corners() -> None:
 
 def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
     run = recorded(TWO_BOXES, Order.RASTER)
-    steps = [int(step) for step in run.test_steps.upto(len(run.test_steps))]
+    tested = next(n for n, line in enumerate(run.source.lines) if "ec = edge" in line)
+    steps = [step + 1 for step, line in enumerate(run.lines.upto(len(run))) if line == tested]
     seen = set()
     for step in steps[:: max(1, len(steps) // 60)]:
         now = moment_at(run, step)
@@ -245,8 +247,6 @@ def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
         notes = {one.name: one.note for one in now.variables if one.note}
         assert set(notes) == {"ea", "eb", "ec"}
         inside = set(notes.values()) == {"inside"}
-        test = now.tests[-1]
-        assert test.pixel == now.pixel and (test.t < math.inf) == inside
         line = run.source.lines[moment_at(run, step + 1).line]
         assert line.lstrip().startswith("z = ") == inside
         seen.add(inside)
@@ -257,22 +257,20 @@ def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
 def test_a_pixel_on_an_edge_is_inside_and_its_test_gives_the_t_that_is_written() -> None:
     twice_as_far = replace(SQUARE_SEEN, eye=(0, 0, 1), viewport=(-0.2, 0.2, -0.2, 0.2))
     run = recorded(SQUARE, Order.RASTER, twice_as_far, (9, 9))
-    t = run.test_t.upto(len(run.test_t))
     inside = run.source.lines.index(next(one for one in run.source.lines if " z = " in one))
-    assert np.isfinite(t).sum() == (run.lines.upto(len(run)) == inside).sum() > 81
+    assert (run.lines.upto(len(run)) == inside).sum() > 81
+    t = run.values["t"][1]
     written = run.depth_t.upto(len(run.depth_t))
     assert len(written) == 81 and np.isin(written, t).all()
 
 
-def test_the_tests_are_those_of_the_boxes() -> None:
+def test_the_turns_are_those_of_the_triangles_and_of_their_boxes_pixels() -> None:
     run = recorded(TWO_BOXES, Order.RASTER)
     counted = 0
     for triangle in triangles(run.model, run.camera):
         rows, columns = box_around(*project(triangle, run.camera, SIZE), SIZE)
         counted += len(rows) * len(columns)
-    counters = last(run).counters
-    assert counters.tests == counted > counters.writes > 0
-    assert counters.overwrites > 0  # the far box comes first
+    assert len(run.pixel_steps) == counted > len(run.write_steps) > 0
     begun = run.object_steps.upto(len(run.object_steps))
     turns = [moment_at(run, int(step)).triangle.primitive for step in begun]
     assert turns == list(range(24))

@@ -14,7 +14,7 @@ from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay
 from app.stepper.loops import image_order, rasterization
 from app.stepper.model import moment_at
 from app.stepper.raster_parts import Corner, triangles
-from app.stepper.recording import Order, Recording
+from app.stepper.recording import Order
 from renderer.camera import Camera
 from renderer.compare import compare_frames
 from renderer.frame import CHANNELS
@@ -67,11 +67,8 @@ def test_lines_are_run_in_the_loops_order(order: Order) -> None:
     lines = [moment_at(run, step).line for step in range(len(run))]
     assert lines[0] == 1 and source.lines[lines[-1]] == "    return canvas"
     assert set(lines) == set(range(1, len(source.lines)))
-    tested = "ec = edge(a, b, q)" if order is Order.RASTER else "intersect(object, ray)"
-    assert tested in source.lines[source.test]
-    assert source.lines[source.write].lstrip().startswith("canvas[i, j] = ")
     outer, inner = source.pixels, source.objects
-    if order.has_depth:
+    if order is Order.RASTER:
         outer, inner = inner, outer
     assert source.lines[outer.header].startswith("    ") and outer.runs(inner.header)
     assert not inner.runs(outer.header)
@@ -92,27 +89,18 @@ def test_of_two_things_in_one_place_the_first_is_seen(order: Order) -> None:
 
 @pytest.mark.parametrize("order", Order)
 def test_every_moment_follows_from_the_one_before(order: Order) -> None:
-    """The canvas, the depth buffer and the counters change by what the line before says."""
+    """The canvas and the depth buffer change by what the line before says."""
     run = recorded(SCENES[order], order, size=(6, 5))
     before = moment_at(run, 0)
-    assert before.counters == stepper.Counters(0, 0, 0)
-    written: set[tuple[int, int]] = set()
     for step in range(1, len(run)):
         now = moment_at(run, step)
         assert now.step == step
-        tests = now.counters.tests - before.counters.tests
-        assert tests == (before.line == run.source.test)
-        wrote = before.line == run.source.write
-        assert now.counters.writes - before.counters.writes == wrote
-        if wrote:
+        if run.source.lines[before.line].lstrip().startswith("canvas[i, j]"):
             assert before.pixel is not None
             expected = before.canvas.copy()
             expected[before.pixel] = now.canvas[before.pixel]
             assert np.array_equal(now.canvas, expected, equal_nan=True)
             assert np.isfinite(now.canvas[before.pixel]).all()
-            again = now.counters.overwrites - before.counters.overwrites
-            assert again == (before.pixel in written)
-            written.add(before.pixel)
         elif before.line > 4:
             assert np.array_equal(now.canvas, before.canvas, equal_nan=True)
         if now.depth is not None and before.depth is not None:
@@ -123,8 +111,6 @@ def test_every_moment_follows_from_the_one_before(order: Order) -> None:
     assert before.finished
     assert not moment_at(run, len(run) - 2).finished
     assert moment_at(run, -5).step == 0 and moment_at(run, 10**9).step == len(run) - 1
-    if order is Order.IMAGE:  # each object at each pixel, each pixel once
-        assert before.counters == stepper.Counters(6 * 5 * len(run.model.objects), 6 * 5, 0)
 
 
 def test_what_is_not_yet_set_shows() -> None:
@@ -132,7 +118,7 @@ def test_what_is_not_yet_set_shows() -> None:
     by_image, by_object = (recorded(SCENES[order], order) for order in (Order.IMAGE, Order.RASTER))
     halfway = moment_at(by_image, len(by_image) // 2)
     unset = np.isnan(halfway.canvas).all(axis=2).ravel()
-    assert np.array_equal(unset, np.arange(300) >= halfway.counters.writes)
+    assert np.array_equal(unset, np.arange(300) >= by_image.write_steps.count_upto(halfway.step))
     assert halfway.depth is None
     cleared = moment_at(by_object, by_object.object_steps[0])
     assert (cleared.canvas == (0.25, 0.5, 0.75)).all()
@@ -166,34 +152,14 @@ def test_variables_are_the_lectures(projection: str) -> None:
     assert checked > 30
 
 
-@pytest.mark.parametrize("order", list(Order))
-def test_values_of_the_turn_before_are_stale_until_they_are_set(order: Order) -> None:
-    run = recorded(SCENES[order], order, size=(5, 4))
-    turns = run.pixel_steps.upto(len(run.pixel_steps)).tolist()
-    own = {"x", "y", "ray", "hit"} if order is not Order.RASTER else {"q", "ea", "eb", "ec"}
-    for step in turns[1:]:
-        values = {one.name: one.stale for one in moment_at(run, step).variables}
-        assert all(values[name] for name in own & values.keys()), step
-        assert not values["i"] and not values["j"]
-    seen: set[str] = set()
-    for step in range(turns[1], turns[2]):
-        for one in moment_at(run, step).variables:
-            if one.changed:
-                seen.add(one.name)
-            if one.name in own:
-                assert one.stale == (one.name not in seen) or one.name == "hit", (step, one)
-
-
-def test_the_tests_of_a_pixel() -> None:
-    by_image = recorded(TWO_BALLS, Order.IMAGE)
-    middle = stepper.step_of_pixel(by_image, (7, 10), 0)
-    assert middle is not None
-    writes = by_image.write_steps.upto(len(by_image.write_steps))
-    moment = moment_at(by_image, int(writes[writes > middle][0]) - 1)
-    assert moment.line == by_image.source.write
-    assert [(test.pixel, test.object) for test in moment.tests] == [((7, 10), 0), ((7, 10), 1)]
-    far, near = moment.tests
-    assert near.t < far.t < math.inf
+def test_the_ray_s_closest_hit_so_far() -> None:
+    run = recorded(TWO_BALLS, Order.IMAGE)
+    turn = next(s for s in run.pixel_steps.upto(300) if moment_at(run, s).pixel == (7, 10))
+    turns = run.object_steps.upto(len(run.object_steps))
+    first = turns[turns > turn][:2]
+    assert moment_at(run, turn).t == moment_at(run, first[0]).t == math.inf
+    far = moment_at(run, first[1]).t
+    assert moment_at(run, first[1] + 3).t < far < math.inf
 
 
 # Ways to go on.
@@ -212,21 +178,6 @@ def test_going_to_the_next_pixel_and_object() -> None:
         step = stepper.next_object(run, step)
         objects.append((moment_at(run, step).pixel, moment_at(run, step).object))
     assert objects == [((0, 0), 0), ((0, 0), 1), ((0, 1), 0), ((0, 1), 1)]
-
-
-def test_a_pixel_s_next_turn_is_after_the_step_or_else_its_first() -> None:
-    """In object order a pixel has one in each triangle's box."""
-    run = recorded(TWO_BOXES, Order.RASTER)
-    turns = [stepper.step_of_pixel(run, (7, 10), 0)]
-    while (step := stepper.step_of_pixel(run, (7, 10), turns[-1])) != turns[0]:
-        assert step > turns[-1]
-        turns.append(step)
-    assert {moment_at(run, step).object for step in turns} == {0, 1}
-    assert all(moment_at(run, step).pixel == (7, 10) for step in turns)
-    assert stepper.step_of_pixel(run, (7, 10), turns[0] - 1) == turns[0]
-    assert stepper.step_of_pixel(run, (0, 0), 0) is None  # in no box
-    begun = Recording(run.model, run.camera, SIZE, Order.RASTER)
-    assert stepper.step_of_pixel(begun, (7, 10), 0) is None
 
 
 def test_values_are_told_in_a_few_characters() -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK, CheckTask
-from app.explaining.symbols import arguments, words
+from app.explaining.symbols import arguments
 from renderer.errors import one_line, visible
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def told(result: TaskResult) -> Told:
     diagnosis = result.diagnosis if feedback == 3 else None
     return Told(
         "wrong",
-        diagnosis_told(result.task, result.diagnosis) if feedback == 3 else (),
+        diagnosis.sentences if diagnosis else (),
         f"{result.wrong} of {result.cases} cases {'is' if result.wrong == 1 else 'are'} wrong",
         _shown(result),
         result.task.function,
@@ -94,11 +94,6 @@ def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
         {"mistake": mistake.name, "reply": mistake.hint, "read": mistake.part}
         for mistake in diagnosis.candidates[0]
     )
-
-
-def diagnosis_told(task: CheckTask, found: Diagnosis | None) -> tuple[str, ...]:
-    """Return the sentences of a diagnosis in the task's notation."""
-    return tuple(words(one, task.notation) for one in found.sentences) if found else ()
 
 
 def _shown(result: TaskResult) -> WrongCase | None:

@@ -11,6 +11,8 @@ import contextlib
 import functools
 import json
 import linecache
+import numbers
+import operator
 import os
 import queue
 import sys
@@ -213,13 +215,50 @@ class Values(types.SimpleNamespace, Mapping):
         return len(self.__dict__)
 
 
+def _with(operation):
+    """Return a method that combines a vector with another one, number by number."""
+
+    def combined(self, other):
+        if isinstance(other, (tuple, list)) and len(other) == len(self):
+            return Vector(map(operation, self, other))
+        if operation is operator.add and isinstance(other, tuple):
+            return (*self, *other)  # eye + (1,), as tuples are
+        return NotImplemented
+
+    return combined
+
+
+def _scaled(operation):
+    """Return a method that scales a vector."""
+
+    def scaled(self, number):
+        if not isinstance(number, numbers.Number):
+            return NotImplemented
+        return Vector(operation(part, number) for part in self)
+
+    return scaled
+
+
+class Vector(tuple):
+    """Numbers that can be added, subtracted and scaled, as in a formula: eye + x*u + y*v."""
+
+    __slots__ = ()
+    __add__, __radd__ = _with(operator.add), _with(lambda mine, its: its + mine)
+    __sub__, __rsub__ = _with(operator.sub), _with(lambda mine, its: its - mine)
+    __mul__ = __rmul__ = _scaled(operator.mul)
+    __truediv__ = _scaled(operator.truediv)
+
+    def __neg__(self):
+        return -1 * self
+
+
 @functools.lru_cache(None)
 def kind_of(name):
     return type(name.title().replace("_", "") or "Values", (Values,), {})
 
 
 def made(value, name, as_array=False):
-    """Return an argument: objects for dicts, and tuples or NumPy arrays for lists."""
+    """Return an argument: objects for dicts, and vectors, tuples or NumPy arrays for lists."""
     if isinstance(value, dict):
         return kind_of(name)(**{key: made(part, key) for key, part in value.items()})
     if not isinstance(value, list):
@@ -228,6 +267,8 @@ def made(value, name, as_array=False):
         import numpy
 
         return numpy.array(value)
+    if all(isinstance(part, numbers.Number) for part in value):
+        return Vector(value)
     one = name[:-1] if name.endswith("s") else name
     return tuple([made(part, one) for part in value])
 

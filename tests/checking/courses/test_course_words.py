@@ -123,7 +123,7 @@ def test_letters_are_told_as_the_course_calls_them(tmp_path) -> None:
         (result,) = check(student, [task])
     lines = told(result).lines
     assert any("they are exchanged" in line for line in lines)
-    assert "Here j is your `i` and i is your `j`." in lines
+    assert any("+ i*camera.pixel_delta_u + j*camera.pixel_delta_v" in line for line in lines)
 
 
 def test_words_without_lines_of_their_own_are_told_by_the_contract() -> None:

@@ -63,7 +63,7 @@ def wrong_row_first(i, j, camera):
 
 
 def wrong_no_focus_dist(i, j, camera):
-    """get-ray-positionable: distance"""
+    """get-ray-positionable: focus_dist"""
     center = np.array(camera.lookfrom)
     viewport_height = 2 * math.tan(math.radians(camera.vfov) / 2)
     viewport_width = viewport_height * camera.image_width / camera.image_height

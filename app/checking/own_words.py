@@ -1,0 +1,143 @@
+"""A diagnosis in the task's words, whose code runs in the file that `--starter` wrote."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import keyword
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from app.checking.conventions import CAMERA, PAIRS, Conventions
+from app.checking.mistakes.diagnosis import AS_IF
+from app.checking.mistakes.program import Program
+from app.checking.mistakes.rays import RayTask, ray_program
+from app.checking.mistakes.render import render_program
+from app.checking.mistakes.value_programs import value_program
+from app.checking.mistakes.vectors import FUNCTIONS
+from app.checking.ray_words import LETTERS, ray_task
+from app.checking.tasks import CheckTask
+from app.explaining.symbols import arguments, program
+
+# The parts of a word's value, by their names in the programs.
+_PARTS: Mapping[str, Mapping[str, str]] = {
+    **{pair: {part: f"[{k}]" for k, part in enumerate(parts)} for pair, parts in PAIRS.items()},
+    "size": {"width": "[0]", "height": "[1]"},
+    "viewport": {"left": "[0]", "right": "[1]", "bottom": "[2]", "top": "[3]"},
+    "point": {"X": "[0]", "Y": "[1]", "Z": "[2]"},
+    "rgb": {"red": "[..., 0]", "green": "[..., 1]", "blue": "[..., 2]"},
+    "scene": {"objects": ".objects", "background": ".background"},
+}
+_NAME = re.compile(r"(?<![\w.'])[A-Za-z_]\w*")
+_PIXEL = re.compile(r" ?\b([ij])\b")  # in the words of a hint
+_PYTHON = {*dir(builtins), *keyword.kwlist}
+
+
+def programs(task: CheckTask) -> list[Program]:
+    """Return the programs whose mistakes are looked for: one, or one for each projection."""
+    its = task.conventions
+    if task.kind in ("viewing-ray", "render"):
+        made = ray_program if task.kind == "viewing-ray" else render_program
+        rays = asked_rays(task)
+        return [made(replace(rays, projection=projection)) for projection in task.projections]
+    more = task.weights, task.inclusive, its.base, task.column_major, task.stride
+    return [value_program(task.kind, *more)]
+
+
+def asked_rays(task: CheckTask) -> RayTask:
+    """Return how rays are asked for. The loops of an image count from 0, whatever the base is."""
+    its = task.conventions
+    return ray_task(replace(its, base=0) if task.kind == "render" else its)
+
+
+def functions(task: CheckTask) -> set[str]:
+    """Return the names of the functions in the correct lines; the starter defines them."""
+    names = {name for its in programs(task) for name in _NAME.findall(its.source())}
+    return names & FUNCTIONS.keys()
+
+
+def shown_name(task: CheckTask, name: str, word: str) -> str:
+    """Return an argument or a field in the task's notation, unless the course has named it."""
+    return arguments(name, task.notation) if name == word else name
+
+
+def own_names(task: CheckTask) -> dict[str, str]:
+    """Return what each name of the programs is called in the student's function: the task's name
+    for what it passes, and the notation's for what the lines compute.
+    """
+    computed = {
+        node.id
+        for its in programs(task)
+        for node in ast.walk(ast.parse(its.source()))
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+    computed |= {"i", "j"} if task.kind == "render" else set()
+    given = {name: text for name, text in _given(task) if name not in computed}
+    taken = {_NAME.findall(text)[0] for text in given.values()} | functions(task)
+    own: dict[str, str] = {}
+    letters = {name: program(name, task.notation).removeprefix("cam.") for name in computed}
+    for name in sorted(computed, key=lambda name: (letters[name] != name, name)):
+        own[name] = next(text for text in (letters[name], name, f"{name}_") if text not in taken)
+        taken.add(own[name])
+    return given | own
+
+
+def _given(task: CheckTask) -> Iterator[tuple[str, str]]:
+    """Yield the names of what the task passes, and their texts."""
+    for name, word in task.conventions.arguments:
+        text = shown_name(task, name, word)
+        yield from _parts(word, text)
+        if word == CAMERA:
+            for field, meant in task.conventions.camera:
+                yield from _parts(meant, f"{text}.{shown_name(task, field, meant)}")
+
+
+def _parts(word: str, text: str) -> Iterator[tuple[str, str]]:
+    yield LETTERS.get(word, word), text
+    for part, at in _PARTS.get(word, {}).items():
+        yield part, text + at
+
+
+def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
+    """Return sentences in the task's names and notation.
+
+    A formula is shown only if it runs in the starter: if the task passes all of its values, and the
+    correct lines have its functions.
+    """
+    own = own_names(task)
+    known = _PYTHON | functions(task) | own.keys()
+    told = []
+    for sentence in sentences:
+        if sentence.startswith(AS_IF):
+            *wrong, right = sentence.split("`")[1::2]
+            if not all(map(known.issuperset, map(_NAME.findall, wrong))):
+                sentence = f"It should read `{right}`."
+            if not known.issuperset(_NAME.findall(right)):
+                continue
+        told.append(_in_words(task, own, sentence))
+    return tuple(told)
+
+
+def _in_words(task: CheckTask, own: Mapping[str, str], sentence: str) -> str:
+    """Return a sentence with the task's names in its code, and for a pixel's i and j."""
+
+    def named(found: re.Match[str]) -> str:
+        return own.get(found[0]) or program(found[0], task.notation)
+
+    def place(found: re.Match[str]) -> str:
+        name = own.get(found[1], "")
+        return found[0] if name == found[1] else found[0][:-1] + f"`{name}`" if name else ""
+
+    parts = (_of_k(task.conventions, sentence) if task.conventions.vision else sentence).split("`")
+    parts[::2] = [_PIXEL.sub(place, prose) for prose in parts[::2]]
+    parts[1::2] = [_NAME.sub(named, code) for code in parts[1::2]]
+    return "`".join(parts)
+
+
+def _of_k(conventions: Conventions, sentence: str) -> str:
+    """Return a sentence on half a pixel for a K whose integers are at the pixels' centres."""
+    is_at_corners = conventions.first_center == 0.5
+    if is_at_corners or not ("0.5" in sentence or "half a pixel" in sentence):
+        return sentence
+    return f"K counts from centre to centre: the first pixel's is at {conventions.first_center:g}."
