@@ -23,7 +23,6 @@ INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
-COLUMN = LECTURE, RIGHT_SPACE  # where its text is
 OUTSIDE, LOOPS = "Outside view", "Loops"
 LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
 UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
@@ -124,22 +123,15 @@ LAYOUTS = (
         LECTURE,
         "A lecture's text, and what its step shows.",
         (
-            (MAIN, RIGHT_SPACE, RIGHT, 0.36),
+            (MAIN, RIGHT_SPACE, RIGHT, 0.33),
             (MAIN, CAMERA_SPACE, LEFT, 0.42),
-            (MAIN, LOWER_SPACE, DOWN, 0.5),
+            (MAIN, LOWER_SPACE, RIGHT, 0.5),
             (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),
 )
 CHOICES = LAYOUTS[:-1]  # a lecture chooses the last one
-
-
-def column_part(aspect: float) -> float:
-    """Return the part of the width that a lecture's column has in a room of width / height: the
-    more, the fewer letters a line would have.
-    """
-    return min(max(0.36, 0.36 + 0.16 * (2.0 - aspect)), 0.44)
 
 
 def docking(
@@ -256,16 +248,6 @@ def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
     reset()
 
 
-def docks(views: Iterable[DockedView]) -> dict[str, int]:
-    """Return ImGui's ids of the docks of the visible ones of these views; 0 for a floating view."""
-    found = {}
-    for view in views:
-        if window_of(view).is_visible:
-            window = imgui.internal.find_window_by_name(view.label)
-            found[view.name] = int(window.dock_id) if window is not None else 0
-    return found
-
-
 def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Return the position and the size of all views together, in ImGui's pixels."""
     params = hello_imgui.get_runner_params().docking_params
@@ -296,8 +278,10 @@ def _docking(
         window.call_begin_end = False
         windows.append(window)
     params.dockable_windows = windows
-    # A tab has a close button already.
-    params.main_dock_space_node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_close_button)
+    flags = imgui.internal.DockNodeFlagsPrivate_
+    # A tab has a close button already; a lecture has no tabs.
+    bare = flags.no_tab_bar if layout.name == LECTURE else flags.no_close_button
+    params.main_dock_space_node_flags = int(bare)
     return params
 
 
@@ -336,6 +320,6 @@ def _split(
     split = hello_imgui.DockingSplit()
     split.initial_dock, split.new_dock = space, new_space
     split.direction, split.ratio = direction, ratio
-    if new_space == f"{COLUMN[1]} of {LECTURE}":  # which has a title of its own
-        split.node_flags = int(imgui.DockNodeFlags_.auto_hide_tab_bar)
+    if new_space.endswith(f" of {LECTURE}"):
+        split.node_flags = int(imgui.internal.DockNodeFlagsPrivate_.no_tab_bar)
     return split

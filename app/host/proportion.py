@@ -28,12 +28,11 @@ class _Share:
     size: the space's size at that time, which ImGui rounds. Shares from rounded sizes would drift.
     settling: the frames until the new sizes are there.
     again: the frames in which they are set again.
-    known: True if the share comes from a session, not from the layout. moved: by the user.
+    known: True if the share comes from a session, not from the layout.
     """
 
     part: float = 0.5
     known: bool = False
-    moved: bool = False
     room: float = 0.0
     size: float = 0.0
     settling: int = 0
@@ -63,17 +62,7 @@ class _Share:
         elif self.settling:
             self.settling -= 1
         elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
-            self.part, self.size, self.moved = size / room, size, True
-
-    def become(self, part: float, given: float) -> None:
-        """Take a share that follows the window's shape, unless the user has set one.
-
-        given: the layout's, which is there after a reset.
-        """
-        if self.room and abs(self.part - given) * self.room <= ROUNDED_PX:
-            self.known = self.moved = False
-        if not (self.known or self.moved) and abs(part - self.part) > 1e-6:
-            self.part, self.again = part, max(self.again, 1)
+            self.part, self.size = size / room, size
 
 
 class Proportion:
@@ -98,11 +87,7 @@ class Proportion:
         """Return the spaces' shares, for a session. ImGui saves whole pixels, and the room may have
         another size at the next start.
         """
-        return {
-            "/".join(key): share.part
-            for key, share in self._shares.items()
-            if share.room and (key != layout.COLUMN or share.moved or share.known)
-        }
+        return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
 
     def restore(self, parts: dict[str, float]) -> None:
         """Restore a session's shares, before the first frame. Invalid ones are ignored."""
@@ -128,7 +113,7 @@ class Proportion:
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._keep_camera(shown.name, anew)
         upright = layout.is_upright(layout.window_px())
-        for whole, space, direction, given in shown.splits:
+        for whole, space, direction, _ in shown.splits:
             if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
             across = direction in (layout.LEFT, layout.RIGHT) and not upright
@@ -143,8 +128,6 @@ class Proportion:
             share = self._shares.setdefault(key, _Share())
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
-            if key == layout.COLUMN:
-                share.become(layout.column_part(parent.size.x / parent.size.y), given)
             other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
             share.keep(node, parent, other, across)
 

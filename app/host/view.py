@@ -65,13 +65,15 @@ class Host(Protocol):
     renderers: both images of the current state.
     files: opening and saving.
     moves: True if things may move by themselves; False while a picture of the window is taken.
-    has_tools: False in pictures that nobody can click, such as those of a page.
     """
 
     fonts: Fonts
     renderers: Renderers
     moves: bool
-    has_tools: bool
+
+    @property
+    def has_tools(self) -> bool:
+        """False if views are pictures alone: on a lecture's stage, and in pages."""
 
     @property
     def files(self) -> Filing: ...
@@ -211,10 +213,6 @@ class DockedView:
 
     def drop_pending(self) -> None:
         """Discard that entry."""
-
-    def as_set(self, state: AppState) -> AppState:
-        """Return the current state without what the view has since fitted to its size."""
-        return state
 
     def begin_anew(self) -> None:
         """Reset what the view keeps outside the state, because a lecture moved by a step."""

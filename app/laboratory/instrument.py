@@ -3,30 +3,27 @@
 from __future__ import annotations
 
 from app.host.instrument import Instrument
-from app.host.view import view_of
-from app.laboratory.displays import DISPLAYS
-from app.laboratory.pages import PAGE_TITLES
+from app.laboratory.pages import PAGES
 from app.laboratory.view import LaboratoryView
-from app.outside.view import OutsideView
 
 SYNONYMS = {
     "Image laboratory": "representations storage formats",
-    "Image laboratory: Kinds": "bitmap grayscale colour float bits bytes storage megapixel",
-    "Image laboratory: One bit": "bitmap dither dithering threshold ordered floyd steinberg",
-    "Image laboratory: Exposure": "float clipped levels high dynamic range hdr",
+    "Image laboratory: Function": "spectrum radiant energy light position",
+    "Image laboratory: Pixels and shapes": "raster vector svg zoom",
     "Image laboratory: Projectors": "light adds additive mixing discs red green blue",
-    "Image laboratory: Displays": "light screen phase cycle tube dlp lcd led oled",
-    "Image laboratory: Array": "memory row-major column-major canvas bytes numpy julia c",
-    "Image laboratory: Vector": "svg zoom",
+    "Image laboratory: Displays": "light screen phase cycle tube dlp lcd led oled subpixel",
+    "Image laboratory: Raster": "resolution pixels count",
+    "Image laboratory: Kinds": "bitmap grayscale colour float bits",
+    "Image laboratory: Exposure": "float clipped high dynamic range hdr",
+    "Image laboratory: Storage": "bytes megapixel size",
+    "Image laboratory: Array": "memory row-major column-major canvas bytes numpy julia",
+    "Image laboratory: How images are made": "pencil brush eye camera",
+    "Image laboratory: From 3D to 2D": "conundrum dimension projection",
+    "Image laboratory: From pixel to (u, v)": "ruler half pixel",
 }
 
-PAGES: dict[str, dict[str, object]] = {
-    **{f"Image laboratory: {title}": {"page": page} for page, title in PAGE_TITLES.items()},
-    **{
-        f"Display: {kind.title}": {"page": "displays", "display": name}
-        for name, kind in DISPLAYS.items()
-    },
-}
 INSTRUMENT = Instrument(
-    lambda views: [LaboratoryView(view_of(views, OutsideView))], synonyms=SYNONYMS, pages=PAGES
+    lambda views: [LaboratoryView()],
+    synonyms=SYNONYMS,
+    pages={f"Image laboratory: {kind.title}": {"page": page} for page, kind in PAGES.items()},
 )

@@ -8,30 +8,10 @@ from app.host import layout
 from app.host.view import DockedView
 from app.lecture.model import Step
 
-LAID_OUT = 8  # frames until every view has its place
 
-
-class Arrangement:
-    """Puts the views of a step into their places. count: how often it has done so."""
-
-    def __init__(self) -> None:
-        self.count = 0
-        self._frames = 0  # that were drawn since then
-        self._docks: dict[str, int] = {}  # where the views were then
-
-    def arrange(self, views: Iterable[DockedView], step: Step) -> None:
-        """Show a step's views in their places, and hide the others."""
-        layout.arrange(views, _places(step))
-        self._frames = 0
-        self.count += 1
-
-    def is_kept(self, views: Iterable[DockedView], step: Step) -> bool:
-        """Return True if the views are where they were put. Call once a frame."""
-        docks = layout.docks(views)
-        self._frames += 1
-        if self._frames <= LAID_OUT:
-            self._docks = docks
-        return docks == self._docks and set(docks) == set(_places(step))
+def arrange(views: Iterable[DockedView], step: Step) -> None:
+    """Show a step's views in their places, and hide the others."""
+    layout.arrange(views, _places(step))
 
 
 def _places(step: Step) -> dict[str, str]:

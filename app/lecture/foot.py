@@ -13,10 +13,10 @@ END = "End the lecture"
 STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
 
 
-def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
+def foot(session: LectureSession, typed: str = "") -> int | str | None:
     """Draw the foot. Return the number of the step to go to, BACK, NEXT, RESTORE, END, or None.
 
-    is_as_given: state and views are the step's own, so that there is nothing to reset.
+    typed: digits of the step to go to.
     """
     count, size, asked = len(session.lecture.steps), imgui.get_font_size(), None
     is_first, is_last = session.ends
@@ -27,7 +27,8 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
     imgui.end_disabled()
     imgui.set_item_tooltip("Back (Page Up)")
     imgui.same_line()
-    if imgui.button(f"{session.number + 1} / {count}##outline", ImVec2(PLACE_EM * size, 0)):
+    place = f"{typed or session.number + 1} / {count}###outline"
+    if imgui.button(place, ImVec2(PLACE_EM * size, 0)):
         imgui.open_popup("outline")
     imgui.set_item_tooltip("All steps")
     imgui.same_line()
@@ -38,10 +39,8 @@ def foot(session: LectureSession, is_as_given: bool) -> int | str | None:
     imgui.set_item_tooltip("On (Page Down)")
     if rows == 1:
         imgui.same_line()
-    imgui.begin_disabled(is_as_given)
     if imgui.button(f"{restore}###restore"):
         asked = RESTORE
-    imgui.end_disabled()
     imgui.set_item_tooltip("Its own scene, camera and views (Backspace)")
     chosen = _outline(session)
     return asked if chosen is None else chosen

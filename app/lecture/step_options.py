@@ -54,11 +54,6 @@ def state_of(step: Step, base: AppState) -> AppState:
     return state.with_options(**step.options)
 
 
-def is_own(step: Step, state: AppState) -> bool:
-    """Return True if nothing of the step's own state has been changed."""
-    return state_of(step, state) == state
-
-
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
     """Return the changes for AppState.with_options(). Raises LucidaError."""
     types = _types(AllOptions)

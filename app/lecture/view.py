@@ -19,7 +19,7 @@ from app.host import layout
 from app.host.view import DockedView, Host, view_of
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
-from app.lecture.arrangement import Arrangement
+from app.lecture.arrangement import arrange
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
@@ -29,7 +29,7 @@ from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
-from app.lecture.step_options import is_own, own, state_of
+from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.outside.growing import stage_at, stages_of
@@ -44,10 +44,10 @@ from app.widgets.checks import radio_button
 from app.widgets.lettering import lettering
 from app.widgets.messages import wrapped
 from renderer.errors import LucidaError
-from renderer.memo import Memo
 
 LECTURE = "Lecture"
 FADE_S = 0.5  # of a text that is added
+CONTROLS_S = 2.0  # until controls go after the mouse rests
 
 
 class LectureView(DockedView):
@@ -71,18 +71,15 @@ class LectureView(DockedView):
         self._before: AppState | None = None  # what the window showed when the lecture began
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._answered = self._begun = False
-        self._arrangement = Arrangement()
+        self.arrangements = 0  # how often the views have been put into their places
+        self._layout = ""  # the one that was shown when the lecture began
+        self._moved_s = 0.0  # when the mouse moved last
+        self._typed = ""  # digits of a step's number
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
         self._seek = False  # the text is scrolled to what was just added
         self._added_s: float | None = None  # when that was, while it fades in
         self._drawn_answer = DrawnAnswer()
-        self._is_own = Memo(is_own)
-
-    @property
-    def arrangements(self) -> int:
-        """The number of times that the views have been put into their places."""
-        return self._arrangement.count
 
     @property
     def _others(self) -> list[DockedView]:
@@ -147,7 +144,7 @@ class LectureView(DockedView):
         if self._before is not None and any(step.scene is state.scene for step in steps):
             state = state.with_scene(self._before.scene, self._before.view)
         window.change(state.with_options(preferences={"presentation": False}))
-        layout.switch(layout.LAYOUTS[0].name)
+        layout.switch(self._layout or layout.LAYOUTS[0].name)
 
     def give_builtin(self) -> None:
         """Begin the built-in lecture."""
@@ -259,19 +256,43 @@ class LectureView(DockedView):
             return
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             if host.state.step is None:  # otherwise one lecture follows another
-                self._before = host.state
+                self._before, self._layout = host.state, layout.current().name
             self.restore(host, presentation=True)
             self._begun = True
+        self._controls(host)
         if self.log is not None:
             session, size = self.session, host.renderers.size
             self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
-            self._arrangement.arrange(self._others, self.session.step)
+            arrange(self._others, self.session.step)
+            self.arrangements += 1
             self._arranged = True
             imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
             host.animate()
         self._follow_file(host, self.session)
+
+    @property
+    def shows_controls(self) -> bool:
+        """True while the mouse moves, and two seconds after it."""
+        return time.monotonic() - self._moved_s < CONTROLS_S or bool(self._typed)
+
+    def _controls(self, host: Host) -> None:
+        """Follow the mouse, and the digits of a step's number that are typed before Enter."""
+        io = imgui.get_io()
+        if host.moves and (io.mouse_delta.x or io.mouse_delta.y):
+            self._moved_s = time.monotonic()
+        if self.shows_controls:
+            host.animate()
+        if io.want_text_input or io.key_ctrl or io.key_shift or io.key_alt:
+            self._typed = ""
+            return
+        for digit in range(10):
+            if imgui.is_key_pressed(imgui.Key(int(imgui.Key._0) + digit)):
+                self._typed = (self._typed + str(digit))[-3:]
+        if self._typed and imgui.is_key_pressed(imgui.Key.enter):
+            self.go(host, int(self._typed) - 1)
+            self._typed = ""
 
     def _follow_undo(self, place: tuple[str, int, int] | None, session: LectureSession) -> None:
         """Show another step's text and views if undo or redo went into its states."""
@@ -294,19 +315,6 @@ class LectureView(DockedView):
             session.take(outcome.value.lecture)
             self.restore(host)
         session.error = outcome.value.mistake
-
-    def _is_as_given(self, host: Host, step: Step) -> bool:
-        """Return True if state and views are the step's own."""
-        state, options = host.state, host.state.options
-        if options.marked_size is not None:  # the shown image's, once there is one
-            state = replace(state, options=replace(options, marked_size=None))
-        for view in self._others:
-            state = view.as_set(state)
-        if not self._is_own(step, state):
-            return False
-        if not self._arranged:
-            return True
-        return self._arrangement.is_kept(self._others, step)
 
     # The column.
 
@@ -429,7 +437,10 @@ class LectureView(DockedView):
         return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
 
     def _foot(self, host: Host, session: LectureSession) -> None:
-        asked = foot(session, self._is_as_given(host, session.step))
+        is_shown = not host.state.preferences.presentation or self.shows_controls
+        imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
+        asked = foot(session, self._typed)
+        imgui.pop_style_var()
         if asked == END:
             self.leave(host)
         elif asked == RESTORE:

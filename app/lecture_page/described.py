@@ -9,9 +9,8 @@ from app.costs.options import CostOptions
 from app.costs.recorded import COSTS
 from app.explaining.notation import number, text_tuple
 from app.images.request import MIRROR_DEPTH
-from app.laboratory.kinds import KINDS, LECTURE_SIZE
-from app.laboratory.memory import ORDERS, PIXEL_BYTES, pixel_number
 from app.laboratory.options import LaboratoryOptions
+from app.laboratory.pages import PAGES
 from app.lecture.model import Step
 from app.mistakes.options import MistakesOptions
 from app.outside.options import OutsideOptions
@@ -26,11 +25,27 @@ from renderer.scene_editing.outline import outline
 
 SIZE = (320, 180)  # of images, where a step leaves it to the window
 MOST_NAMED = 8  # objects
-DISPLAYS = {
-    "tube": "a tube draws dots line by line, which fade",
-    "dlp": "DLP shows one colour after another",
-    "lcd": "an LCD has stripes of red, green and blue before white light",
-    "led": "LEDs are stripes that shine red, green and blue",
+LABORATORY = {
+    "function": "An image; at one of its points the spectrum of the light, schematic, and the "
+    "numbers r, g and b.",
+    "shapes": "A house, the sun and the word HOME, once as pixels, which are squares when they are "
+    "magnified, and once as shapes, which stay sharp.",
+    "projectors": "Three discs of light: red, green and blue. Where two overlap, there is yellow, "
+    "cyan or magenta; where all three overlap, white.",
+    "displays": "The same few pixels of a tube, a DLP projector, an LCD and an LED display. Below "
+    "each, the red, green and blue light of the gray pixel over a cycle: equal amounts.",
+    "raster": "An image as squares, one for each pixel, with the count of its numbers.",
+    "kinds": "An image as a bitmap, in gray, in colour or in floating point.",
+    "exposure": "An image stored as bytes and as floating point, and then exposed: clipped parts "
+    "of the bytes stay flat, the floats show what was brighter.",
+    "storage": "Bars for 1024 x 1024 pixels: bitmap 128 KB, grayscale 1 MB, colour 3 MB, floating "
+    "point 12 MB.",
+    "array": "A canvas of 3 rows and 4 columns. The cell in row 2 and column 3 is orange; in "
+    "memory, Julia has one column after another, NumPy one row after another.",
+    "devices": "A pencil and a brush, an eye, a camera; and a virtual camera: an eye and a frame.",
+    "dimension": "Points along one line through the eye slide into one pixel of a frame.",
+    "ruler": "A row of 10 pixels with rulers: for j = 7, j - 0.5 is 6.5, divided by W 0.65, minus "
+    "0.5 0.15, which is u; the same downwards for i = 3, where v is 0.25.",
 }
 TITLES = {
     "raster": "Raster image",
@@ -205,44 +220,9 @@ def _costs(step: Step, state: AppState) -> str:
 
 def _laboratory(step: Step, state: AppState) -> str:
     options = state.of(LaboratoryOptions)
-    if options.page == "kinds":
-        sizes = ", ".join(f"{one.title} {one.storage_bytes(LECTURE_SIZE):,} bytes" for one in KINDS)
-        width, height = LECTURE_SIZE
-        return f"One image, stored in five ways; {width} x {height} pixels take {sizes}."
-    if options.page == "array" and state.marked is not None:
-        size = state.images.resolution or SIZE
-        offsets = "; ".join(
-            f"{name}: {PIXEL_BYTES * pixel_number(*state.marked, size, order)} bytes"
-            for order, name in ORDERS.items()
-        )
-        where = f"Pixel {state.options.indexing.text(state.marked)} of {size[0]} x {size[1]}"
-        return f"The image's numbers in memory. {where} begins at {offsets}."
-    told = {
-        "heights": f"{_scene(step)} Its image, and below it the image's light as heights over the "
-        "plane of u and v.",
-        "bitmaps": "One image with one bit per pixel, made by threshold, ordered dither and "
-        "Floyd-Steinberg.",
-        "exposure": f"An image stored as bytes and as floats, then exposed by {options.after_ev:g} "
-        "stops: clipped parts of the bytes stay flat, the floats show what was brighter.",
-        "projectors": "Three projectors throw a red, a green and a blue picture, "
-        + (
-            f"{options.apart:g} of the image's height apart. Where two meet, their light adds to "
-            "yellow, cyan or magenta; where all three meet, to white."
-            if options.apart
-            else "exactly over each other: their light adds to white."
-        ),
-        "displays": f"How a display makes colours: {DISPLAYS[options.display]}, magnified, at "
-        f"{options.phase:g} of its cycle; what the eye sees, the mean over the cycle; and the red, "
-        "green and blue light of the marked pixel over the cycle.",
-        "vector": "One diagram as a raster image and as a vector image"
-        + (
-            f", {options.zoom:g} times as large: the pixels of the first have grown, the lines of "
-            "the second are sharp."
-            if options.zoom > 1
-            else ": both look alike."
-        ),
-    }
-    return told.get(options.page, _scene(step))
+    told, is_scene = LABORATORY[options.page], PAGES[options.page].has_image
+    stops = f" Exposed by {options.after_ev:g} stops after storage." if options.after_ev else ""
+    return f"{told}{stops} {_scene(step)}" if is_scene else told
 
 
 def _mistakes(step: Step, state: AppState) -> str:

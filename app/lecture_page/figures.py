@@ -7,7 +7,6 @@ from typing import Any
 
 from app.compare.options import CompareOptions
 from app.images.request import MIRROR_DEPTH
-from app.laboratory.options import LaboratoryOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.lecture_page.pictures import data_uri
@@ -23,7 +22,7 @@ from renderer.scene.model import Scene, View
 from renderer.scene.views import view_table
 
 IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
-# What a figure shows for a view; the laboratory's is that of its page "array".
+# What a figure shows for a view.
 SHOWN = {
     "raster": ("raster",),
     "ray": ("ray",),
@@ -31,7 +30,6 @@ SHOWN = {
     "compare": ("raster", "ray", "wipe"),
     "probe": ("probe",),
     "camera": ("controls",),
-    "laboratory": ("ray", "array"),
 }
 
 
@@ -53,9 +51,7 @@ class Figures:
 
         state: the step's. Its field "folded": the step's pictures show more than it draws.
         """
-        is_array = state.of(LaboratoryOptions).page == "array"
-        views = [one for one in step.views if one != "laboratory" or is_array]
-        shows = [name for view in views for name in SHOWN.get(view, ())]
+        shows = [name for view in step.views for name in SHOWN.get(view, ())]
         if set(shows) <= {"controls"}:
             return None
         number = self._number(step.scene)
@@ -72,11 +68,11 @@ class Figures:
             options["size"] = state.images.resolution
             if state.marked is not None:
                 options["mark"] = state.marked
-        if "compare" in views and state.of(CompareOptions).mode == "wipe":
+        if "compare" in step.views and state.of(CompareOptions).mode == "wipe":
             options["mode"] = "wipe"
         if state.of(PairOptions).value:
             options["value"] = True
-        if "outside" in views:
+        if "outside" in step.views:
             options["outside"] = _outside(step, state)
         return {
             "scene": number,

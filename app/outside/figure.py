@@ -57,7 +57,11 @@ class Polygon:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """A text. center: of its box. size: of its font. strong: bold."""
+    """A text.
+
+    center: of its box. size: of its font. strong: bold. mono: of fixed width. align: the part of
+    its width that is left of the center: 0, 0.5 or 1. rim: False if it is not on the page's ground.
+    """
 
     name: str
     text: str
@@ -65,9 +69,37 @@ class Label:
     size: float
     color: Color
     strong: bool
+    mono: bool = False
+    align: float = 0.5
+    rim: bool = True
 
 
-Part = Line | Polygon | Label
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Pixels (height, width, 3), as displayed, as flat rectangles between two corners."""
+
+    name: str
+    pixels: NDArray[np.uint8]
+    low: tuple[float, float]
+    high: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Inset:
+    """A part of another figure, magnified, between two corners of the page.
+
+    first: the point of that figure at the corner `low`. scale: its magnification.
+    """
+
+    name: str
+    figure: Figure
+    low: tuple[float, float]
+    high: tuple[float, float]
+    first: tuple[float, float]
+    scale: float
+
+
+Part = Line | Polygon | Label | Picture | Inset
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,11 +1,11 @@
-"""The outside view as a figure: for a file, and for the image laboratory.
+"""The outside view as a figure in a file.
 
-Owns the way from the window to a Sketch, in the window's thread; the figure is made in another.
+A Sketch is made on the window's thread, its figure and the file on another.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal, cast
@@ -42,10 +42,8 @@ from app.outside.view import OutsideView
 from app.widgets import theme
 from app.widgets.theme import framebuffer_scale
 from renderer.atomic import atomic_write
-from renderer.camera import Camera
 from renderer.errors import LucidaError, describe
 from renderer.images.display import to_srgb8
-from renderer.memo import Memo
 from renderer.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -76,68 +74,31 @@ class Sketch:
     picture: PlaneImage | None = None
     image: NDArray[np.uint8] | None = None
 
-    def figure(self, behind: Sequence[Item] = ()) -> Figure:
-        """Return the figure. behind: items under all others of their layer."""
+    def figure(self) -> Figure:
+        """Return the figure."""
         screen = self.screen
-        items = [*behind, *grown_diagram(self.content), *self.extra]
+        items = [*grown_diagram(self.content), *self.extra]
         plane = None if self.picture is None else self.picture.plane
         parts = figure_parts(project(items, screen), self.color, screen, self.t, plane)
         return Figure(screen.size, parts, screen.unit_px, self.ground, self.image)
 
 
-class Sketcher:
-    """Sketches of lines and labels; the same one again as long as nothing has changed."""
+def _sketch(view: OutsideView, host: Host, size: Size, ground: theme.Rgb) -> Sketch:
+    """Return the present inputs of a figure, without the scene's image.
 
-    def __init__(self) -> None:
-        self._sketch = Memo(_sketch)
-
-    def follow(
-        self,
-        view: OutsideView,
-        host: Host,
-        size: Size,
-        ground: theme.Rgb,
-        units: tuple[float, float] | None = None,
-        shape: Size | None = None,
-    ) -> Sketch:
-        """Return the present inputs of a figure, without the scene's image.
-
-        ground: the colour that the lines must contrast with. units: the width of a line and the
-        size of symbols; the view's own if not given. shape: of a page; what fits on such a page
-        fits on this one. Raises LucidaError, moderngl.Error.
-        """
-        both, state = host.renderers, host.state
-        both.need_size(state.images)
-        scale = framebuffer_scale()
-        extent = ImVec2(size[0] / scale, size[1] / scale)
-        scope = scope_of(host, size, ImVec2(0, 0), extent, view.extensions.points)
-        looking = scope.camera.fitted(shape).fitted(size) if shape else scope.shown
-        assert both.textures is not None
-        screen = OutsideScreen(looking, size, nearest(looking, scope))
-        content = replace(view.content(host, screen), grid_parts=GRID_PARTS)
-        return self._sketch(
-            both.textures.rasterizer, theme.used(), ground, state.scene, looking, size,
-            nearest(looking, scope), *(units or units_px(extent)), content, view.extra,
-        )  # fmt: skip
-
-
-def _sketch(
-    rasterizer: WindowRasterizer,
-    _: theme.WindowLook,
-    ground: theme.Rgb,
-    scene: Scene,
-    looking: Camera,
-    size: Size,
-    near: float,
-    unit: float,
-    symbol: float,
-    content: Content,
-    extra: tuple[Item, ...],
-) -> Sketch:
-    """Return a Sketch with the colours of the look in use."""
-    t = _drawn(rasterizer, ImageRequest(scene, looking, size))[1]
-    screen = OutsideScreen(looking, size, near, unit, symbol)
-    return Sketch(scene, screen, content, extra, t, partial(figure_color, ground=ground), ground)
+    ground: the colour that the lines must contrast with. Raises LucidaError, moderngl.Error.
+    """
+    both, state = host.renderers, host.state
+    both.need_size(state.images)
+    scale = framebuffer_scale()
+    extent = ImVec2(size[0] / scale, size[1] / scale)
+    scope = scope_of(host, size, ImVec2(0, 0), extent, view.extensions.points)
+    assert both.textures is not None
+    screen = OutsideScreen(scope.shown, size, nearest(scope.shown, scope), *units_px(extent))
+    content = replace(view.content(host, screen), grid_parts=GRID_PARTS)
+    t = _drawn(both.textures.rasterizer, ImageRequest(state.scene, scope.shown, size))[1]
+    color = partial(figure_color, ground=ground)
+    return Sketch(state.scene, screen, content, view.extra, t, color, ground)
 
 
 def _drawn(rasterizer: WindowRasterizer, request: ImageRequest) -> tuple[Depths, Depths]:
@@ -189,7 +150,7 @@ def export_figure(window: Window, ground: Ground) -> None:
     behind = ground_of(state.scene.background, state.images.exposure_ev)
     page: theme.Rgb = behind if ground == "window" else WHITE
     try:
-        sketch = Sketcher().follow(view, host, view.size_px or ALONE, page)
+        sketch = _sketch(view, host, view.size_px or ALONE, page)
         sketch = _with_image(sketch, host)
     except (LucidaError, moderngl.Error) as error:
         host.files.message = describe(error)

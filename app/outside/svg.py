@@ -15,9 +15,24 @@ import numpy as np
 from PIL import Image
 
 from app.outside.diagram import runs
-from app.outside.figure import DASHES, RIM, WHITE, Color, Figure, Label, Line, Part, Polygon
+from app.outside.figure import (
+    DASHES,
+    RIM,
+    WHITE,
+    Color,
+    Figure,
+    Inset,
+    Label,
+    Line,
+    Part,
+    Picture,
+    Polygon,
+)
 
 FONTS = "Roboto, Helvetica, Arial, sans-serif"
+MONO = "Roboto Mono, Consolas, Menlo, monospace"
+MONO_WIDTH = 0.5  # of a letter, in parts of its size
+ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 BLACK = (0.0, 0.0, 0.0)
 CASING, PALEST = 2.0, 0.45  # it is wider than a line by so many units; paler lines have none
 BASELINE = 0.35  # below a line's middle, in parts of the font's size
@@ -32,25 +47,44 @@ def svg(figure: Figure, title: str = "") -> str:
         f' width="{width}" height="{height}" viewBox="0 0 {width} {height}">',
         f"<title>{escape(_legal(title))}</title>",
     ]
-    box = f'width="{width}" height="{height}"'
+    return "\n".join([*lines, *_content(figure), "</svg>", ""])
+
+
+def _content(figure: Figure) -> list[str]:
+    """Return the elements of a figure: its ground, its image, its lines, its labels."""
+    box, lines = f'width="{figure.size[0]}" height="{figure.size[1]}"', []
     if figure.ground is not None:
-        lines.append(f'<rect id="ground" {box} fill="{_hex(figure.ground)}"/>')
+        lines.append(f'<rect class="ground" {box} fill="{_hex(figure.ground)}"/>')
     if figure.image is not None:
-        file = io.BytesIO()
-        Image.fromarray(figure.image).save(file, "PNG")
-        content = base64.b64encode(file.getvalue()).decode()
-        lines.append(f'<image id="scene" {box} xlink:href="data:image/png;base64,{content}"/>')
-    lines.append('<g id="lines" fill="none" stroke-linecap="round" stroke-linejoin="round">')
+        lines.append(f'<image class="scene" {box} {_png(figure.image)}/>')
+    lines.append('<g class="lines" fill="none" stroke-linecap="round" stroke-linejoin="round">')
     lines += [_element(part, figure) for part in figure.parts if not isinstance(part, Label)]
     lines.append(
-        f'</g>\n<g id="labels" font-family="{FONTS}" text-anchor="middle" stroke-linejoin="round">'
+        f'</g>\n<g class="labels" font-family="{FONTS}" text-anchor="middle"'
+        ' stroke-linejoin="round">'
     )
     rim = _hex(figure.ground or WHITE)
     lines += [_text(part, rim) for part in figure.parts if isinstance(part, Label)]
-    return "\n".join([*lines, "</g>", "</svg>", ""])
+    return [*lines, "</g>"]
 
 
-def _element(part: Line | Polygon, figure: Figure) -> str:
+def _png(pixels: np.ndarray) -> str:
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, "PNG")
+    return f'xlink:href="data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"'
+
+
+def _element(part: Line | Polygon | Picture | Inset, figure: Figure) -> str:
+    if isinstance(part, Picture | Inset):
+        x, y, width, height = map(_number, (*part.low, *np.subtract(part.high, part.low)))
+        box = f'{_name(part)} x="{x}" y="{y}" width="{width}" height="{height}"'
+    if isinstance(part, Picture):
+        look = 'preserveAspectRatio="none" style="image-rendering: pixelated"'
+        return f"<image{box} {look} {_png(part.pixels)}/>"
+    if isinstance(part, Inset):
+        seen = np.subtract(part.high, part.low) / part.scale
+        view = " ".join(map(_number, (*part.first, *seen)))
+        return "\n".join([f'<svg{box} viewBox="{view}">', *_content(part.figure), "</svg>"])
     kind = "stroke" if isinstance(part, Line) else "fill"
     look = f'{_name(part)} {kind}="{_hex(part.color)}"'
     if part.opacity < 1:
@@ -78,6 +112,10 @@ def _text(part: Label, ground: str) -> str:
     x, y = _number(part.center[0]), _number(part.center[1] + BASELINE * part.size)
     look = f'{_name(part)} x="{x}" y="{y}" font-size="{_number(part.size)}"'
     bold = ' font-weight="bold"' if part.strong and "vec(" not in part.text else ""
+    if part.mono:  # as wide as in the window
+        wide = _number(MONO_WIDTH * part.size * len(part.text))
+        look += f' font-family="{MONO}" textLength="{wide}" lengthAdjust="spacingAndGlyphs"'
+    look += f' text-anchor="{ANCHORS[part.align]}"' if part.align != 0.5 else ""
     rim = f' fill="none" stroke="{ground}" stroke-width="{_number(RIM * part.size)}"'
     text = "".join(
         f'<tspan font-weight="bold">{escape(_legal(piece))}</tspan>'
@@ -86,7 +124,8 @@ def _text(part: Label, ground: str) -> str:
         for piece, is_bold in runs(part.text, part.strong)
     )
     look += bold
-    return f'<text{look}{rim}>{text}</text>\n<text{look} fill="{_hex(part.color)}">{text}</text>'
+    letters = f'<text{look} fill="{_hex(part.color)}">{text}</text>'
+    return f"<text{look}{rim}>{text}</text>\n{letters}" if part.rim else letters
 
 
 def _name(part: Part) -> str:

@@ -90,12 +90,6 @@ class ImageView(DockedView):
     def cancel(self) -> None:
         self.linked.mouse.grab = None
 
-    def as_set(self, state: AppState) -> AppState:
-        anchor, options = self.linked.anchor, state.options
-        if anchor is None or not anchor.is_of(options.marked, options.marked_size):
-            return state
-        return state.with_options(marked=anchor.pixel, marked_size=None)
-
     def begin_anew(self) -> None:
         """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
         shared = self.linked

@@ -42,7 +42,17 @@ REMOVED: dict[str, Removed] = {
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),
-    "laboratory.table": Removed("the kinds' sizes are over their pictures", True),
+    "laboratory.table": Removed("the page Storage has the kinds' sizes", True),
+    "laboratory.method": Removed("a bitmap is made by a threshold", "floyd-steinberg"),
+    "laboratory.apart": Removed("the projectors' discs move with laboratory.progress", 0.0),
+    "laboratory.side_px": Removed("the displays' pixels are as large as there is room", 36),
+    "laboratory.zoom": Removed("laboratory.progress magnifies the page 'shapes'", 1.0),
+    "laboratory.zoom_center": Removed("the page 'shapes' has one centre", [0.5, 0.5]),
+    "laboratory.content": Removed("projectors and displays have pictures of their own", "image"),
+    "laboratory.display": Removed("all four displays are side by side", "tube"),
+    "laboratory.playing": Removed("laboratory.phase is the displays' moment", False),
+    "laboratory.cycle_s": Removed("laboratory.phase is the displays' moment", 8.0),
+    "laboratory.order": Removed("laboratory.progress = 3 shows NumPy's rows", "row"),
     "compare.pair": Removed(
         "both renderers are compared, and a photograph is laid over them", "raster-ray"
     ),
@@ -62,6 +72,9 @@ REMOVED: dict[str, Removed] = {
 REPLACED: dict[tuple[str, Any], Replaced] = {
     ("language", "c"): Replaced("python", "programs are in Python or Julia"),
     ("laboratory.page", "subpixels"): Replaced("displays", "an LCD's pixel has three stripes"),
+    ("laboratory.page", "heights"): Replaced("function", "an image's light is read at a point"),
+    ("laboratory.page", "bitmaps"): Replaced("kinds", "a bitmap is made by a threshold"),
+    ("laboratory.page", "vector"): Replaced("shapes", "a drawing is shown as pixels and as shapes"),
     ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
 }
 

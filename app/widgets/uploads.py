@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.memo import same
 from renderer.raster.resources import check
 
 ENLARGED_PX = 640  # about a texture's width, where a picture's pixels are made larger
@@ -20,6 +23,7 @@ class Uploads:
         self._textures: dict[str, moderngl.Texture] = {}
         self._retired: list[tuple[int, moderngl.Texture]] = []
         self._frame = 0
+        self._magnified: dict[str, tuple[Any, ...]] = {}  # the arguments of magnified()
 
     def put(self, name: str, picture: NDArray[np.uint8]) -> None:
         """Upload a picture (H, W, 3), sRGB, row 0 at the top, replacing the last one of that name.
@@ -43,6 +47,24 @@ class Uploads:
         times = max(1, ENLARGED_PX // picture.shape[1])
         self.put(name, picture.repeat(times, axis=0).repeat(times, axis=1))
 
+    def magnified(
+        self,
+        name: str,
+        picture: NDArray[np.uint8],
+        size: tuple[int, int],
+        corner: tuple[float, float],
+        extent: tuple[float, float],
+    ) -> moderngl.Texture:
+        """Return a texture of (width, height) with a part of a picture, by nearest neighbour.
+
+        corner, extent: of the part, as fractions of the picture's width and height.
+        """
+        key = picture, size, corner, extent
+        if name not in self._textures or not same(self._magnified.get(name), key):
+            self.put(name, nearest(*key))
+            self._magnified[name] = key
+        return self._textures[name]
+
     def get(self, name: str) -> moderngl.Texture | None:
         return self._textures.get(name)
 
@@ -63,3 +85,24 @@ class Uploads:
         for _, texture in self._retired:
             texture.release()
         self._retired.clear()
+
+
+def nearest(
+    picture: NDArray[np.uint8],
+    size: tuple[int, int],
+    corner: tuple[float, float],
+    extent: tuple[float, float],
+) -> NDArray[np.uint8]:
+    """Return a part of a picture at (width, height) pixels. The arguments are those of
+    Uploads.magnified().
+    """
+    rows, columns = (
+        np.clip(
+            (corner[axis] + (np.arange(size[axis]) + 0.5) / size[axis] * extent[axis])
+            * picture.shape[1 - axis],
+            0,
+            picture.shape[1 - axis] - 1,
+        ).astype(int)
+        for axis in (1, 0)
+    )
+    return picture[rows[:, None], columns]

@@ -71,6 +71,7 @@ def _bookmark(number: int, stores: bool) -> Action:
         lambda window: does(window, number),
         f"Ctrl+{number}" if stores else str(number),
         (int(Key._0) + number | (CTRL if stores else 0),),
+        can=lambda window: stores or window.state.step is None,  # digits are a lecture's steps
         separated=stores and number == 1,
     )
 

@@ -169,7 +169,7 @@ def _draw_builds(
     run = WindowRun(platform, state, size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a build
     window = run.window
-    window.has_tools = not for_print
+    window.for_print = for_print
     window.lecture.give(lecture, path)
     place, quiet, began_s, count = 0, 0, time.monotonic(), len(lecture.builds)
 

@@ -37,7 +37,7 @@ from app.window.entry_boxes import EntryBoxes
 from app.window.files import Files
 from app.window.instruments import make_views
 from app.window.menu_keys import MenuKeys
-from app.window.menus import menu_bar
+from app.window.menus import menu_bar, menu_button
 from app.window.platform import keep_open, on_drop, set_title
 from app.window.scene_saving import SceneSaving, is_marked, title
 from app.window.shell import Shell
@@ -87,7 +87,7 @@ class MainWindow:
         self._began_s = self._move_s = 0.0
         self._loops = False
         self.moves = smooth
-        self.has_tools = True
+        self.for_print = False
         self._fly = Fly()
         self.menu_keys = MenuKeys()
         self._over: DockedView | None = None
@@ -138,6 +138,15 @@ class MainWindow:
     @property
     def lecture(self) -> LectureView:
         return self.view(LectureView)
+
+    @property
+    def has_tools(self) -> bool:
+        return not (self.for_print or self.on_stage)
+
+    @property
+    def on_stage(self) -> bool:
+        """True while a lecture is given in presentation mode: pictures and text alone."""
+        return self.lecture.is_given and self.state.preferences.presentation
 
     def hover(self, view: str, pixel: Pixel) -> None:
         self._next_hovered = (view, pixel)
@@ -331,7 +340,14 @@ class MainWindow:
         self.menu_keys.frame()
         is_hall = self.state.preferences.presentation
         menu_bar(self, self.history, self.status if is_hall else None)
-        hello_imgui.get_runner_params().imgui_window_params.show_status_bar = not is_hall
+
+    def _bars(self) -> None:
+        """Show the bars that there is room for: none on the stage, one in presentation mode."""
+        shown = hello_imgui.get_runner_params().imgui_window_params
+        shown.show_menu_bar = not self.on_stage
+        shown.show_status_bar = not self.state.preferences.presentation
+        if self.on_stage and (self.lecture.shows_controls or self.shell.has_popup):
+            menu_button(self, self.history, self.shell.stage.rects.get(LECTURE))
 
     def frame(self) -> None:
         """The beginning of each frame: what has come from the threads, and the keys."""
@@ -371,6 +387,7 @@ class MainWindow:
         if not self.boxes.focused:
             run_shortcuts(self)
         self.change(self.boxes.draw(self.state, self.renderers))
+        self._bars()
         self.shell.draw(self, self.boxes.focused, self.menu_keys.in_menus)
         frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):

@@ -53,6 +53,27 @@ def menu_bar(
         _layouts(window, name)
 
 
+def menu_button(
+    window: Window, history: History, column: tuple[float, float, float, float] | None
+) -> None:
+    """Draw a button with all menus into the upper right corner of a lecture's column."""
+    if column is None:
+        return
+    imgui.set_next_window_pos((column[2], column[1]), pivot=(1, 0))
+    flags = imgui.WindowFlags_
+    imgui.begin(
+        "##stage menu",
+        None,
+        flags.no_decoration | flags.always_auto_resize | flags.no_saved_settings | flags.no_docking,
+    )
+    if imgui.button("Menu"):
+        imgui.open_popup("menus")
+    if imgui.begin_popup("menus"):
+        _menus(window, history)
+        imgui.end_popup()
+    imgui.end()
+
+
 def _menus(window: Window, history: History) -> None:
     for menu in MENUS:
         if imgui.begin_menu(menu):

@@ -12,6 +12,7 @@ import numpy as np
 
 from renderer.errors import LucidaError, under
 from renderer.scene import framing, shapes
+from renderer.scene.apart import parts_apart
 from renderer.scene.cancelling import check_cancelled, during
 from renderer.scene.gltf import PlacedPart, read_gltf
 from renderer.scene.gltf_cameras import camera_views
@@ -145,14 +146,14 @@ def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> li
         check_cancelled()
         if is_flat(linear):
             points = np.asarray(part.vertices, np.float64) @ linear.T
-            meshes = _meshes(replace(part, vertices=points, normals=None))
+            meshes = _meshes(replace(part, vertices=points, normals=None), images)
             matrix = shapes.placement(matrix[:3, 3])
         else:
             if id(part) not in built:
-                built[id(part)] = _meshes(part)
+                built[id(part)] = _meshes(part, images)
             meshes = built[id(part)]
-        for mesh in meshes:
-            name = instance.name or path.stem
+        for number, mesh in enumerate(meshes, start=1):
+            name = (instance.name or path.stem) + f"_{number}" * (len(meshes) > 1)
             material = _shown_on(mesh, instance.material or _material(part), name, images)
             with under(f"node {name!r}"[:80]):
                 placed = mesh.placed(matrix @ mesh.transform)
@@ -161,9 +162,9 @@ def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> li
     return objects
 
 
-def _meshes(part: Part) -> list[Mesh]:
-    mesh = build_mesh(part)
-    return [] if mesh is None else [mesh]
+def _meshes(part: Part, images: ModelImages) -> list[Mesh]:
+    built = [build_mesh(piece) for piece in parts_apart(part, images)]
+    return [mesh for mesh in built if mesh is not None]
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:

@@ -39,9 +39,9 @@ class TestTheBuiltInLecture:
         ]
         titles = [step.title for step in self.lecture.steps]
         order = [
-            "What is an image?", "Kinds of raster image", "Object order: rasterization",
+            "An image is a function", "2D arrays of numbers", "Object order: rasterization",
             "The camera conundrum", "Perspective projection", "Parallel projection",
-            "A ray is half a line", "A simple camera", "From pixel to ray", "Any camera",
+            "A ray is half a line", "A simple camera", "From pixel to (u, v)", "Any camera",
             "The program", "One camera, two renderers",
         ]  # fmt: skip
         assert [title for title in titles if title in order] == order

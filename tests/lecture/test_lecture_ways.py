@@ -23,7 +23,7 @@ def spoiled(state: AppState) -> AppState:
         images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
         outside={"bundle": (2, 2), "volume": False, "camera": state.camera},
         stepper={"steps": (3, 3), "canvas": (4, 3)},
-        laboratory={"page": "array", "zoom": 3.0},
+        laboratory={"page": "array", "progress": 3.0},
     )
     return changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))).with_fit(False)
 

@@ -11,6 +11,7 @@ import itertools
 import re
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 
 from app.camera_panel import panel, projection
@@ -19,10 +20,14 @@ from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.starter import starter
 from app.explaining import symbols
 from app.explaining.symbols import TABLE
-from app.laboratory import array_code
+from app.laboratory.options import LaboratoryOptions
+from app.laboratory.page import Page
+from app.laboratory.ruler import ruler
+from app.laboratory.sheet import Look
 from app.lecture import text as texts
 from app.lecture.notation import TwiceUsed, in_notation
 from app.lecture.reading import BUILTIN, load_lecture
+from app.outside import figure
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Label, RayEnd
 from app.outside.options import OutsideOptions
@@ -109,9 +114,12 @@ def drawn(notation: Notation) -> Found:
 
 
 def others(notation: Notation) -> Found:
-    for language in ("python", "julia"):
-        for line in array_code.lines(language, "row", True, (64, 48), (3, 4), (0.1, 0.2, 0.3)):
-            yield "laboratory", "program", symbols.lettered(line, notation).partition("#")[0]
+    options = LaboratoryOptions(page="ruler", progress=4.0)
+    look, none = Look(*[(0.0, 0.0, 0.0)] * 10), np.zeros((1, 1, 3), np.float32)
+    page = Page((400, 300), look, options, none, 0.0, (0.5, 0.5), notation)
+    for part in ruler(page).parts:
+        if isinstance(part, figure.Label):
+            yield "laboratory", "label", part.text
     tips = [*(tip for *_, tip in panel.ROLES.values()), panel.PERSPECTIVE, panel.PARALLEL]
     for tip in (*tips, projection.DISTANCE, projection.DOLLY, projection.FIELD_OF_VIEW):
         yield "camera panel", "words", symbols.words(tip, notation)

@@ -118,7 +118,7 @@ DRAW = {
     "stepper": "controls drawing numbers pictures questions",
     "costs": "plots",
     "your_code": "code_pictures",
-    "laboratory": "array_view displays_view made_page pictures schemes tables tools vector_view",
+    "laboratory": "looks",
     "mistakes": "pages",
     "poses": "",
     "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "

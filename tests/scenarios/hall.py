@@ -13,7 +13,7 @@ from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)
-STEPPER_STEP = 12
+STEPPER_STEP = 11
 
 
 def enlarge(d: Driver, scale: float) -> None:
@@ -116,7 +116,9 @@ def drive_the_lecture_ends(d: Driver) -> None:
     d.window.lecture.go(d.window, 26)  # an image of 8 x 8 pixels
     d.settle()
     assert d.window.state.camera != camera
-    d.ctx.menu_click("//##MainMenuBar/Lecture/End the lecture")
+    d.ctx.mouse_move_to_pos((300, 300))
+    d.ctx.item_click("//##stage menu/Menu")
+    d.ctx.menu_click("//$FOCUSED/Lecture/End the lecture")
     d.settle()
     state = d.window.state
     assert not d.window.lecture.is_given and state.step is None

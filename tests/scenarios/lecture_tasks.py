@@ -157,6 +157,7 @@ def drive_image_order_is_walked_in_two_views(d: Driver) -> None:
     lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
     assert shown(d) == {LECTURE, STEPPER, OUTSIDE}
+    d.press(int(Key.f9))  # off the stage, where views have tools
     stepper, outside = d.window.view(StepperView), d.window.view(OutsideView)
 
     def walked() -> tuple[Moment, list[float]]:

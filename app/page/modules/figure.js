@@ -1,6 +1,5 @@
 // A live figure: images of one scene from one camera, beside one another, and what explains them.
 
-import { arrayView } from "./array_view.js";
 import { cameraForSize, checkedCamera, imagePoint, viewingRay } from "./camera.js";
 import { comparison } from "./comparing.js";
 import { cameraControls } from "./controls.js";
@@ -18,7 +17,7 @@ import { unpackScene } from "./scene.js";
 /** @typedef {import("./camera.js").Size} Size */
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./scene.js").PackedScene & {shaders: import("./raster.js").ShaderSet, name: string, names: string[]}} PackedScene */
-/** @typedef {"raster" | "ray" | "wipe" | "difference" | "outside" | "probe" | "array" | "controls"} Shown */
+/** @typedef {"raster" | "ray" | "wipe" | "difference" | "outside" | "probe" | "controls"} Shown */
 /**
  * @typedef {object} Options
  * @property {Size} [size] of the images; by default as large as there is room
@@ -78,7 +77,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   };
   /** Return the marked pixel. @param {Size} size @returns {[number, number]} */
   const pixelOf = ([width, height]) => [Math.min(Math.floor(place[1] * height), height - 1), Math.min(Math.floor(place[0] * width), width - 1)];
-  const isMarking = options.value || shows.includes("probe") || shows.includes("array") || (shows.includes("outside") && options.outside?.ray !== false);
+  const isMarking = options.value || shows.includes("probe") || (shows.includes("outside") && options.outside?.ray !== false);
 
   /** @param {number} rows @param {number} columns */
   const step = (rows, columns) => {
@@ -86,7 +85,6 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     mark((Math.min(Math.max(column + columns, 0), size[0] - 1) + 0.5) / size[0], (Math.min(Math.max(row + rows, 0), size[1] - 1) + 0.5) / size[1]);
   };
   const probe = shows.includes("probe") ? probeView(step, from) : undefined;
-  const array = shows.includes("array") ? arrayView(from) : undefined;
   /** @param {number} x @param {number} y */
   const mark = (x, y) => {
     place = [x, y];
@@ -106,7 +104,6 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       const at = vectorText(imagePoint(fitted, ...pixel, size), 3), value = vectorText(hit.color.map((byte) => byte / 255), 3);
       for (const { kind, caption } of views) caption.textContent = `${TITLES[kind]}. I${at} = ${value}`;
     }
-    if (rayView) array?.show(rayView.canvas, pixel);
   };
 
   const draw = async () => {
@@ -215,7 +212,6 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       aside.append(outside.view);
     }
     if (probe) aside.append(probe.view);
-    if (array) aside.append(array.view);
     if (aside.children.length) root.append(aside);
     if (shows.includes("controls")) {
       controls = cameraControls(first, loaded, edit, effects, () => {
