@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import re
 
+from imgui_bundle import imgui  # before glfw, so that both use the same GLFW library
+
+# isort: split
 import glfw
-from imgui_bundle import imgui
 
 # By modifier: its bit, its left and right key, and what ImGui calls it.
 _MODIFIERS = (
