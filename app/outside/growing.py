@@ -46,6 +46,7 @@ from renderer.camera_checks import three
 
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it
+ENDS = (r"\text{origin}", r"\text{direction}")  # a ray's, as a lecture may write them
 GROWS = 0.7  # of a stage's time; then it rests, for the class to look
 # With a lens, for directions that have a length, and for those that reach the plane at distance 1.
 _LENS_TEXTS = (
@@ -104,7 +105,7 @@ def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
     ):
         return formula
     if stage == "ray" and formula.startswith(
-        tuple(latex(rf"\mathbf{{{name}}}", notation) for name in "pdr")
+        (*ENDS, *(latex(rf"\mathbf{{{name}}}", notation) for name in "pdr"))
     ):
         return formula
     known = [latex(term, notation) for term in _LIT.get(stage, ())]

@@ -15,7 +15,6 @@ from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
-from app.probe.model import Probe
 from renderer.images.display import to_srgb8
 from renderer.lenses import Lens
 from renderer.trace import Tracer
@@ -31,8 +30,8 @@ class TestTheBuiltInLecture:
             "What is an image?",
             "Representations",
             "Cameras",
-            "Rays",
-            "The camera",
+            "Ray tracing",
+            "Viewing rays",
             "One camera, two renderers",
             "Lenses",
         ]
@@ -47,10 +46,13 @@ class TestTheBuiltInLecture:
         assert 20 <= len(titles) == len(set(titles))
 
     def test_it_fits_a_slide(self):
+        last = {build.title: build for build in self.lecture.builds}
         for step, language in itertools.product(self.lecture.steps, LANGUAGES):
-            shown = texts.in_language(step.blocks, language)
-            words = len(re.findall(r"\w+", plain_text(shown)))
-            assert words <= 85, (step.title, language, words)
+            first, whole = (
+                len(re.findall(r"\w+", plain_text(texts.in_language(one.blocks, language))))
+                for one in (step, last[step.title])
+            )
+            assert first <= 85 and whole >= 3, (step.title, language, first, whole)
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
@@ -78,13 +80,6 @@ class TestTheBuiltInLecture:
         for step in marked:
             width, height = step.options["images"]["resolution"]
             assert step.pixel[0] < height and step.pixel[1] < width, step.title
-
-    def test_what_is_shown_worked_out_hits_something(self):
-        step = next(step for step in self.lecture.steps if "probe" in step.views)
-        assert step.pixel is not None
-        size = step.options["images"]["resolution"]
-        reading = Probe(step.scene).at(step.pixel, step.view.camera, size)
-        assert sum(meeting.is_on_ray for meeting in reading.meetings) >= 2
 
     def test_u_and_v_exchanged_are_told_as_such(self):
         for step in self.lecture.steps:

@@ -7,6 +7,7 @@ the mistakes, the stepper, the labels of the outside view, the laboratory, tasks
 from __future__ import annotations
 
 import inspect
+import itertools
 import re
 from collections.abc import Iterator
 
@@ -103,8 +104,8 @@ def stepper(notation: Notation) -> Found:
 
 
 def drawn(notation: Notation) -> Found:
-    options = OutsideOptions(target=(0, 0, 0))
-    for step in STEPS:
+    both = OutsideOptions(target=(0, 0, 0)), OutsideOptions(half_line=4.0)
+    for step, options in itertools.product(STEPS, both):
         camera = step.view.for_size((64, 48))
         end = RayEnd((24, 32), 2.0)
         for item in diagram(Content(camera, (64, 48), options, 9.0, (), end, notation=notation)):
@@ -174,7 +175,7 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
 
 def test_the_first_step_with_a_letter_twice_says_so():
     said = [b for b in LECTURE.builds if any(isinstance(block, TwiceUsed) for block in b.blocks)]
-    assert {build.title for build in said} == {"A simple camera"}
+    assert {build.title for build in said} == {"From pixel to ray"}
     assert said[-1].build + 1 == LECTURE.count(said[-1].number)
     assert len(in_notation(said[0].blocks, "code")) == len(said[0].blocks) - 1
 

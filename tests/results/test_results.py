@@ -64,7 +64,7 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
     answers, problems = read_answers([tmp_path / "answers.jsonl"])
     assert problems == []
     choice = next(one for one in answers if one.step == "Exercise: which camera?")
-    assert choice.mistakes[0].read == "What a parallel view does"
+    assert choice.mistakes[0].read == "What parallel projection does"
     titles = {step.title for step in lecture.steps}
     assert {m.read for one in answers for m in one.mistakes} <= titles
     assert answers[2].right and answers[2].helped and answers[2].student == "Ada"
