@@ -38,7 +38,7 @@ def changed(state: AppState) -> AppState:
     options = {"camera": EYE, "grid": False, "target": (1.0, 2.0, 3.0), "up": (0.0, 0.0, 1.0)}
     return end.with_options(
         images={"exposure_ev": 4.0, "channel": "depth", "samples": 16}, outside=options,
-        marked=(3, 4), laboratory={"apart": 0.0},
+        marked=(3, 4), laboratory={"after_ev": 1.5},
     )  # fmt: skip
 
 
