@@ -39,7 +39,7 @@ class TestTheBuiltInLecture:
         order = [
             "Two rendering algorithms", "An image is a function", "2D arrays of numbers",
             "The camera conundrum", "Perspective projection", "Parallel projection",
-            "A ray is half a line", "Ray tracing", "A simple camera", "From pixel to (u, v)",
+            "Ray tracing", "A ray is half a line", "A simple camera", "From pixel to (u, v)",
             "Any camera", "The program", "One camera, two renderers",
         ]  # fmt: skip
         assert [title for title in titles if title in order] == order
@@ -52,7 +52,8 @@ class TestTheBuiltInLecture:
                 len(re.findall(r"\w+", plain_text(texts.in_language(one.blocks, language))))
                 for one in (step, last[step.title])
             )
-            assert first <= 85 and whole >= 3, (step.title, language, first, whole)
+            has_text = whole >= 3 or "stepper" in step.views  # which shows a program
+            assert first <= 85 and has_text, (step.title, language, first, whole)
 
     def test_every_kind_of_exercise_is_in_it(self):
         kinds = {type(step.exercise) for step in self.lecture.steps} - {type(None)}
