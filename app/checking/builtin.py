@@ -43,7 +43,7 @@ _LUMINANCE = " + ".join(
 _TASKS = (
     _task(
         "to-gray",
-        "Kinds of raster image",
+        "2D arrays of numbers",
         f"The gray of each pixel: {_LUMINANCE}, the luminance of linear "
         "light. rgb is an array of `height` x `width` x 3 numbers from 0 to 1, linear light; give "
         "`height` x `width`.",
@@ -52,7 +52,7 @@ _TASKS = (
     ),
     _task(
         "to-bitmap",
-        "One bit per pixel",
+        "2D arrays of numbers",
         "One bit per pixel: 1 where gray is at least the threshold, else 0. gray is an array of "
         "`height` x `width` numbers, from 0 to 255 or from 0 to 1 as the threshold is; give as "
         "many of 0 and 1.",
@@ -61,7 +61,7 @@ _TASKS = (
     ),
     _task(
         "memory-offset",
-        "The image as an array",
+        "2D arrays in Julia",
         "How many pixels lie in memory before pixel (i, j), in an image of rows one after another "
         "(row-major)? i, j count from 0.",
         1.0,

@@ -46,7 +46,8 @@ class StepperView(DockedView):
         self._runs: Prepared[Pair] | None = None
         self._uploads: Uploads | None = None
         self._pictures: LoopPictures | None = None
-        self.playing = self._seen = False
+        self._drawn: Prepared[Pair] | LoopPictures | None = None  # in the last frame
+        self.playing = False
         self._before_s = 0.0  # when the last frame of playing was
         self._owed = 0.0  # parts of a step that have not been taken
         self._moment = Memo(moment_at, len(Order))
@@ -61,8 +62,7 @@ class StepperView(DockedView):
 
     @property
     def settled(self) -> bool:
-        both = (self._runs, self._pictures) if self._seen else ()
-        return not self.playing and not any(one is not None and one.busy for one in both)
+        return not (self.playing or (self._drawn is not None and self._drawn.busy))
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._runs = Prepared("lucida-stepper", recordings, host.animate)
@@ -78,7 +78,7 @@ class StepperView(DockedView):
             self._pictures.release()
 
     def unseen(self, host: Host) -> None:
-        self.playing = self._seen = False
+        self.playing, self._drawn = False, None
         self._asked = ""
         self._outside.show(STEPPER, ())
 
@@ -88,7 +88,7 @@ class StepperView(DockedView):
 
     def draw(self, host: Host) -> None:
         assert self._runs is not None and self._uploads is not None
-        self._seen = True
+        self._drawn = self._runs if host.has_tools else self._pictures
         if not host.has_tools:
             assert self._pictures is not None
             self._pictures.draw(host, self._outside, STEPPER)

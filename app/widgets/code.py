@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import functools
 import io
-import math
 import tokenize
 from collections.abc import Mapping, Sequence
 
@@ -38,13 +37,6 @@ def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> Non
             at = low + ImVec2(2 * bar + imgui.calc_text_size(text[:column]).x, margin)
             draw.add_text(at, theme.u32(_color(word)), word)
     imgui.dummy((width_px, len(lines) * line_px))
-
-
-def letters_in(width_px: float, size_px: float) -> int:
-    """Return the number of letters in a row of code() of that width and type size. The font's
-    letters are half as wide as high, in whole pixels.
-    """
-    return max(12, int((width_px - 0.9 * size_px) / math.ceil(0.5 * size_px)))
 
 
 def code_size(lines: Sequence[str]) -> ImVec2:

@@ -114,7 +114,7 @@ def test_a_data_set_of_one_camera(data_set):
     content = json.loads(Path("transforms.json").read_text())
     Path("transforms.json").write_text(json.dumps(content | {"frames": content["frames"][:1]}))
     status, out, _ = data_set("-o", "one", *VIEW, "--renderer", "ray")
-    assert status == 0 and out.startswith("one: 1 images, ") and Path("one/IMG 1.png").is_file()
+    assert status == 0 and out.startswith("one: 1 image, ") and Path("one/IMG 1.png").is_file()
 
 
 @pytest.mark.parametrize(

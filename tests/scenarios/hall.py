@@ -9,11 +9,11 @@ from imgui_bundle import hello_imgui, imgui
 from views_in_turn import views_in_turn
 from window_driver import SIZE, Driver, Key
 
+from app.host import layout
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
 
 SCALES = (1.0, 1.25, 1.5, 2.0)
-STEPPER_STEP = 11
 
 
 def enlarge(d: Driver, scale: float) -> None:
@@ -84,9 +84,8 @@ def below(heights: dict[float, str], least: float) -> dict[float, str]:
 
 
 def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
-    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
+    layout.switch("Loops")
     d.settle()
-    d.window.lecture.go(d.window, STEPPER_STEP)
     lines: list[float] = []
     text_colored = imgui.text_colored
 
@@ -104,7 +103,7 @@ def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
     finally:
         imgui.text_colored = text_colored
     enlarge(d, 1.0)
-    d.window.lecture.leave(d.window)
+    layout.switch("Side by side")
     d.settle()
 
 
