@@ -9,16 +9,8 @@ from imgui_bundle import hello_imgui, imgui
 from views_in_turn import views_in_turn
 from window_driver import SIZE, Driver, Key
 
-from app.host import layout
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE
-
-SCALES = (1.0, 1.25, 1.5, 2.0)
-
-
-def enlarge(d: Driver, scale: float) -> None:
-    d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
-    d.settle()
 
 
 def overflow(d: Driver) -> float:
@@ -81,30 +73,6 @@ def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None
 
 def below(heights: dict[float, str], least: float) -> dict[float, str]:
     return {height: letters for height, letters in heights.items() if height < least}
-
-
-def drive_no_word_beside_a_number_is_broken(d: Driver) -> None:
-    layout.switch("Loops")
-    d.settle()
-    lines: list[float] = []
-    text_colored = imgui.text_colored
-
-    def told(color: Any, text: str) -> None:
-        text_colored(color, text)
-        if text in ("inside", "outside", "from 1"):
-            lines.append(imgui.get_item_rect_size().y / imgui.get_text_line_height())
-
-    imgui.text_colored = told
-    try:
-        enlarge(d, 2.0)
-        d.ctx.scroll_to_bottom("//Stepper")
-        d.ctx.yield_(4)
-        assert lines and max(lines) < 1.5, max(lines)
-    finally:
-        imgui.text_colored = text_colored
-    enlarge(d, 1.0)
-    layout.switch("Side by side")
-    d.settle()
 
 
 def drive_the_lecture_ends(d: Driver) -> None:
