@@ -48,8 +48,8 @@ IMAGE_ORDER = (
 RAY_TRACING = (
     Line("for each pixel:", "outer"),
     Line("    generate its viewing ray", "outer"),
-    Line("    find the closest object that it intersects", "inner"),
-    Line("    determine the colour of the object", "after"),
+    Line("    find the closest object it hits", "inner"),
+    Line("    determine its colour there", "after"),
 )
 
 
