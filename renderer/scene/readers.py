@@ -275,7 +275,7 @@ def read_stl(path: Path, images: ModelImages, _is_mapped: bool = False) -> list[
         facets = np.frombuffer(data, _FACET, triangles, 84)
         if behind:
             images.note(f"not read: {behind} bytes behind the triangles", "STL")
-        if facets["attribute"].any():
+        if facets["attribute"].any() or b"COLOR=" in data[:80]:
             images.note(
                 "not read: attributes of triangles, which some programs use for colours", "STL"
             )
