@@ -10,7 +10,7 @@ from app.images.request import MIRROR_DEPTH
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.lecture_page.pictures import data_uri
-from app.outside.options import OutsideOptions
+from app.outside.options import STAGES, OutsideOptions
 from app.page.scene_page import packed_scene
 from app.pair.options import PairOptions
 from app.photograph.model import path_of
@@ -31,6 +31,18 @@ SHOWN = {
     "probe": ("probe",),
     "camera": ("controls",),
 }
+# Drawings of the outside view that modules/outside.js does not draw.
+DRAWN_IN_THE_WINDOW = (
+    "points",
+    "half_line",
+    "meetings",
+    "simple",
+    "basis_grown",
+    "numbers",
+    "to_parallel",
+    "image_opacity",
+)
+GROWN = len(STAGES)  # a formula, whole
 
 
 class Figures:
@@ -147,9 +159,14 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
 def _has_more(step: Step, state: AppState) -> bool:
     """Return True if images show more than a figure draws, and ask for nothing to be changed."""
     pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
+    plain = OutsideOptions()
+    grows = outside.formula is not None and outside.formula < GROWN
+    grows = grows or any(
+        getattr(outside, name) != getattr(plain, name) for name in DRAWN_IN_THE_WINDOW
+    )
     return (
-        outside.half_line > 0
-        or outside.meetings > 0
+        (grows and step.exercise is None)  # whose figure shows the answers
+        or images.dissolved > 0
         or (pair.straight_lines and "lens" not in step.highlight)
         or pair.footprint
         or bool(pair.parallels)
