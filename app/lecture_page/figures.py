@@ -159,10 +159,8 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
 def _has_more(step: Step, state: AppState) -> bool:
     """Return True if images show more than a figure draws, and ask for nothing to be changed."""
     pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
-    plain = OutsideOptions()
-    grows = outside.formula is not None and outside.formula < GROWN
-    grows = grows or any(
-        getattr(outside, name) != getattr(plain, name) for name in DRAWN_IN_THE_WINDOW
+    grows = (outside.formula is not None and outside.formula < GROWN) or any(
+        getattr(outside, name) != getattr(OutsideOptions(), name) for name in DRAWN_IN_THE_WINDOW
     )
     return (
         (grows and step.exercise is None)  # whose figure shows the answers

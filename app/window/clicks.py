@@ -15,7 +15,7 @@ DOUBLE_CLICK_S = 0.3  # ImGui's own
 
 
 class ClickTime:
-    """Gives a double click the time that the last two frames took, beside its own."""
+    """A double click's time: its own, and what the last two frames took."""
 
     def __init__(self) -> None:
         self._took_s: deque[float] = deque(maxlen=2)

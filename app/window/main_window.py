@@ -8,7 +8,6 @@ this module keeps it and hands it to the renderers. viewer.py makes the window.
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Hashable
 from dataclasses import replace
 from pathlib import Path
@@ -39,6 +38,7 @@ from app.window.instruments import make_views
 from app.window.menu_keys import MenuKeys
 from app.window.menus import menu_bar, menu_button
 from app.window.platform import keep_open, on_drop, set_title
+from app.window.playing import Playing
 from app.window.scene_saving import SceneSaving, is_marked, title
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
@@ -82,10 +82,7 @@ class MainWindow:
         self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
-        self._movement: Movement | None = None
-        self._between: AppState | None = None  # the movement's state in this frame
-        self._began_s = self._move_s = 0.0
-        self._loops = False
+        self._playing = Playing()
         self.moves = smooth
         self.for_print = False
         self._fly = Fly()
@@ -104,7 +101,7 @@ class MainWindow:
     @property
     def state(self) -> AppState:
         """The present state, or the one that a movement shows on its way there."""
-        return self.history.present if self._between is None else self._between
+        return self._playing.shown or self.history.present
 
     @property
     def present(self) -> AppState:
@@ -122,7 +119,7 @@ class MainWindow:
     def settled(self) -> bool:
         """True if nothing will change by itself: both images are complete and compared."""
         views = self.shell.stage.settled
-        moving = self.files.busy or self.transition.under_way or self._movement is not None
+        moving = self.files.busy or self.transition.under_way or self._playing.under_way
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
@@ -163,46 +160,31 @@ class MainWindow:
             self.history = self.history.change(state)
 
     def amend(self, state: AppState) -> None:
-        if self._between is None:  # otherwise asked for again after the movement
+        if not self._playing.under_way:  # otherwise asked for again after the movement
             self.history = self.history.amended(state)
 
     def move(
         self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
     ) -> None:
         start = start or self.state
-        self._movement = self._between = None
+        self._playing.end()
         self.change(state)
         if not move_s or not self.moves or state.preferences.reduced_motion:
             return
-        focus = scene_focus(state.scene)
-        self._movement = Movement(start, state, focus, self.renderers.size)
-        self._between, self._began_s = self._movement.at(0.0), time.monotonic()
-        self._move_s, self._loops = move_s, loop
+        movement = Movement(start, state, self._focus(state.scene), self.renderers.size)
+        self._playing.begin(movement, move_s, loop)
         self.animate()
 
     def end_movement(self) -> bool:
-        was_moving = self._movement is not None and not self._loops
-        self._movement = self._between = None
-        return was_moving
+        return self._playing.end()
 
     def _was_moving(self) -> bool:
         """End a movement, which a change would come from a state of. Return True if there was
-        one."""
-        was_moving = self._movement is not None
-        self.end_movement()
+        one.
+        """
+        was_moving = self._playing.under_way
+        self._playing.end()
         return was_moving
-
-    def _follow_movement(self) -> None:
-        """Take the movement's state in this frame. A press of the mouse ends the movement."""
-        if self._movement is None:
-            return
-        part = (time.monotonic() - self._began_s) / self._move_s
-        is_pressed = any(imgui.is_mouse_clicked(button) for button in range(3))
-        if is_pressed or (part >= 1 and not self._loops):
-            self.end_movement()
-        else:
-            self._between = self._movement.at(part % 1)
-        self.animate()
 
     def show(self, view: str) -> None:
         if view not in self.shell.stage.rects:
@@ -364,7 +346,9 @@ class MainWindow:
             self._titled = titled
             set_title(title(scene, is_a_steps))
         self._over = self.shell.stage.take_hovered()
-        self._follow_movement()
+        if self._playing.under_way:
+            self._playing.frame(any(imgui.is_mouse_clicked(button) for button in range(3)))
+            self.animate()
         self._move_by_itself(active)
         if self.state.step is None and not self.saving.busy and self.files.follow(self.state.scene):
             hello_imgui.request_refresh()
@@ -373,7 +357,7 @@ class MainWindow:
             self.animate()
             take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
-        moving = moving or self._movement is not None
+        moving = moving or self._playing.under_way
         self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)

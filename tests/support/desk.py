@@ -151,8 +151,9 @@ def check_same(one: np.ndarray, other: np.ndarray, folder: Path) -> None:
 
 
 class _Rest:
-    """Whether REST_S have passed of which a process has worked, or waited for a processor, less
-    than half: on a busy machine, a window that has not changed need not be at rest.
+    """REST_S of which a process has worked, or waited for a processor, less than half.
+
+    On a busy machine, a window that has not changed need not be at rest.
     """
 
     def __init__(self, process: int | None) -> None:
