@@ -264,9 +264,6 @@ class LectureView(DockedView):
             self.restore(host, presentation=True)
             self._begun = True
         self._follow_mouse(host)
-        if self.log is not None:
-            session, size = self.session, host.renderers.size
-            self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             arrange(self._others, self.session.step)
