@@ -1,6 +1,6 @@
 """The answers of a sitting, kept on disk if the user asks for it: one JSON object a line.
 
-docs/lectures.md describes the format; app/results/ reads it.
+docs/lectures.md describes the format; app/checking/results/ reads it.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from pathlib import Path
 import msgspec
 
 from app.lecture.model import Lecture, Step
-from app.storage.kept_lecture import Answers, Judgement
-from renderer.atomic import check_writable
-from renderer.errors import LucidaError, describe
+from app.state.kept_lecture import Answers, Judgement
+from renderer.system.atomic import check_writable
+from renderer.system.errors import LucidaError, describe
 
 LONGEST_NAME = 60
 
