@@ -6,6 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from app.instruments.outside import answers
+from app.instruments.outside.diagram import Item, Role, in_notation
+from app.instruments.outside.second_camera import GivenRay
 from app.lecture.exercises import (
     RayExercise,
     VectorExercise,
@@ -15,12 +18,9 @@ from app.lecture.exercises import (
     vectors,
 )
 from app.lecture.model import Exercise
-from app.outside import answers
-from app.outside.diagram import Item, Role, in_notation
-from app.outside.second_camera import GivenRay
+from app.state.kept_lecture import Judgement
 from app.state.options import Notation
-from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera, Floats
+from renderer.camera.camera import Camera, Floats
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 
