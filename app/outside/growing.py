@@ -328,6 +328,8 @@ def _vector(vector: Vector, now: Growth, camera: Camera) -> list[Item]:
             middle,
             away=middle - aside,
             strong=True,
+            line=np.array([vector.start, vector.end]),
+            lit=now.lit == {"d": "ray"}.get(vector.name, vector.name),
         ),
     ]
 

@@ -281,13 +281,14 @@ STRONG = 1.5  # the size of names that teach, in sizes of the type
 
 class Written(NamedTuple):
     """A label in its place. at: its upper left corner in the view, in ImGui's pixels. pieces: see
-    measured().
+    measured(). lit: on the ground of a formula's term that is pointed out.
     """
 
     role: Role
     at: tuple[float, float]
     size: float
     pieces: list[tuple[imgui.ImFont, str, float]]
+    lit: bool
 
 
 def written(
@@ -311,17 +312,25 @@ def written(
         boxes.append(Box(scale * sum(piece[2] for piece in pieces[-1]), scale * size, room))
     centers = placer.place(primitives, boxes, (scale * extent.x, scale * extent.y), tools)
     return [
-        Written(part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found)
+        Written(
+            part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found,
+            part.lit,
+        )
         for part, size, found, box, (x, y) in zip(texts, sizes, pieces, boxes, centers, strict=True)
-    ]
+    ]  # fmt: skip
 
 
 def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: theme.Rgb) -> None:
     """Draw labels into a view at `origin`. ground: the colour under them."""
-    draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.62))
-    for role, (x, y), size, pieces in labels:
+    draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.85))
+    for role, (x, y), size, pieces, lit in labels:
         at = ImVec2(math.floor(origin.x + x), math.floor(origin.y + y))
+        if lit:
+            pad, width = theme.px(4), sum(wide for *_, wide in pieces)
+            low, high = ImVec2(at.x - pad, at.y - pad), ImVec2(at.x + width + pad, at.y + size + pad)
+            draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.9)), pad)
+            draw.add_rect(low, high, theme.u32(role_color(role, ground)), pad, theme.px(2))
         color = theme.u32(role_color(role, ground))
         for font, text, wide in pieces:
-            rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.25))
+            rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.8))
             at.x += wide
