@@ -352,5 +352,4 @@ def _ray(camera: Camera, marked: RayEnd, now: Growth, end: float) -> list[Item]:
     ]
     if marked.is_hit and share == 1:
         items.append(Dot("hit", "mark", reached, 6.0))
-        items.append(Label("hit", "mark", f"t = {marked.t:.4g}", reached, away=way.start))
     return items

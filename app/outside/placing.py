@@ -27,8 +27,8 @@ FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
 # on another label, on a mark, for a height of a line in the text, on the image plane.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
-# Places along a line, as many as turns: shares of its length, on both sides of it; and what it costs
-# to be on the other side, and away from the middle.
+# Places along a line, as many as turns: shares of its length, on both sides of it; and what it
+# costs to be on the other side, and away from the middle.
 SHARES = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2])
 OTHER_SIDE, SLID = 0.4, 1.0
 TINY = 1e-300  # in place of 0, to divide by

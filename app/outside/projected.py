@@ -256,9 +256,7 @@ def _eye(item: Eye, at: Floats, depth: Floats, screen: OutsideScreen) -> list[Pr
     return out
 
 
-def _label(
-    item: Label, first: int, end: int, seen: Seen, screen: OutsideScreen
-) -> list[Primitive]:
+def _label(item: Label, first: int, end: int, seen: Seen, screen: OutsideScreen) -> list[Primitive]:
     """Return a text. seen: its point, `away` and the ends of its line, from `first` to `end`."""
     dx, dy = 0.0, 1.0
     if item.away is not None:
@@ -273,10 +271,11 @@ def _label(
         if length > 0:
             dx, dy = x / length, y / length
     x, y = seen.points[first].tolist()
-    line = seen.points[first + 2 : end] if seen.visible[first + 2 : end].all() else ()
+    ends = slice(first + 2, end)
+    has_line = item.line is not None and bool(seen.visible[ends].all())
     return [
         Text(item.name, item.role, item.text, (x, y), (dx, dy), item.strong, item.fixed,
-             line if len(line) else None, item.lit)
+             seen.points[ends] if has_line else None, item.lit)
     ]  # fmt: skip
 
 

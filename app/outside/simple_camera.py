@@ -42,9 +42,7 @@ def simple_camera(camera: Camera, grown: float, measured: bool) -> list[Item]:
         tip = eye + 0.8 * share[1] * camera.distance * ahead
         items.append(Arrow("-z", "w", eye, tip, 4.2))
         line = np.array([eye, tip])
-        items.append(
-            Label("-z", "w", "-z", tip, away=tip - v, strong=True, least=8.0, line=line)
-        )
+        items.append(Label("-z", "w", "-z", tip, away=tip - v, strong=True, least=8.0, line=line))
     if share[2]:
         edges = polyline(middle + share[2] * (corners - middle), True)
         items.append(Segments("image plane", "plane", edges, 3.0, on_plane=True))

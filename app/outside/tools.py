@@ -327,7 +327,10 @@ def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: theme.Rgb) ->
         at = ImVec2(math.floor(origin.x + x), math.floor(origin.y + y))
         if lit:
             pad, width = theme.px(4), sum(wide for *_, wide in pieces)
-            low, high = ImVec2(at.x - pad, at.y - pad), ImVec2(at.x + width + pad, at.y + size + pad)
+            low, high = (
+                ImVec2(at.x - pad, at.y - pad),
+                ImVec2(at.x + width + pad, at.y + size + pad),
+            )
             draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.9)), pad)
             draw.add_rect(low, high, theme.u32(role_color(role, ground)), pad, theme.px(2))
         color = theme.u32(role_color(role, ground))

@@ -344,6 +344,7 @@ class OutsideView(DockedView):
             int(side_px / (GRID_PX * screen.unit_px)), state.options.notation,
             state.options.indexing.value,
             None if host.has_tools or not options.grid else _number_step(size, side_px), found,
+            names_t=host.has_tools,
         )  # fmt: skip
 
 
