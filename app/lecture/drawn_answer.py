@@ -9,7 +9,6 @@ from app.lecture.ghosts import ghosts
 from app.lecture.session import LectureSession
 from app.outside.diagram import Item
 from app.outside.extent import end_parameter
-from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from renderer.memo import Memo
 
@@ -38,10 +37,7 @@ class DrawnAnswer:
         if items and asked != self._drawn:
             host.show(outside.name)
         self._drawn = asked
-        if host.state.of(OutsideOptions).answers:
-            outside.show(SOURCE, items, answer=asked)
-        else:
-            self.hide(outside)
+        outside.show(SOURCE, items, answer=asked)
 
     def hide(self, outside: OutsideView) -> None:
         """Take the drawing away."""

@@ -18,7 +18,6 @@ from app.host import layout
 from app.host.action import Window
 from app.host.view import DockedView, Host
 from app.outside.extent import end_parameter
-from app.outside.options import OutsideOptions
 from app.outside.view import OutsideView
 from app.state.options import Notation, Pixel
 from app.storage.paths import restored, stored
@@ -249,10 +248,7 @@ class YourCodeView(DockedView):
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        if host.state.of(OutsideOptions).answers:
-            self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
-        else:
-            self._outside.show(YOUR_CODE)
+        self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
 
     # Requests of the user.
 
