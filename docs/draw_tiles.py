@@ -1,4 +1,4 @@
-"""Draws the floor of the built-in lecture: app/lectures/tiles.png, tiles with fine lines on them.
+"""Draws the floor of the built-in lecture: app/lecture/lectures/tiles.png, tiles with fine lines on them.
 
 .venv/bin/python docs/draw_tiles.py
 """

@@ -13,15 +13,11 @@
 Knows nothing of renderers, pixels or windows.
 """
 
+from renderer.files.load import BUILTIN_SCENES, EMPTY_SCENE, SCENE_ENDINGS, SCENE_NAMES, load_scene
+from renderer.files.saving import save_scene
+from renderer.files.views import load_view, save_view, view_from_toml, view_to_toml
 from renderer.scene import shapes
 from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.load import (
-    BUILTIN_SCENES,
-    EMPTY_SCENE,
-    SCENE_ENDINGS,
-    SCENE_NAMES,
-    load_scene,
-)
 from renderer.scene.model import (
     Checker,
     Color,
@@ -36,9 +32,7 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.saving import save_scene
 from renderer.scene.texture import Texture
-from renderer.scene.views import load_view, save_view, view_from_toml, view_to_toml
 
 __all__ = [
     "BUILTIN_SCENES",

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from app.instruments import ROOMS
+from app.state.rooms import ROOMS
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
@@ -19,70 +19,70 @@ SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 # it is within, and imports from its own floor and from those before it; local imports count, and
 # those that are only for types.
 FLOORS = (
-    "renderer.errors",
-    "renderer.memo",
-    "renderer.shared_numbers",
-    "renderer.compile_note",
-    "renderer.private",
-    "renderer.atomic",
-    "renderer.child",
-    "renderer.pixels",
-    "renderer.camera_checks",
-    "renderer.frame",
-    "renderer.intrinsics",
-    "renderer.lens_distortion",
-    "renderer.lenses",
-    "renderer.camera",
-    "renderer.navigation",
-    "renderer.coarseness",
-    "renderer.lens_faces",
-    "renderer.undistort",
-    "renderer.samples",
+    "renderer.system.errors",
+    "renderer.system.memo",
+    "renderer.images.shared_numbers",
+    "renderer.system.compile_note",
+    "renderer.system.private_folder",
+    "renderer.system.atomic",
+    "renderer.system.child",
+    "renderer.images.pixels",
+    "renderer.camera.checks",
+    "renderer.images.frame",
+    "renderer.camera.intrinsics",
+    "renderer.camera.distortion",
+    "renderer.camera.lenses",
+    "renderer.camera.camera",
+    "renderer.camera.navigation",
+    "renderer.images.coarseness",
+    "renderer.camera.lens_faces",
+    "renderer.camera.undistort",
+    "renderer.images.samples",
     "renderer.images",
     "renderer.scene",
-    "renderer.focus",
-    "renderer.picked",
-    "renderer.scene_editing",
-    "renderer.camera_formats",
-    "renderer.scene_checks",
-    "renderer.scene_export",
+    "renderer.scene.focus",
+    "renderer.compare.pixel_report",
+    "renderer.editing",
+    "renderer.files.cameras",
+    "renderer.files.oddities",
+    "renderer.files.export",
     "renderer.raster",
     "renderer.trace.compile",
-    "renderer.trace.simd",
+    "renderer.trace.vector",
     "renderer.trace.threads",
     "renderer.trace.arguments",
-    "renderer.trace.scalar",
+    "renderer.trace.reference",
     "renderer.trace.bvh",
     "renderer.trace.rays",
-    "renderer.trace.packets",
-    "renderer.trace.jobs",
+    "renderer.trace.tiles",
     "renderer.trace",
-    "renderer.pure_python",
-    "renderer.precision",
-    "renderer.black",
-    "renderer.difference",
-    "renderer.seen_surfaces",
-    "renderer.explained",
-    "renderer.compare",
-    "renderer.doctor",
+    "renderer.trace",
+    "renderer.trace.pure_python",
+    "renderer.scene.precision",
+    "renderer.compare.why_black",
+    "renderer.images.difference",
+    "renderer.compare.seen_surfaces",
+    "renderer.compare.why_different",
+    "renderer.compare.raster_and_ray",
+    "renderer.system.doctor",
     "renderer.notebook",
     "renderer",
     "app",
-    "app.lectures",
-    "app.instruments",
+    "app.lecture.lectures",
+    "app.state.rooms",
     "app.state",
-    "app.explaining",
+    "app.ui.explaining",
     "app.checking",
-    "app.widgets",
+    "app.ui",
     "app.cameras",
-    "app.films",
+    "app.cameras.films",
     "app.storage",
     "app.images",
-    "app.host",
+    "app.ui",
     *(room.package for room in ROOMS),
-    "app.results",
-    "app.page",
-    "app.lecture_page",
+    "app.checking.results",
+    "app.web",
+    "app.web.lecture",
     "app.window",
     "app.commands",
     "app.cli",
@@ -104,7 +104,7 @@ FORBIDDEN = {
 # of instruments all files but those that draw: the ROLES, and what is named here beside them.
 INSTRUMENTS = {room.package for room in ROOMS}
 GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
-PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
+PURE = ("app/state", "app/ui/explaining", "app/checking", "app/cameras")
 DRAW = {
     "camera_panel": "basis_numbers lens_section projection sections",
     "photograph": "layer laying",
@@ -249,7 +249,7 @@ def test_options_know_the_state_alone(module):
 def test_every_instrument_is_registered():
     """Those alone have an instrument.py, which nothing but the registry's name of it imports."""
     found = {name for name in MODULES if name.startswith("app.") and name.endswith(".instrument")}
-    assert found - {"app.host.instrument"} == set(_rooms("instrument"))
+    assert found - {"app.ui.instrument"} == set(_rooms("instrument"))
     assert len(found) == len(ROOMS) + 1
 
 

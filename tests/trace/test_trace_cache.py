@@ -15,7 +15,7 @@ import pytest
 from numba.core import caching
 
 import renderer
-from renderer import compile_note
+from renderer.system import compile_note
 from renderer.trace.compile import compiled
 from renderer.trace.compile.cache_folder import prune
 
