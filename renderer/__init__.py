@@ -30,11 +30,11 @@ _HOME = {
     "Scene": "renderer.scene",
     "Tracer": "renderer.trace",
     "View": "renderer.scene",
-    "load_scene": "renderer.scene",
-    "load_view": "renderer.scene",
+    "load_scene": "renderer.files",
+    "load_view": "renderer.files",
     "picture": "renderer.images",
     "read_cameras": "renderer.files.cameras",
-    "save_view": "renderer.scene",
+    "save_view": "renderer.files",
     "write_image": "renderer.images",
 }
 

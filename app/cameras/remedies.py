@@ -1,6 +1,6 @@
 """Remedies for a black image: the cause in, a state with another camera or exposure out.
 
-Pure. The causes are those of renderer/black.py.
+Pure. The causes are those of renderer/compare/why_black.py.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`lucida doctor`: report what works on this machine. The checks are in renderer/doctor.py."""
+"""`lucida doctor`: check what this computer lets Lucida do (renderer/system/doctor.py)."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ DARK = 0.179  # of luminance: there black and white are as easy to read. Source:
 
 
 def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:
-    """Return a channel's values (renderer/images/frame.py) as displayed: uint8 (height, width, 3)."""
+    """Return a channel's values (see frame.py) as displayed: uint8 (height, width, 3)."""
     if options.channel == "depth":
         return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
     if options.channel == "color":

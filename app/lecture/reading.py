@@ -44,7 +44,7 @@ from renderer.scene.model import Mesh, Scene, View
 from renderer.system.errors import LucidaError, under
 from renderer.system.file_dependencies import noting
 
-_FOLDER = Path(__file__).parents[1] / "lectures"
+_FOLDER = Path(__file__).parent / "lectures"
 BUILTIN = _FOLDER / "images-rays-cameras.toml"
 BUILTINS = {  # by their titles
     "Images, rays and cameras": BUILTIN,

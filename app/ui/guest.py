@@ -64,7 +64,7 @@ class Guest(Protocol):
     def remedy(self, state: AppState, cause: str) -> str:
         """Return the label of a button that helps if an image is black; "" for none.
 
-        cause: from renderer/black.py.
+        cause: from renderer/compare/why_black.py.
         """
 
     def remedied(self, state: AppState, remedy: str) -> AppState:

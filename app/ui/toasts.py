@@ -1,6 +1,6 @@
 """Notifications: a completed action, in a corner, for some seconds.
 
-Errors that must be answered are in widgets/messages.py.
+Errors that must be answered are in ui/messages.py.
 """
 
 from __future__ import annotations

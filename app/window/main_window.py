@@ -1,7 +1,7 @@
 """The open window: one frame after another.
 
 Owns the present state and everything that lives as long as the window: the views, the renderers,
-the threads, the history. Views get the state through host/view.py's Host and ask for a new one;
+the threads, the history. Views get the state through ui/view.py's Host and ask for a new one;
 this module keeps it and hands it to the renderers. viewer.py makes the window.
 """
 

@@ -191,7 +191,7 @@ class Camera:
         of the image that K is for. axes: the pose's, "opencv" (y down, z forward) or "opengl" (y
         up, z back); K's are always the image's. pixel_origin: integers are at the pixels' "center"
         (OpenCV) or "corner" (COLMAP). lens: K then has no skew and no mirror. Raises LucidaError.
-        Source: renderer/intrinsics.py.
+        Source: renderer/camera/intrinsics.py.
         """
         if world_from_camera is not None:
             if camera_from_world is not None:

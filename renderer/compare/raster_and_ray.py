@@ -5,7 +5,7 @@ This module defines parity: the tolerances, the causes and the errors. differenc
 differences, and their colours.
 
 Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below.
-explained.py finds out whether a line of the image explains that they do not.
+why_different.py finds out whether a line of the image explains that they do not.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class ChannelError:
 class Comparison:
     """Counts of pixels, the errors, and a label per pixel.
 
-    explained: pixels by cause, see renderer/explained.py. unexplained: all others.
+    explained: pixels by cause, see why_different.py. unexplained: all others.
     shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
     among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
     times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so

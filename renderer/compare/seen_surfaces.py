@@ -1,7 +1,7 @@
 """The surfaces that the pixels of an image see, in float64, and where lines of the image are near.
 
 Each primitive's surface is extended beyond its outline, so that what a pixel sees of it can be
-differentiated. explained.py selects the lines that explain a difference.
+differentiated. why_different.py selects the lines that explain a difference.
 
 All functions take arrays of pixels: i, j (n,) rows and columns, which may be fractional.
 """

@@ -1,7 +1,7 @@
 """The image of a camera, with or without a lens: its passes over the scene.
 
-A lens's image takes one pass for each face (see renderer/camera/lens_faces.py); each has the two passes of
-the rasterizer, see() and shade().
+A lens's image takes one pass for each face (see renderer/camera/lens_faces.py); each has the two
+passes of the rasterizer, see() and shade().
 """
 
 from __future__ import annotations

@@ -58,7 +58,7 @@ def import_path() -> list[str]:
         here = os.path.realpath(os.getcwd())
     except OSError:  # it was deleted
         here = ""
-    root = os.path.realpath(Path(__file__).parent.parent)
+    root = os.path.realpath(Path(__file__).parents[2])
     folders = [os.path.join(here, folder) for folder in sys.path]
     return [
         folder

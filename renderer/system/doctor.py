@@ -167,7 +167,7 @@ def _is_on_the_path() -> str:
 
 def _is_not_hidden() -> str:
     """Look for the user's files that a Python started in this folder imports in place of ours."""
-    ours = Path(__file__).parents[1]
+    ours = Path(__file__).parents[2]
     hiding = [
         str(file)
         for name in ("app", "renderer", "shaders")

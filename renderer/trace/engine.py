@@ -2,7 +2,7 @@
 
 The only way from the tracer's threads to compiled code: importing this module imports numba, so
 only a Tracer's own thread imports it. Contains the simple method, one ray after another in float64,
-and the choice between it and packets (packets/engine.py).
+and the choice between it and tiles (tiles/engine.py).
 """
 
 from __future__ import annotations

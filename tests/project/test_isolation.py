@@ -20,7 +20,8 @@ ROOT = Path(__file__).parents[2]
 LIMIT_S = 280  # the first rendering compiles the tracer
 # What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
 NAMES = """\
-json numpy struct app renderer/__init__ renderer/system/child renderer/system/doctor shaders/__init__ os re
+json numpy struct app renderer/__init__ renderer/system/child renderer/system/doctor
+shaders/__init__ os re
 io subprocess threading signal ctypes enum types random logging locale numba llvmlite trimesh
 PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercustomize cuda
 scipy networkx lxml site encodings/__init__ encodings/utf_8"""

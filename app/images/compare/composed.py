@@ -28,7 +28,7 @@ LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pi
 
 @dataclass(frozen=True)
 class Mapping:
-    """The mapping from a difference to a colour; see renderer/difference.py."""
+    """The mapping from a difference to a colour; see renderer/images/difference.py."""
 
     channel: str = "color"
     component: str = "rgb"
@@ -112,9 +112,9 @@ class Composed:
         """Return a picture of (width, height): `left` up to the column `divider`, then `right`;
         without `right`, only `left`.
 
-        muted: gray and dark. labels: renderer/compare/raster_and_ray.py's, uint8 (height, width): the pixels to
-        mark in their causes' colours. enlarged: with a border, so that they are visible from a
-        distance. rise: the opacity of `right` over `left`.
+        muted: gray and dark. labels: those of renderer/compare/raster_and_ray.py, uint8
+        (height, width): the pixels to mark in their causes' colours. enlarged: with a border, so
+        that they are visible from a distance. rise: the opacity of `right` over `left`.
         """
         marks, colors = self._upload_marks(labels, enlarged), (self._label_colors, None)
         return self._compose.draw(

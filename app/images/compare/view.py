@@ -1,7 +1,8 @@
 """The compare view: both images in one place, as a difference, a wipe or a flip.
 
 A difference is shown only between two full images of the present state. comparing.py explains the
-numbers; composed.py makes the pictures; over the image, the mouse does the same as in pair/view.py.
+numbers; composed.py makes the pictures. Over the image, the mouse does the same as in
+../pair/view.py.
 """
 
 from __future__ import annotations

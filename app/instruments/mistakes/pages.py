@@ -1,6 +1,6 @@
 """The two pages, the laboratory and the quiz: their layout, from pictures that a thread has made.
 
-panel.py and widgets/picture_grid.py draw the parts.
+panel.py and ui/picture_grid.py draw the parts.
 """
 
 from __future__ import annotations

@@ -149,7 +149,7 @@ class Index:
         return self.order[skipped + np.arange(counts.sum())]
 
     def _spheres(self, p: Floats, d: Floats) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """Return the same for spheres, both crossings of each; see scalar/intersect.py's
+        """Return the same for spheres, both crossings of each; see reference/intersect.py's
         hit_sphere.
         """
         spheres = self.flat.spheres

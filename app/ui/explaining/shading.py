@@ -1,8 +1,8 @@
 """The colour of a hit, term by term: ambient, then each light's diffuse and specular.
 
-The shading model with each light's terms is the tracer's own (renderer/trace/pure_python.py). This module
-only takes it apart and adds shadows. A test checks that the terms add up to what the renderers
-draw.
+The shading model with each light's terms is the tracer's own (renderer/trace/pure_python.py). This
+module only takes it apart and adds shadows. A test checks that the terms add up to what the
+renderers draw.
 """
 
 from __future__ import annotations

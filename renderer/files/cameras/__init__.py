@@ -1,7 +1,7 @@
 """Readers and writers of other programs' cameras, one file per format.
 
 `read_cameras` reads any of them (formats.py lists them); `written` writes one. The formulas for K,
-R and t are in renderer/intrinsics.py.
+R and t are in renderer/camera/intrinsics.py.
 """
 
 from renderer.files.cameras.chosen import read_chosen, without_choice

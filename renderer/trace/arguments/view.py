@@ -1,4 +1,4 @@
-"""The camera for a kernel: plain numbers. The formulas are in renderer/camera.py."""
+"""The camera for a kernel: plain numbers. The formulas are in renderer/camera/camera.py."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ BOX = 6 * WIDTH  # floats in a node's boxes
 CORNERS = 9 * WIDTH  # floats in a leaf's corners
 _FAR = np.float32(3.4e38)
 # The corner of an unused place in a leaf: every comparison with NaN is false. Coincident corners
-# would look like a triangle that needs float64 (packets/triangle.py), and more than half of all
+# would look like a triangle that needs float64 (tiles/triangle.py), and more than half of all
 # leaves are not full.
 _NO_CORNER = np.float32(np.nan)
 _NO_SPHERES = np.zeros((0, 4), np.float32)

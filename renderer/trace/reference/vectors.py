@@ -1,5 +1,5 @@
 """Vectors of three numbers as tuples: they live in registers, not in memory. The numbers are
-float64, or lanes (simd/).
+float64, or lanes (vector/).
 """
 
 from __future__ import annotations

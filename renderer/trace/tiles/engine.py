@@ -65,7 +65,7 @@ class PacketEngine:
         self.instances = Instances(scene, self._flat, team)
 
     def compile(self, part: str) -> None:
-        """Compile a part (jobs/compile_child.py), or load it from the cache, by tracing an image
+        """Compile a part (compile_child.py), or load it from the cache, by tracing an image
         that is already cancelled.
         """
         over = new_control()

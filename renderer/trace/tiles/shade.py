@@ -1,6 +1,6 @@
 """The colour of a square's 16 pixels: checker, diffuse light and highlights, in float32 lanes.
 
-The shading model of scalar/shade.py, formula by formula.
+The shading model of reference/shade.py, formula by formula.
 """
 
 from __future__ import annotations

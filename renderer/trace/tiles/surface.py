@@ -1,6 +1,6 @@
 """The surfaces that a square's 16 pixels see: normals, vertex colours, object and primitive.
 
-The formulas are those of scalar/shade.py, in float32 lanes.
+The formulas are those of reference/shade.py, in float32 lanes.
 
 Most squares see one or two triangles. So the pixels are taken by triangle, whose numbers are loaded
 once and repeated in all lanes; of what is left after a few triangles, each lane gathers its own.

@@ -2,7 +2,7 @@
 
 Texel coordinates between a triangle's vertices or on a sphere, wrapped, and the light of four
 texels. Scenes without textures are compiled without any of it. The formulas are
-scalar/texture.py's.
+reference/texture.py's.
 """
 
 from __future__ import annotations
