@@ -6,7 +6,6 @@ from collections.abc import Hashable
 
 from app.instruments.outside.diagram import Item
 from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.lecture.ghosts import ghosts
 from app.lecture.session import LectureSession
@@ -37,10 +36,7 @@ class DrawnAnswer:
         if items and asked != self._drawn:
             host.show(outside.name)
         self._drawn = asked
-        if host.state.of(OutsideOptions).answers:
-            outside.show(SOURCE, items, answer=asked)
-        else:
-            self.hide(outside)
+        outside.show(SOURCE, items, answer=asked)
 
     def hide(self, outside: OutsideView) -> None:
         """Take the drawing away."""

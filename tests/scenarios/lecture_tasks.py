@@ -47,12 +47,6 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     outside = d.window.view(OutsideView)
     assert any(item.name == "your d" for item in outside.extra)  # next to the correct one
     wrong = d.picture()
-    d.window.change(d.window.state.with_options(outside={"answers": False}))
-    d.ctx.yield_(2)
-    assert not outside.extra
-    d.window.undo()
-    d.ctx.yield_(2)
-    assert outside.extra
     given = _looking(d)
     answer(d, "origin", "4, 3, 5")
     d.ctx.item_click(item(d, "Check"))
