@@ -25,12 +25,8 @@ from app.lecture.exercise import exercise
 from app.lecture.exercises import ChoiceExercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
-<<<<<<< HEAD
-from app.lecture.invitation import invitation
-=======
 from app.lecture.inheriting import changed_view
-from app.lecture.invitation import continuation, invitation
->>>>>>> main
+from app.lecture.invitation import invitation
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
