@@ -36,7 +36,7 @@ def can_fork() -> bool:
 
 def import_compiler() -> None:
     """Import all modules that compilation, or loading from the cache, needs."""
-    from renderer.trace.reference.engine import ReferenceEngine  # noqa: F401
+    from renderer.trace.reference_engine import ReferenceEngine  # noqa: F401
     from renderer.trace.tiles.engine import PacketEngine  # noqa: F401
 
 

@@ -42,7 +42,7 @@ def compile_part(part: str) -> None:
 
     from renderer.scene.flat import flatten
     from renderer.trace.bvh.instances import Instances
-    from renderer.trace.reference.engine import ReferenceEngine
+    from renderer.trace.reference_engine import ReferenceEngine
     from renderer.trace.threads.thread_pool import Team
     from renderer.trace.tiles.engine import PacketEngine
 

@@ -138,7 +138,7 @@ class Worker:
     def _new_engine(self, scene: Scene) -> Any:
         """Return the scene prepared for this worker's method. Imports numba."""
         if self._method == "reference":
-            from renderer.trace.reference.engine import ReferenceEngine
+            from renderer.trace.reference_engine import ReferenceEngine
 
             return ReferenceEngine(scene, self._team)
         from renderer.trace.tiles.engine import PacketEngine

@@ -10,7 +10,7 @@ from renderer.images.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace.arguments.image import new_image, to_frame
-from renderer.trace.reference.engine import ReferenceEngine
+from renderer.trace.reference_engine import ReferenceEngine
 from renderer.trace.threads.thread_pool import Team, new_control
 from renderer.trace.tiles.engine import PacketEngine
 
