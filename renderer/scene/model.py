@@ -10,7 +10,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,11 +22,9 @@ from renderer.scene.material import Checker as Checker
 from renderer.scene.material import Color as Color
 from renderer.scene.material import Material, color, length, vector
 from renderer.scene.material import without_metal as without_metal
+from renderer.scene.origin import Origin
 from renderer.scene.texture import is_final
 from renderer.system.errors import LucidaError, one_line, shortened
-
-if TYPE_CHECKING:
-    from renderer.scene.origin import Origin
 
 Floats32 = NDArray[np.float32]
 

@@ -1,6 +1,6 @@
 """The origin of a scene: its file as it was read, for saving it and for undoing edits.
 
-The renderers do not need it.
+The renderers do not need it. It is below model.py, whose objects it holds.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, Literal
 
-from renderer.scene.model import Material, NamedView, SceneObject
+from renderer.scene.material import Material
 from renderer.system.file_dependencies import Noted
 
 ItemKind = Literal["objects", "lights"]
@@ -25,9 +25,9 @@ class FileEntry:
     key: a number that no other entry has in this process, and that editing keeps.
     table, fields: as in the file, and as a structure of schema.py.
     material: the one that it names or gives; None for neither.
-    made: its shapes before they were placed; none for a sphere.
+    made: SceneObjects, its shapes before they were placed; none for a sphere.
     objects: the scene's, in their order; one for each part of a model.
-    views: the model's own cameras.
+    views: NamedViews, the model's own cameras.
     path: of the model's file, absolute.
     notes: what of its textures is not shown.
     """
@@ -36,9 +36,9 @@ class FileEntry:
     table: dict[str, Any]
     fields: Any
     material: Material | None
-    made: tuple[SceneObject, ...]
-    objects: tuple[SceneObject, ...]
-    views: tuple[NamedView, ...] = ()
+    made: tuple[Any, ...]
+    objects: tuple[Any, ...]
+    views: tuple[Any, ...] = ()
     path: str = ""
     notes: tuple[str, ...] = ()
 
