@@ -30,9 +30,8 @@ class DrawnAnswer:
             step, texts = session.step, tuple(answers.texts.items())
             end = end_parameter(step.view.camera, host.focus.framed)
             items = self._ghosts(
-                step.exercise, texts, answers.chosen, step.view.camera, end,
-                host.state.options.notation,
-            )  # fmt: skip
+                step.exercise, texts, step.view.camera, end, host.state.options.notation
+            )
         asked = (session.place, items) if items else None
         if items and asked != self._drawn:
             host.show(outside.name)
