@@ -148,12 +148,6 @@ def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
     return tuple(kept)
 
 
-def languages(blocks: tuple[Block, ...]) -> tuple[str, ...]:
-    """Return the languages of a text's programs if there are several to choose from."""
-    found = tuple(dict.fromkeys(name for name in map(_language, blocks) if name))
-    return found if len(found) > 1 else ()
-
-
 def _language(block: Block) -> str:
     return block.language if isinstance(block, Code) and block.language in LANGUAGES else ""
 

@@ -15,7 +15,6 @@ import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.instruments.outside.growing import stage_at, stages_of
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note
@@ -23,24 +22,22 @@ from app.lecture.arrangement import arrange
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.exercises import ChoiceExercise
-from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
+from app.lecture.foot import BACK, END, NEXT, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.inheriting import changed_view
 from app.lecture.invitation import invitation
-from app.lecture.model import Lecture, Step
+from app.lecture.model import Lecture
 from app.lecture.reading import load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
 from app.lecture.step_options import own, state_of
-from app.lecture.text import Block, in_language, languages
+from app.lecture.text import in_language
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
 from app.state.kept_lecture import KeptLecture
 from app.state.session import source_of
 from app.ui import layout, theme
 from app.ui.background import Background
-from app.ui.checks import radio_button
-from app.ui.explaining.languages import LANGUAGES
 from app.ui.lettering import lettering
 from app.ui.messages import wrapped
 from app.ui.view import DockedView, Host, view_of
@@ -50,9 +47,9 @@ LECTURE = "Lecture"
 CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
 FADE_S = 0.5  # of a text that is added
 CONTROLS_S = 2.0  # until controls go after the mouse rests
-# Of a text over a picture: its part of the window's width, its least width, the part of the height
-# that it may take, and the opacity of its ground.
-OVER, LEAST_OVER_EM, MOST_OVER, GROUND = 0.6, 28.0, 0.3, 0.85
+# Of a text over a picture: its parts of the window's width and, at most, of its height, and the
+# opacity of its ground.
+OVER, MOST_OVER, GROUND = 0.68, 0.15, 0.85
 
 
 class LectureView(DockedView):
@@ -150,7 +147,7 @@ class LectureView(DockedView):
         state = replace(state, options=own(state.options), step=None)
         if self._before is not None and any(step.scene is state.scene for step in steps):
             state = state.with_scene(self._before.scene, self._before.view)
-        window.change(state.with_options(preferences={"presentation": False}))
+        window.change(state.with_options(replace(state.options.preferences, presentation=False)))
         layout.switch(self._layout or layout.LAYOUTS[0].name)
 
     @property
@@ -223,7 +220,7 @@ class LectureView(DockedView):
         """Show the present build's own state, after a movement."""
         assert self.session is not None
         state = replace(window.state, step=self.session.place)
-        state = state.with_options(preferences=preferences)
+        state = state.with_options(state.options.with_changes({"preferences": preferences}))
         window.move(state_of(self.session.step, state), move_s, loop)
 
     def _arrange(self) -> None:
@@ -333,7 +330,7 @@ class LectureView(DockedView):
         self._keys(host)
         assert slides is not None
         slides.notation = host.state.options.notation
-        position = host.state.of(OutsideOptions).formula
+        position = host.state.options.outside.formula
         stages = stages_of(host.renderers.camera(host.state))
         slides.lit = stage_at(position, stages) if position is not None else ""
         if self._lies_over:
@@ -373,7 +370,7 @@ class LectureView(DockedView):
         if session is None or whole is None or not self._lies_over:
             return 0
         (left, top), (wide, high) = whole
-        width = max(OVER * wide, min(LEAST_OVER_EM * imgui.get_font_size(), wide))
+        width = OVER * wide
         is_empty = not (session.step.blocks or session.error or self.shows_controls)
         imgui.set_next_window_pos((left + 0.5 * (wide - width), top - high * is_empty))
         imgui.set_next_window_size_constraints((width, 0), (width, high))
@@ -403,7 +400,8 @@ class LectureView(DockedView):
     def _body(self, host: Host, session: LectureSession, slides: Slides, height: float) -> None:
         """Draw the text and the exercise. height: the room for the longest text of the step."""
         step = session.step
-        blocks, width = self._in_language(host, step), imgui.get_content_region_avail().x
+        blocks = in_language(step.blocks, host.state.options.language)
+        width = imgui.get_content_region_avail().x
         old, alpha = in_language(step.before, host.state.options.language), self._alpha(host)
         self._fit(session, slides, host.state.options.language, ImVec2(width, height))
         if blocks:
@@ -462,21 +460,6 @@ class LectureView(DockedView):
     def unseen(self, host: Host) -> None:
         self._drawn_answer.hide(view_of(self._views, OutsideView))
 
-    def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
-        """Draw the choice of languages if the step's programs have several. Return its text
-        in one.
-        """
-        chosen = host.state.options.language
-        offered = languages(step.blocks)
-        for number, (name, title) in enumerate(LANGUAGES.items()):
-            if name not in offered:
-                continue
-            if number:
-                imgui.same_line(0, imgui.get_font_size())
-            if radio_button(f"{title}##language", name == chosen):
-                host.apply(host.state.with_options(language=name))
-        return in_language(step.blocks, host.state.options.language)
-
     def _controls(self, host: Host, session: LectureSession) -> None:
         is_shown = not host.state.preferences.presentation or self.shows_controls
         imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
@@ -484,8 +467,6 @@ class LectureView(DockedView):
         imgui.pop_style_var()
         if asked == END:
             self.leave(host)
-        elif asked == RESTORE:
-            self.restore(host)
         elif asked in (BACK, NEXT):
             self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):

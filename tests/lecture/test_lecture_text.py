@@ -88,8 +88,6 @@ class TestText:
         assert shown(text, "julia") == ["julia 1", "toml 2", "julia 3"]
         assert shown(text, "python") == ["python 0", "toml 2", "julia 3"]  # or else the first
         assert shown(fenced("toml", "toml"), "julia") == ["toml 0", "toml 1"]
-        assert texts.languages(texts.parse(text)) == ("python", "julia")
-        assert texts.languages(texts.parse(fenced("julia", "toml", "julia"))) == ()
 
     def test_how_long_a_text_may_be(self):
         assert texts.parse("a" * texts.LETTERS)

@@ -15,7 +15,7 @@ import functools
 import re
 from dataclasses import dataclass, replace
 
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.notation import Line
 
 
@@ -135,6 +135,12 @@ def words(text: str, notation: Notation) -> str:
     parts = text.split("`")
     parts[1::2] = [program(part, notation) for part in parts[1::2]]
     return "`".join(parts)
+
+
+def formula(code: str) -> str:
+    """Return code in code's words as a formula of the book."""
+    names = {one.code: rf"\mathbf{{{one.book}}}" if one.is_vector else one.book for one in TABLE}
+    return _NAME.sub(lambda found: names.get(found[0], found[0]), code).replace("*", r"\,")
 
 
 def vectors(code: str, notation: Notation) -> list[tuple[int, str, str]]:

@@ -40,7 +40,6 @@ class OutsideOptions:
     """
 
     camera: Camera | None = None
-    turned: Annotated[float, Range(0, 360)] = 0.0
     volume: bool = True
     image: bool = True
     basis: bool = True
@@ -61,6 +60,4 @@ class OutsideOptions:
     basis_grown: Annotated[float, Range(0, 4)] = 4.0
     numbers: bool = False
     to_parallel: Annotated[float, Range(0, 1)] = 0.0
-
-
-OPTIONS = OutsideOptions
+    turned: Annotated[float, Range(0, 360)] = 0.0
