@@ -17,11 +17,10 @@ from app.laboratory.looks import look_of
 from app.laboratory.options import LaboratoryOptions
 from app.laboratory.page import Image, Page
 from app.laboratory.pages import PAGES, drawn
-from app.laboratory.sheet import Look, Point, Sheet
+from app.laboratory.sheet import Point, Sheet
 from app.outside.figure import Figure
 from app.outside.painting import Painter
 from app.state.bounds import range_of
-from app.state.options import Notation
 from app.widgets import theme
 from app.widgets.areas import focused_steps, mouse_area
 from app.widgets.messages import wrapped
@@ -46,7 +45,9 @@ class LaboratoryView(DockedView):
     def __init__(self) -> None:
         self._uploads: Uploads | None = None
         self._image = Memo(_drawn_image)
-        self._figure = Memo(_figure)
+        self._page = Memo(Page)
+        self._figure = Memo(drawn)
+        self.page: Page | None = None
         self.figure: Figure | None = None
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
@@ -78,7 +79,8 @@ class LaboratoryView(DockedView):
         place = self._read(host, size, color, corner, scale) if reads else options.point
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
         notation = host.state.options.notation
-        self.figure = self._figure(size, look, options, color, exposure_ev, place, notation)
+        self.page = self._page(size, look, options, color, exposure_ev, place, notation)
+        self.figure = self._figure(options.page, self.page)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)
 
@@ -139,18 +141,6 @@ def _slider(label: str, value: float, limits: tuple[float, float], form: str) ->
     follow(width + imgui.calc_text_size(label).x)
     imgui.set_next_item_width(width)
     return slider_float(label, value, *limits, form)[1]
-
-
-def _figure(
-    size: Size,
-    look: Look,
-    options: LaboratoryOptions,
-    color: Image,
-    exposure_ev: float,
-    place: Point,
-    notation: Notation,
-) -> Figure:
-    return drawn(options.page, Page(size, look, options, color, exposure_ev, place, notation))
 
 
 def _drawn_image(rasterizer: WindowRasterizer, request: ImageRequest) -> Image:

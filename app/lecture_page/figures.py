@@ -10,7 +10,7 @@ from app.images.request import MIRROR_DEPTH
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.lecture_page.pictures import data_uri
-from app.outside.options import STAGES, OutsideOptions
+from app.outside.options import OutsideOptions
 from app.page.scene_page import packed_scene
 from app.pair.options import PairOptions
 from app.photograph.model import path_of
@@ -22,7 +22,7 @@ from renderer.scene.model import Scene, View
 from renderer.scene.views import view_table
 
 IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
-# What a figure shows for a view.
+# What a figure shows of a view.
 SHOWN = {
     "raster": ("raster",),
     "ray": ("ray",),
@@ -31,18 +31,11 @@ SHOWN = {
     "probe": ("probe",),
     "camera": ("controls",),
 }
-# Drawings of the outside view that modules/outside.js does not draw.
-DRAWN_IN_THE_WINDOW = (
-    "points",
-    "half_line",
-    "meetings",
-    "simple",
-    "basis_grown",
-    "numbers",
-    "to_parallel",
-    "image_opacity",
+# Parts of the outside view that modules/outside.js draws; it draws no others.
+DRAWN = (
+    *("camera", "volume", "image", "basis", "grid", "ray", "gizmo"),
+    *("target", "up", "answers", "pixels"),
 )
-GROWN = len(STAGES)  # a formula, whole
 
 
 class Figures:
@@ -59,12 +52,20 @@ class Figures:
         self._kept: list[Scene] = []  # so that no id is used twice
 
     def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
-        """Return a step's figure as JSON; None if it shows something else.
+        """Return a step's figure as JSON; None if there is none to try.
 
-        state: the step's. Its field "folded": the step's pictures show more than it draws.
+        A figure that draws less than the step's pictures must have something to drag. state: the
+        step's. Its field "open": the step's exercise is answered in the figure.
         """
         shows = [name for view in step.views for name in SHOWN.get(view, ())]
-        if set(shows) <= {"controls"}:
+        outside = state.of(OutsideOptions)
+        drags = "controls" in shows or "wipe" in shows
+        if "outside" in shows:
+            drags = drags or outside.gizmo != "none" or outside.pixels
+        is_open = isinstance(step.exercise, HideExercise) or (
+            step.exercise is not None and "controls" in shows
+        )
+        if set(shows) <= {"controls"} or not (is_open or drags or _is_whole(step, state)):
             return None
         number = self._number(step.scene)
         if number is None:
@@ -82,8 +83,6 @@ class Figures:
                 options["mark"] = state.marked
         if "compare" in step.views and state.of(CompareOptions).mode == "wipe":
             options["mode"] = "wipe"
-        if state.of(PairOptions).value:
-            options["value"] = True
         if "outside" in step.views:
             options["outside"] = _outside(step, state)
         return {
@@ -93,7 +92,7 @@ class Figures:
             "options": options,
             "lens": "lens" in step.highlight,
             "photograph": _photograph(state),
-            "folded": _has_more(step, state),
+            "open": is_open,
         }
 
     def _number(self, scene: Scene) -> int | None:
@@ -121,7 +120,6 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
         "image": options.image,
         "volume": options.volume,
         "ray": options.ray,
-        "formula": options.formula is not None,
         "handles": "pixels" if options.pixels else options.gizmo,
     }
     if isinstance(task := step.exercise, HideExercise):
@@ -156,19 +154,14 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
     return SHOWN.get(view, ("",))[-1] in shows
 
 
-def _has_more(step: Step, state: AppState) -> bool:
-    """Return True if images show more than a figure draws, and ask for nothing to be changed."""
-    pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
-    grows = (outside.formula is not None and outside.formula < GROWN) or any(
-        getattr(outside, name) != getattr(OutsideOptions(), name) for name in DRAWN_IN_THE_WINDOW
-    )
+def _is_whole(step: Step, state: AppState) -> bool:
+    """Return True if a figure draws all that a step's pictures show."""
+    outside, images = state.of(OutsideOptions), state.images
+    drawn = {name: getattr(outside, name) for name in DRAWN}
     return (
-        (grows and step.exercise is None)  # whose figure shows the answers
-        or images.dissolved > 0
-        or (pair.straight_lines and "lens" not in step.highlight)
-        or pair.footprint
-        or bool(pair.parallels)
-        or (bool(state.of(PhotographOptions).file) and _photograph(state) is None)
-        or images.channel != "color"
-        or images.samples > 1
+        set(step.views) <= SHOWN.keys()
+        and outside == OutsideOptions(**drawn)
+        and state.of(PairOptions) == PairOptions()
+        and not state.of(PhotographOptions).file
+        and (images.dissolved, images.channel, images.samples) == (0, "color", 1)
     )
