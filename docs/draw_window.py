@@ -20,8 +20,8 @@ from app.host import layout
 from app.lecture.reading import BUILTIN, load_lecture
 from app.objects.choosing import choose, rows_of
 from app.state.app_state import AppState
-from app.window.lecturing import run_lecture
 from app.window.platform import start_platform
+from app.window.start import first_state
 from app.window.viewer import WindowRun, save_png
 from renderer.lenses import Lens
 from renderer.scene import load_scene
@@ -64,7 +64,7 @@ PICTURES = (
     Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
     Picture("your-code", layout.LOOPS, size=(1600, 900), code=WRONG),
     Picture("scene", "Four views", size=(1600, 900), chosen="box", views=("Objects", "Inspector")),
-    Picture("lecture", step="From pixel to ray", size=(1600, 900)),
+    Picture("lecture", step="Any camera", size=(1600, 900)),
     Picture(
         "presentation",
         scene="columns",
@@ -81,7 +81,10 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
     if picture.step:
         lecture = load_lecture(BUILTIN)
         number = [step.title for step in lecture.steps].index(picture.step)
-        run_lecture(BUILTIN, lecture, picture.size, number, path)
+        state = first_state(lecture, (number, 0))
+        run = WindowRun(start_platform(want_display=False), state, picture.size, take_picture=True)
+        run.window.lecture.give(lecture, BUILTIN, (number, 0))
+        save_png(path, run.run())
         return path
     state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
     if picture.lens is not None:

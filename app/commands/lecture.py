@@ -22,7 +22,8 @@ PAGES = (".html", ".htm", ".pdf")
 
 DESCRIPTION = """\
 Give a guided lecture: steps of text, each with its own scene, camera and views.
-Without FILE: the built-in lecture, "Images, rays and cameras".
+Without FILE: the built-in lecture, "Images, rays and cameras". A second one, "Cameras beyond
+the formula", has the name cameras-beyond-the-formula.
 It starts in presentation mode, for a hall: capitals are 1/50 of the window's height."""
 
 EPILOG = """\
@@ -37,6 +38,7 @@ A file is read again whenever it is saved. docs/lectures.md describes the format
 
 examples:
   lucida lecture
+  lucida lecture cameras-beyond-the-formula
   lucida lecture my-lecture.toml
   lucida lecture my-lecture.toml --step 3.2
   lucida lecture my-lecture.toml --check
@@ -51,7 +53,12 @@ exit status: 0 done, 2 a mistake (one line says file, line and field), 130 inter
 
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
-    parser.add_argument("file", nargs="?", metavar="FILE", help="a lecture file (.toml)")
+    parser.add_argument(
+        "file",
+        nargs="?",
+        metavar="FILE",
+        help="a lecture file (.toml), or a built-in lecture's name",
+    )
     either = parser.add_mutually_exclusive_group()
     either.add_argument(
         "--check",
@@ -108,7 +115,7 @@ def _place(text: str) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.lecture.reading import BUILTIN, load_lecture
+    from app.lecture.reading import BUILTIN, BUILTINS, load_lecture
     from renderer.scene.outside import OutsideError
 
     if arguments.output is not None and arguments.results is None:
@@ -118,7 +125,9 @@ def run(arguments: argparse.Namespace) -> int:
     as_page = arguments.export is not None and Path(arguments.export).suffix.lower() in PAGES
     if arguments.no_answers and not as_page:
         raise LucidaError("--no-answers", "is for a page", "add --export handout.pdf")
-    path = Path(arguments.file) if arguments.file is not None else BUILTIN
+    named = {path.stem: path for path in BUILTINS.values()}
+    file = arguments.file
+    path = BUILTIN if file is None else named.get(file, Path(file))
     try:
         agreed = arguments.check or arguments.outside or arguments.results is not None
         lecture = load_lecture(path, None if agreed else frozenset())

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+from pathlib import Path
+
 from imgui_bundle import imgui
 
 from app.host.action import Action, Key, Window
+from app.lecture.reading import BUILTINS, load_lecture
 from app.lecture.view import LectureView
 
 
@@ -16,11 +20,14 @@ def _restorable(window: Window) -> bool:
     return _given(window) and not imgui.get_io().want_text_input
 
 
+def _begin(path: Path, window: Window) -> None:
+    window.view(LectureView).give(load_lecture(path), path)
+
+
 LECTURE = (
-    Action(
-        "Lecture",
-        'Begin "Images, rays and cameras"',
-        lambda w: w.view(LectureView).give_builtin(),
+    *(
+        Action("Lecture", f'Begin "{title}"', partial(_begin, path))
+        for title, path in BUILTINS.items()
     ),
     Action("Lecture", "Open lecture...", lambda w: w.files.open_lecture_dialog()),
     Action(

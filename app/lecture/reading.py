@@ -44,7 +44,12 @@ from renderer.scene.reading import decode_text, read_file, suggestion
 from renderer.scene.tables import parse_toml, to_struct
 from renderer.scene.views import load_view, view_from_table
 
-BUILTIN = Path(__file__).parents[1] / "lectures" / "images-rays-cameras.toml"
+_FOLDER = Path(__file__).parents[1] / "lectures"
+BUILTIN = _FOLDER / "images-rays-cameras.toml"
+BUILTINS = {  # by their titles
+    "Images, rays and cameras": BUILTIN,
+    "Cameras beyond the formula": _FOLDER / "cameras-beyond-the-formula.toml",
+}
 STEPS = 1000
 BUILDS = 20  # of a step
 MOVE_S = 60

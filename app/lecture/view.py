@@ -26,7 +26,7 @@ from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.invitation import continuation, invitation
 from app.lecture.model import Lecture, Step
-from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.reading import load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
 from app.lecture.slide import TITLE, Slides
 from app.lecture.step_options import own, state_of
@@ -145,10 +145,6 @@ class LectureView(DockedView):
             state = state.with_scene(self._before.scene, self._before.view)
         window.change(state.with_options(preferences={"presentation": False}))
         layout.switch(self._layout or layout.LAYOUTS[0].name)
-
-    def give_builtin(self) -> None:
-        """Begin the built-in lecture."""
-        self.give(load_lecture(BUILTIN), BUILTIN)
 
     @property
     def is_given(self) -> bool:
@@ -320,8 +316,8 @@ class LectureView(DockedView):
 
     def draw(self, host: Host) -> None:
         if self.session is None:
-            if invitation(host):
-                self.give_builtin()
+            if (path := invitation(host)) is not None:
+                self.give(load_lecture(path), path)
             return
         session, slides = self.session, self._slides
         self._keys(host)

@@ -19,6 +19,7 @@ from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key
 
 from app.host import layout
+from app.lecture.reading import BUILTIN, load_lecture
 from app.pair.view import RASTER, RAY
 from app.state.all_options import AllOptions
 from app.state.bounds import check
@@ -179,7 +180,7 @@ class Attack:
         number = self.rng.randrange(-2, 40)
         self.tell("lecture", number)
         if not self.window.lecture.is_given:
-            self.window.lecture.give_builtin()
+            self.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
         self.d.ctx.yield_(2)
         if self.window.lecture.is_given:
             self.window.lecture.go(self.window, number)

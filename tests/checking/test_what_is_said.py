@@ -51,7 +51,7 @@ def test_one_mistake():
         "Rows count downwards, `v` points up: `y` needs its minus sign.",
         "As if it read `y = bottom + (i + 0.5) / height * (top - bottom)`, not "
         "`y = top - (i + 0.5) / height * (top - bottom)`.",
-        "Read again: From pixel to ray.",
+        "Read again: From pixel to (u, v).",
     )
 
 

@@ -6,6 +6,7 @@ import json
 import sys
 
 import pytest
+from both_lectures import both_lectures
 
 from app.checking.builtin import BUILTIN
 from app.cli import main
@@ -262,8 +263,5 @@ def test_the_list_of_tasks(capsys, tmp_path):
 
 
 def test_lecture_parts_are_steps_of_the_lecture():
-    from app.lecture.reading import BUILTIN as LECTURE
-    from app.lecture.reading import load_lecture
-
-    titles = {step.title for step in load_lecture(LECTURE).steps}
+    titles = {step.title for step in both_lectures().steps}
     assert {task.part for task in BUILTIN} <= titles

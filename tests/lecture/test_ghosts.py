@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
+from both_lectures import both_lectures
 
-from app.lecture.exercises import ChoiceExercise
 from app.lecture.ghosts import ghosts
-from app.lecture.reading import BUILTIN, load_lecture
 from app.outside.diagram import Arrow, Dot
 
-STEPS = {step.title: step for step in load_lecture(BUILTIN).steps if step.exercise is not None}
+STEPS = {step.title: step for step in both_lectures().steps if step.exercise is not None}
 
 
 def drawn(title: str, chosen: int | None = None, **texts: str):
@@ -44,15 +42,3 @@ def test_the_wrong_parts_of_an_answer_are_drawn(title, texts, names) -> None:
 def test_a_text_that_is_no_vector_draws_nothing() -> None:
     assert drawn("Exercise: a pixel's ray", origin="0 0", direction="") == ()
     assert drawn("Exercise: find the basis", w="up", u="0 0 1", v="0 1 0") == ()
-
-
-def test_each_wrong_camera_to_choose_is_drawn_and_the_right_one_is_not() -> None:
-    task = STEPS["Exercise: which camera?"].exercise
-    assert isinstance(task, ChoiceExercise)
-    for number, option in enumerate(task.options):
-        items = drawn("Exercise: which camera?", number)
-        assert (len(items) == 0) == option.right
-    corners = [
-        np.asarray(i.corners) for i in drawn("Exercise: which camera?", 2) if "side" in i.name
-    ]
-    assert np.ptp(np.concatenate(corners)[:, 0]) == pytest.approx(3.0)  # the whole viewport

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import fields
 
 import pytest
+from both_lectures import both_lectures
 from sample_lecture import FILE, read
 
 from app.lecture.exercises import ChoiceExercise, RayExercise
-from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.lecture.reading import lecture_from_toml, load_lecture
 from app.lecture.step_options import ELSEWHERE, state_of
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState
@@ -87,9 +88,9 @@ class TestReading:
                 read(text)
 
     def test_the_built_in_lecture_counts_from_one_and_says_so_first(self):
-        lecture = load_lecture(BUILTIN)
+        lecture = both_lectures()
         assert not any("one_based" in step.options for step in lecture.steps)
-        first = next(step for step in lecture.steps if "(i, j)" in step.text)
+        first = next(build for build in lecture.builds if "j - 0.5" in build.text)
         assert "from 1" in first.text
 
     def test_every_option_is_known_to_a_step(self):

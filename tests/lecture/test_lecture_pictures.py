@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from both_lectures import both_lectures
 from plain_text import plain_text
 
-from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.reading import BUILTINS
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Dot, Eye, Item, Label, RayEnd
 from app.outside.options import OutsideOptions
 
-STEPS = {build.title: build for build in load_lecture(BUILTIN).builds}  # at their last builds
+STEPS = {build.title: build for build in both_lectures().builds}  # at their last builds
 VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720
 
 
@@ -90,9 +91,10 @@ def test_the_end_answers_the_questions_of_the_beginning() -> None:
 
 
 def test_words_are_of_one_kind() -> None:
-    everything = BUILTIN.read_text(encoding="utf-8")
-    assert not re.search(r"\bgrey", everything, re.IGNORECASE)
-    assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
+    for path in BUILTINS.values():
+        everything = path.read_text(encoding="utf-8")
+        assert not re.search(r"\bgrey", everything, re.IGNORECASE)
+        assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
 
 
 def test_the_windows_words_are_of_one_kind() -> None:

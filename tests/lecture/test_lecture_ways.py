@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from both_lectures import both_lectures
 
 from app.images.marking import followed
-from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import OWN, state_of
 from app.state.app_state import AppState
 from renderer.scene import load_scene
 
-LECTURE = load_lecture(BUILTIN)
+LECTURE = both_lectures()
 
 
 def spoiled(state: AppState) -> AppState:

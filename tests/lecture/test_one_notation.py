@@ -13,6 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from both_lectures import both_lectures
 
 from app.camera_panel import panel, projection
 from app.checking.builtin import builtin_tasks
@@ -26,7 +27,6 @@ from app.laboratory.ruler import ruler
 from app.laboratory.sheet import Look
 from app.lecture import text as texts
 from app.lecture.notation import TwiceUsed, in_notation
-from app.lecture.reading import BUILTIN, load_lecture
 from app.outside import figure
 from app.outside.camera_diagram import Content, diagram
 from app.outside.diagram import Label, RayEnd
@@ -40,7 +40,7 @@ from app.stepper.source import shown_code, shown_lines, source_of
 from renderer.pixels import Indexing
 from renderer.scene import load_scene
 
-LECTURE = load_lecture(BUILTIN)
+LECTURE = both_lectures()
 STEPS = LECTURE.builds
 NOTATIONS: tuple[Notation, ...] = ("book", "code")
 Found = Iterator[tuple[str, str, str]]  # where, the kind of text, the text
@@ -175,7 +175,7 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
 
 def test_the_first_step_with_a_letter_twice_says_so():
     said = [b for b in LECTURE.builds if any(isinstance(block, TwiceUsed) for block in b.blocks)]
-    assert {build.title for build in said} == {"From pixel to ray"}
+    assert {build.title for build in said} == {"Any camera"}
     assert said[-1].build + 1 == LECTURE.count(said[-1].number)
     assert len(in_notation(said[0].blocks, "code")) == len(said[0].blocks) - 1
 

@@ -1,4 +1,4 @@
-"""The built-in lecture's K, R and t are its step's camera, and what it calls wrong is what each
+"""The second lecture's K, R and t are its step's camera, and what it calls wrong is what each
 mistake makes."""
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import pytest
 from app.explaining.arithmetic import vector_text
 from app.lecture.exercises import VectorExercise
 from app.lecture.model import Step
-from app.lecture.reading import BUILTIN, load_lecture
+from app.lecture.reading import BUILTINS, load_lecture
 from renderer.camera import Camera
 
 SIZE = (8, 6)
@@ -20,7 +20,7 @@ T = np.array([0, 1, 4])
 
 @pytest.fixture(scope="module")
 def step() -> Step:
-    steps = load_lecture(BUILTIN).steps
+    steps = load_lecture(BUILTINS["Cameras beyond the formula"]).steps
     return next(step for step in steps if step.title == "Exercise: K, R and t")
 
 

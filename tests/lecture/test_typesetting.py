@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from both_lectures import both_lectures
 
-from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from app.lecture.reading import lecture_from_toml
 from app.lecture.typesetting import first_mistake, mistake
 from app.widgets import formula
 
@@ -73,6 +74,6 @@ $$
 
 
 def test_all_formulas_of_the_built_in_lecture_can_be_set():
-    lecture = load_lecture(BUILTIN)
+    lecture = both_lectures()
     assert len(lecture.formulas) > 30
     assert first_mistake(lecture.formulas) is None

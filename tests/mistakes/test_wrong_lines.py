@@ -10,11 +10,8 @@ import pytest
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.reports.picture import MARK, changed_pixels, difference_picture
 from app.images.ray_pictures import RayPainter
-from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.step_options import state_of
 from app.mistakes import model
 from app.mistakes.model import Situation
-from app.mistakes.options import MistakesOptions
 from app.state.app_state import AppState
 from app.widgets.picture_grid import columns_for
 from renderer.pixels import Indexing
@@ -157,24 +154,6 @@ def test_a_mark_beside_the_images_marks_nothing() -> None:
 def test_unknown_names_are_told() -> None:
     names = tuple(mistake.name for program in PROGRAMS for mistake in program.mistakes)
     assert model.unknown((*names, "no such thing")) == ("no such thing",)
-
-
-def test_the_lectures_own_names_are_known() -> None:
-    """And their steps make sense: what is asked for, their projection has."""
-    found = 0
-    for step in load_lecture(BUILTIN).steps:
-        if "mistakes" not in step.views:
-            continue
-        found += 1
-        state = state_of(step, STATE)
-        options = state.of(MistakesOptions)
-        names = (*options.chosen, *([options.asked] if options.asked else []))
-        program = situation(state).program
-        if options.mode == "laboratory":
-            assert [one.name for one in model.named(program, names)] == list(names)
-        else:
-            assert options.asked in {mistake.name for mistake in program.mistakes}
-    assert found == 2
 
 
 def test_pictures_stand_as_large_as_they_can() -> None:

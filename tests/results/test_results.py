@@ -8,10 +8,10 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from both_lectures import both_lectures
 
 from app.cli import main
 from app.lecture.answer_log import AnswerLog
-from app.lecture.reading import BUILTIN, load_lecture
 from app.mistakes.options import MistakesOptions
 from app.mistakes.question import right_at
 from app.results.model import ClassAnswer, NamedMistake, class_results
@@ -26,7 +26,7 @@ FLIPPED, MIDDLE = "rows count upwards", "corners, not middles"
 
 @pytest.fixture(scope="module")
 def lecture():
-    return load_lecture(BUILTIN)
+    return both_lectures()
 
 
 def answer(lecture, log: AnswerLog, title: str, **fields) -> None:
@@ -46,7 +46,7 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
     first = {"origin": "0 0 0", "direction": "0.0625, -0.3125, -1"}
     answer(lecture, log, RAY, texts=first)
     answer(lecture, log, RAY, texts={"origin": "here", "direction": "there"})  # no answer
-    answer(lecture, log, "Exercise: which camera?", chosen=0)
+    answer(lecture, log, "Exercise: which lens?", chosen=1)
     log.name = "Ada"
     right = {"origin": "0 0 0", "direction": "1/16, 5/16, -1"}
     answer(lecture, log, RAY, texts=right, solved=True)
@@ -63,8 +63,8 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
     assert [line.get("name", "") for line in lines[:3]] == ["", "", "Ada"]
     answers, problems = read_answers([tmp_path / "answers.jsonl"])
     assert problems == []
-    choice = next(one for one in answers if one.step == "Exercise: which camera?")
-    assert choice.mistakes[0].read == "What parallel projection does"
+    choice = next(one for one in answers if one.step == "Exercise: which lens?")
+    assert choice.mistakes[0].read == "Everything around the eye"
     titles = {step.title for step in lecture.steps}
     assert {m.read for one in answers for m in one.mistakes} <= titles
     assert answers[2].right and answers[2].helped and answers[2].student == "Ada"
@@ -82,9 +82,9 @@ def test_a_file_of_something_else_is_not_written_to(tmp_path):
 
 def test_an_answer_follows_a_line_that_a_crash_cut(lecture, tmp_path):
     path = tmp_path / "answers.jsonl"
-    answer(lecture, AnswerLog(path), "Exercise: which camera?", chosen=1)
+    answer(lecture, AnswerLog(path), "Exercise: which lens?", chosen=1)
     path.write_bytes(path.read_bytes() + b'{"lucida": "ans')
-    answer(lecture, AnswerLog(path), "Exercise: which camera?", chosen=2)
+    answer(lecture, AnswerLog(path), "Exercise: which lens?", chosen=2)
     answers, problems = read_answers([path])
     assert len(answers) == 2
     assert problems == [f"{path}:2: is no JSON; delete the line"]
@@ -200,7 +200,7 @@ def test_checks_count_in_the_same_page(tmp_path, capsys):
     assert main(["check", str(code), "--task", "viewing-ray", "--json", str(out)]) == 1
     lines = written(
         tmp_path / "a.jsonl",
-        {**LINE, "right": False, "mistake": FLIPPED, "read": "From pixel to ray"},
+        {**LINE, "right": False, "mistake": FLIPPED, "read": "From pixel to (u, v)"},
         {"no": "answer"},
     )
     result = tmp_path / "class.html"
@@ -211,7 +211,7 @@ def test_checks_count_in_the_same_page(tmp_path, capsys):
     tags = Tags()
     tags.feed(result.read_text())
     assert "2 of 2 students" in tags.text and "Your code: viewing-ray" in tags.text
-    assert "From pixel to ray" in tags.text
+    assert "From pixel to (u, v)" in tags.text
     assert str(datetime.now(UTC).year) in tags.text
     assert main(["lecture", "--results", str(tmp_path / "none"), "-o", str(result)]) == 2
     capsys.readouterr()
