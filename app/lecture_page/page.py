@@ -11,13 +11,12 @@ from app.laboratory.page import Page
 from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture.text import Question
-from app.lecture_page import exercises, mistakes
+from app.lecture_page import exercises
 from app.lecture_page.described import SIZE, alternative, title_of
 from app.lecture_page.figures import Figures, is_live
 from app.lecture_page.pictures import Form, data_uri, drawing
 from app.lecture_page.shell import BAR, DIALOGS, overview
 from app.lecture_page.text import blocks_html, plain
-from app.mistakes.options import MistakesOptions
 from app.page.document import document
 from app.page.formulas import templates
 from app.state.all_options import AllOptions
@@ -54,7 +53,7 @@ def page(
     tasks: dict[str, Any] = {}
     shown: dict[str, Any] = {}
     figures = None if for_print else Figures()
-    builds = [one for one in lecture.builds if answers or not is_answer(one)]
+    builds = [one for one in lecture.builds if answers or not is_answer(one, lecture)]
     last = {one.number: one for one in builds}
     for place, step in enumerate(builds):
         after = builds[place + 1] if step is not last[step.number] else None
@@ -110,9 +109,10 @@ def _settings(step: Step) -> dict[str, Any]:
     }
 
 
-def is_answer(step: Step) -> bool:
+def is_answer(step: Step, lecture: Lecture) -> bool:
     """Return True for a build that comes after a question to the class in its step."""
-    return any(isinstance(block, Question) for block in step.before)
+    before = lecture.builds[lecture.place(step.number) : lecture.place(step.number, step.build)]
+    return any(isinstance(block, Question) for one in before for block in one.blocks)
 
 
 class _Step:
@@ -143,11 +143,9 @@ class _Step:
         """Return the step. stills: its pictures."""
         number, step = self._name, self._step
         text = blocks_html(step.blocks, self._notation)
-        asked = live = figure = ""
-        if step.exercise is not None:
+        asked = figure = ""
+        if step.exercise is not None and self.task is not None:
             asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
-        elif "mistakes" in step.views and self._form == "webp":
-            asked, live = self._mistakes()
         if self.figure is not None:
             figure = f'<div class="live-figure" data-step="{number}" hidden></div>\n'
             if not self.figure["open"]:
@@ -164,26 +162,13 @@ class _Step:
             f'aria-labelledby="title-{number}">\n'
             f'<div class="words">\n{part}<h2 id="title-{number}" tabindex="-1">'
             f'{plain(step.title)}</h2>\n<div class="text">{text}</div>\n{asked}</div>\n'
-            f'<div class="views">\n{live}{views}</div>\n</section>\n'
+            f'<div class="views">\n{views}</div>\n</section>\n'
         )
-
-    def _mistakes(self) -> tuple[str, str]:
-        """Return the quiz below the text, or the laboratory among the views."""
-        if self._state.of(MistakesOptions).mode == "laboratory":
-            return "", mistakes.laboratory(self._name, self._state)
-        found = mistakes.quiz(self._step, self._state)
-        if found is None:
-            return "", ""
-        html, data = found
-        self.task = exercises.with_replies(data)
-        return "", exercises.form_of(self._name, html, self.task, self._notation)
 
     def _still(self, still: Still) -> str:
         """Return a picture, or a drawing."""
         name = f"view of-{still.view}"
-        if still.view == "mistakes":
-            name += " printed"  # on the screen it is live
-        elif self.figure and self.figure["open"] and is_live(still.view, self.figure["shows"]):
+        if self.figure and self.figure["open"] and is_live(still.view, self.figure["shows"]):
             name += " still"  # for prints, and where there is no WebGL
         seen = plain(alternative(still.view, self._step, self._state))
         height, width = still.pixels.shape[:2]

@@ -3,14 +3,13 @@
 import { Answers } from "./answers.js";
 import { attach } from "./exercise.js";
 import { LiveFigures } from "./live.js";
-import { attachMistakes } from "./mistakes.js";
 import { Notes } from "./notes.js";
 import { overview } from "./overview.js";
 
 const THEMES = ["dark", "light", "contrast"];
-const TYPED_INTO = "input:not([type=range], [type=radio], [type=checkbox]), select, textarea, dialog";
-const OWN_KEYS = "input, select, textarea, [role=slider], dialog";
-const OWN_SWIPES = ".live-figure, pre, input, select";
+const TYPED_INTO = "input:not([type=range], [type=radio], [type=checkbox]), textarea, dialog";
+const OWN_KEYS = "input, textarea, [role=slider], dialog";
+const OWN_SWIPES = ".live-figure, pre, input";
 const SWIPE_PX = 40;
 
 /** @template {Element} T @param {string} id @param {new () => T} kind @returns {T} */
@@ -127,7 +126,7 @@ class Slides {
 function crossFade(change) {
   const cuts = matchMedia("(prefers-reduced-motion: reduce)").matches || !document.startViewTransition;
   if (cuts) change();
-  else document.startViewTransition(change);
+  else document.startViewTransition(change).ready.catch(() => undefined); // a second change ends the first
 }
 
 /** Let a finger go on and back. @param {Slides} slides */
@@ -213,7 +212,6 @@ export function start() {
     const exercise = data.exercises[form.dataset.step ?? ""];
     if (exercise) attach(form, exercise, answers);
   }
-  document.querySelectorAll(".mistakes").forEach(attachMistakes);
   bindAnswers(answers);
   document.querySelectorAll(".programs").forEach(bindLanguages);
   /** @type {Record<string, () => void>} */
