@@ -1,4 +1,4 @@
-"""Draws the floor of the built-in lecture: app/lectures/tiles.png, tiles with fine lines on them.
+"""Draws the floor of the built-in lecture, app/lecture/lectures/tiles.png: tiles with fine lines.
 
 .venv/bin/python docs/draw_tiles.py
 """
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-OUT = Path(__file__).parents[1] / "app" / "lectures" / "tiles.png"
+OUT = Path(__file__).parents[1] / "app" / "lecture" / "lectures" / "tiles.png"
 SIDE = 128  # texels; a quarter of it is a tile
 LIGHT, DARK, JOINT, LINE = (226, 216, 196), (52, 78, 104), (30, 28, 26), (196, 84, 36)
 

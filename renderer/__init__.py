@@ -10,30 +10,31 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from renderer.camera import Camera
-    from renderer.camera_formats import read_cameras
-    from renderer.errors import LucidaError
-    from renderer.frame import Frame
+    from renderer.camera.camera import Camera
+    from renderer.camera.lenses import Lens
+    from renderer.files import load_scene, load_view, save_view
+    from renderer.files.cameras import read_cameras
     from renderer.images import picture, write_image
-    from renderer.lenses import Lens
+    from renderer.images.frame import Frame
     from renderer.raster import Rasterizer
-    from renderer.scene import Scene, View, load_scene, load_view, save_view
+    from renderer.scene import Scene, View
+    from renderer.system.errors import LucidaError
     from renderer.trace import Tracer
 
 _HOME = {
-    "Camera": "renderer.camera",
-    "Frame": "renderer.frame",
-    "Lens": "renderer.lenses",
-    "LucidaError": "renderer.errors",
+    "Camera": "renderer.camera.camera",
+    "Frame": "renderer.images.frame",
+    "Lens": "renderer.camera.lenses",
+    "LucidaError": "renderer.system.errors",
     "Rasterizer": "renderer.raster",
     "Scene": "renderer.scene",
     "Tracer": "renderer.trace",
     "View": "renderer.scene",
-    "load_scene": "renderer.scene",
-    "load_view": "renderer.scene",
+    "load_scene": "renderer.files",
+    "load_view": "renderer.files",
     "picture": "renderer.images",
-    "read_cameras": "renderer.camera_formats",
-    "save_view": "renderer.scene",
+    "read_cameras": "renderer.files.cameras",
+    "save_view": "renderer.files",
     "write_image": "renderer.images",
 }
 

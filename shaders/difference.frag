@@ -1,5 +1,5 @@
 #version 330 core
-// The difference of two images of one channel, as false colour: renderer/difference.py's, on the GPU.
+// The difference of two images of one channel, as false colour: renderer/images/difference.py's, on the GPU.
 
 #include "chunks/color.glsl"
 

@@ -11,10 +11,10 @@ import sys
 import pytest
 from hypothesis import settings
 
-from renderer.errors import LucidaError
+from renderer.files import BUILTIN_SCENES, load_scene
 from renderer.raster import Rasterizer
-from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 settings.register_profile("lucida", deadline=None, derandomize=bool(os.environ.get("CI")))

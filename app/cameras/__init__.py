@@ -1,6 +1,6 @@
 """The camera as the user changes it: editing its numbers, moving it, presets, transitions, text
 forms.
 
-Pure; only travel.py depends on frames. renderer/camera.py has the camera itself, its formulas and
-matrices.
+Pure; only travel.py depends on frames. renderer/camera/camera.py has the camera itself, its
+formulas and matrices.
 """

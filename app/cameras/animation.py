@@ -24,12 +24,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera import Camera, Floats, Vector
-from renderer.camera_checks import SMALLEST
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
-from renderer.navigation import depth_of
+from renderer.camera.camera import Camera, Floats, Vector
+from renderer.camera.checks import SMALLEST
+from renderer.camera.lenses import Lens
+from renderer.camera.navigation import depth_of
 from renderer.scene.model import View
+from renderer.system.errors import LucidaError
 
 Number = TypeVar("Number", float, Floats)
 

@@ -13,12 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.cameras.basis import measures
-from renderer.camera import Camera, Size
-from renderer.camera_formats import CameraSet, PosedCamera, format_named
-from renderer.camera_formats.distortion import effect, shift_px
-from renderer.errors import one_line
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera, Size
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import CameraSet, PosedCamera, format_named
+from renderer.files.cameras.distortion import effect, shift_px
 from renderer.scene.model import View
+from renderer.system.errors import one_line
 
 TOLD = 3  # cameras in a file, and sizes, to list
 ROUNDING = 1e-14  # of a vector's largest component: less is rounding

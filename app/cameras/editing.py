@@ -10,8 +10,8 @@ from typing import Any
 
 from app.cameras.basis import with_component
 from app.state.app_state import AppState
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.system.errors import LucidaError
 
 BASIS = ("u", "v", "w")
 

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from renderer.errors import LucidaError, errors_as, not_together
+from renderer.system.errors import LucidaError, errors_as, not_together
 
 if TYPE_CHECKING:
-    from renderer.lenses import Lens
+    from renderer.camera.lenses import Lens
     from renderer.scene.model import View
 
 CAMERA_FIELDS = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far", "lens")
@@ -57,7 +57,7 @@ def lens_text(lens: Lens) -> str:
 
 def lens_word(text: str) -> Lens | str:
     """Return the lens of such a word, or NO_LENS."""
-    from renderer.lenses import Lens
+    from renderer.camera.lenses import Lens
 
     if text == NO_LENS:
         return text
@@ -151,7 +151,7 @@ def _looking(view: View, given: dict[str, Any]) -> View:
 
 def _as_wide(view: View, fov_deg: float) -> View:
     """Return the view with a vertical field of view, set by the viewport's distance."""
-    from renderer.navigation import distance_for
+    from renderer.camera.navigation import distance_for
 
     camera = view.camera
     if camera.is_parallel:

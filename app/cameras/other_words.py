@@ -1,6 +1,6 @@
 """K, R and t of the camera for the current image: to read in a panel, and to copy.
 
-Pure; the formulas are renderer/intrinsics.py's.
+Pure; the formulas are renderer/camera/intrinsics.py's.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera import Size
-from renderer.camera_checks import Floats
-from renderer.camera_formats.entries import ORIGIN_TOLD
-from renderer.intrinsics import PixelOrigin
+from renderer.camera.camera import Size
+from renderer.camera.checks import Floats
+from renderer.camera.intrinsics import PixelOrigin
+from renderer.files.cameras.entries import ORIGIN_TOLD
 from renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"

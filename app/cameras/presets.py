@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera import Camera, Vector
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera, Vector
+from renderer.camera.lenses import Lens
 from renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side

@@ -15,16 +15,16 @@ from typing import Any, NoReturn
 
 from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from app.cameras.taken import TakenCamera, is_fitted, told_of
-from renderer.camera import Camera
-from renderer.camera_formats import FORMATS, PosedCamera, one_of, opengl, read_cameras
-from renderer.camera_formats.given import Given
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
-from renderer.scene import view_from_toml
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files import view_from_toml
+from renderer.files.cameras import FORMATS, PosedCamera, one_of, opengl, read_cameras
+from renderer.files.cameras.given import Given
+from renderer.files.reading import naming
+from renderer.files.tables import parse_toml
+from renderer.files.views import view_from_table
 from renderer.scene.model import View
-from renderer.scene.reading import naming
-from renderer.scene.tables import parse_toml
-from renderer.scene.views import view_from_table
+from renderer.system.errors import LucidaError
 
 SOURCE = "clipboard"
 MOST_CHARACTERS = 100_000

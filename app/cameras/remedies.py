@@ -1,6 +1,6 @@
 """Remedies for a black image: the cause in, a state with another camera or exposure out.
 
-Pure. The causes are those of renderer/black.py.
+Pure. The causes are those of renderer/compare/why_black.py.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from dataclasses import replace
 
 from app.cameras.presets import framed
 from app.state.app_state import AppState
-from renderer.black import Darkness, Reason, exposure_for
-from renderer.focus import Focus
+from renderer.compare.why_black import Darkness, Reason, exposure_for
+from renderer.scene.focus import Focus
 
 FRAME, CUT_NOTHING, EXPOSE = "Frame the scene", "Without near and far", "Set the exposure"
 _REMEDIES = {

@@ -13,12 +13,12 @@ from typing import Any, Literal, get_args
 
 from app.cameras.options import lens_text
 from app.cameras.presets import clip_around
-from renderer.camera import Camera, Floats, Size
-from renderer.camera_formats import PosedCamera, opengl, written
-from renderer.errors import LucidaError, one_line
-from renderer.lenses import Lens
-from renderer.scene import view_to_toml
+from renderer.camera.camera import Camera, Floats, Size
+from renderer.camera.lenses import Lens
+from renderer.files import view_to_toml
+from renderer.files.cameras import PosedCamera, opengl, written
 from renderer.scene.model import View
+from renderer.system.errors import LucidaError, one_line
 
 Form = Literal[
     "view file", "command line", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"

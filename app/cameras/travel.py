@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 from app.cameras.animation import Passage
 from app.state.app_state import AppState, is_orthonormal
-from renderer.camera import Camera
-from renderer.focus import Focus
+from renderer.camera.camera import Camera
+from renderer.scene.focus import Focus
 from renderer.scene.model import View
 
 DURATION_S = 0.5

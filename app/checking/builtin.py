@@ -11,9 +11,9 @@ from typing import Any
 from app.checking.conventions import Conventions
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
-from app.explaining.symbols import spoken
 from app.state.options import Notation
-from renderer.shared_numbers import LUMINANCE
+from app.ui.explaining.symbols import spoken
+from renderer.images.shared_numbers import LUMINANCE
 
 _HIT = (
     "Give the ray parameter t of the nearest hit with t > 0: the point is "

@@ -15,8 +15,8 @@ import numpy as np
 
 from app.checking.conventions import Conventions, Shot
 from app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
-from renderer.camera import Camera, Size, Vector
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera, Size, Vector
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

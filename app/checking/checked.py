@@ -15,7 +15,7 @@ from app.checking.kinds.kind import CheckKind
 from app.checking.kinds.values import text_of
 from app.checking.running.told import told_call
 from app.checking.tasks import CheckCase, CheckTask
-from renderer.scene.reading import close_matches
+from renderer.files.reading import close_matches
 
 if TYPE_CHECKING:
     from app.checking.mistakes.diagnosis import Diagnosis

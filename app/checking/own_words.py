@@ -18,7 +18,7 @@ from app.checking.mistakes.value_programs import value_program
 from app.checking.mistakes.vectors import FUNCTIONS
 from app.checking.ray_words import LETTERS, ray_task
 from app.checking.tasks import CheckTask
-from app.explaining.symbols import arguments, program
+from app.ui.explaining.symbols import arguments, program
 
 # The parts of a word's value, by their names in the programs.
 _PARTS: Mapping[str, Mapping[str, str]] = {

@@ -9,7 +9,7 @@ from app.checking.conventions import CAMERA, CAMERA_WORDS
 from app.checking.kinds import KINDS
 from app.checking.own_words import functions, shown_name
 from app.checking.tasks import CheckTask
-from renderer.errors import visible
+from renderer.system.errors import visible
 
 _WIDTH = 96
 _NUMPY = {"atan2": "arctan2 as atan2"}  # names that NumPy has only from version 2 on

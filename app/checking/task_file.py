@@ -26,13 +26,13 @@ from app.checking.kinds.kind import CheckKind
 from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
 from app.state.options import Notation
-from renderer.errors import LucidaError, under
+from renderer.files.places import Places, located
+from renderer.files.reading import decode_text, read_file, suggestion
+from renderer.files.tables import parse_toml, to_struct
 from renderer.scene.limits import TOML_BYTES
 from renderer.scene.model import View
-from renderer.scene.noting import noting
-from renderer.scene.places import Places, located
-from renderer.scene.reading import decode_text, read_file, suggestion
-from renderer.scene.tables import parse_toml, to_struct
+from renderer.system.errors import LucidaError, under
+from renderer.system.file_dependencies import noting
 
 TASKS = 100
 WITH_CAMERAS = ("viewing-ray", "render")
@@ -272,8 +272,8 @@ def _check_name(field: str, name: str) -> None:
 
 
 def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
-    from renderer.scene.load import BUILTIN_SCENES, load_scene
-    from renderer.scene.views import load_view
+    from renderer.files.load import BUILTIN_SCENES, load_scene
+    from renderer.files.views import load_view
 
     for number, view in enumerate(views):
         if isinstance(view, dict):
@@ -290,7 +290,7 @@ def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
 
 def camera_view(table: dict[str, Any]) -> View:
     """Return the view of a camera's table. Errors name its fields without "camera."."""
-    from renderer.scene.views import view_from_table
+    from renderer.files.views import view_from_table
 
     try:
         return view_from_table(table)

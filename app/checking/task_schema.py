@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta, field
 
 from app.state.options import Notation
-from renderer.scene.schema import Numbers3, StrictTable
+from renderer.files.schema import Numbers3, StrictTable
 
 Seed = Annotated[int, Meta(ge=0)]
 Side = Annotated[int, Meta(ge=1, le=512)]  # of a task's images

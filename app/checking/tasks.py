@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from app.checking.conventions import Conventions
 from app.state.options import Notation
-from renderer.camera import Camera, Size, Vector
-from renderer.shared_numbers import LUMINANCE
+from renderer.camera.camera import Camera, Size, Vector
+from renderer.images.shared_numbers import LUMINANCE
 
 if TYPE_CHECKING:
     from renderer.scene.model import View

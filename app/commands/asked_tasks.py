@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from app.checking.calls import Limits, Student
@@ -47,7 +47,7 @@ def named(tasks: list[CheckTask], name: str, field: str = "--task") -> CheckTask
     """Return the task with a name, also with _ for -, or with a function's name. Raises
     LucidaError. field: the argument that has the name.
     """
-    from renderer.scene.reading import suggestion
+    from renderer.files.reading import suggestion
 
     wanted = name.replace("_", "-")
     found = [task for task in tasks if task.name == name]
@@ -134,7 +134,7 @@ def possible(
 
 def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
     """Return what to do if none of the tasks' functions exists."""
-    from renderer.scene.reading import close_matches
+    from renderer.files.reading import close_matches
 
     names = list(dict.fromkeys(task.function for task in tasks))
     plain = {name.replace("_", ""): name for name in names}

@@ -21,14 +21,14 @@ from app.commands.given_camera import (
     source_of,
     with_remedy,
 )
-from renderer.errors import LucidaError, errors_as, not_together, one_line, visible
+from renderer.system.errors import LucidaError, errors_as, not_together, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from renderer.camera_formats import CameraSet, Options, PosedCamera
-    from renderer.camera_formats.formats import Format
-    from renderer.camera_formats.given import Given
+    from renderer.files.cameras import CameraSet, Options, PosedCamera
+    from renderer.files.cameras.formats import Format
+    from renderer.files.cameras.given import Given
 
 NAME = "camera"
 
@@ -92,8 +92,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.camera_formats import Options, read_chosen
-    from renderer.camera_formats.saving import save_files
+    from renderer.files.cameras import Options, read_chosen
+    from renderer.files.cameras.saving import save_files
 
     # Check for quick mistakes first.
     target = _target(arguments)
@@ -144,7 +144,7 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
 
 
 def _format(option: str, name: str) -> Format:
-    from renderer.camera_formats import format_named
+    from renderer.files.cameras import format_named
 
     with errors_as(option):
         return format_named(name)
@@ -152,7 +152,7 @@ def _format(option: str, name: str) -> Format:
 
 def _target(arguments: argparse.Namespace) -> Format | None:
     """Return the format to write, from --to or OUT's ending; None for none. Raises LucidaError."""
-    from renderer.camera_formats.formats import FORMATS
+    from renderer.files.cameras.formats import FORMATS
 
     output = arguments.output
     if arguments.to is None and output is None:
@@ -183,7 +183,7 @@ def _of_ending(ending: str) -> str:
 
 def _input(arguments: argparse.Namespace) -> tuple[str, str | int]:
     """Return INPUT's file, and the name or number of its camera."""
-    from renderer.camera_formats import without_choice
+    from renderer.files.cameras import without_choice
 
     file, which = without_choice(arguments.input)
     for option, value in (("--image", arguments.image), ("--frame", arguments.frame)):
@@ -202,7 +202,7 @@ def _written(
     cameras: Sequence[PosedCamera], target: Format, options: Options, source: Given
 ) -> dict[str, bytes]:
     """Return the files of a format. Raises LucidaError, which names INPUT."""
-    from renderer.camera_formats import written
+    from renderer.files.cameras import written
 
     try:
         return written(cameras, target.name, options)

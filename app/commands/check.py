@@ -16,7 +16,7 @@ from app.commands import arguments as common
 from app.commands.asked_tasks import SIZE, all_tasks, asked_for, named, possible
 from app.commands.check_reports import pictures_of, write_json, write_page
 from app.commands.given_camera import add_view_option
-from renderer.errors import LucidaError, not_together, one_line, visible
+from renderer.system.errors import LucidaError, not_together, one_line, visible
 
 if TYPE_CHECKING:
     from app.checking.calls import Limits
@@ -192,7 +192,7 @@ def _end(arguments: argparse.Namespace, results: list[TaskResult], tasks: list[C
 
 
 def _check_arguments(arguments: argparse.Namespace) -> None:
-    from renderer.atomic import check_writable
+    from renderer.system.atomic import check_writable
 
     if (arguments.file is None) == (arguments.command is None):
         if arguments.file is not None:
@@ -265,7 +265,7 @@ def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
 
 def _write_starter(arguments: argparse.Namespace) -> int:
     from app.checking.starter import starter
-    from renderer.atomic import atomic_write
+    from renderer.system.atomic import atomic_write
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.starter != "all":

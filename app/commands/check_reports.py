@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from app.checking.calls import Student
@@ -34,7 +34,7 @@ def write_json(
     if arguments.json == "-":
         sys.stdout.write(text)
     else:
-        from renderer.atomic import atomic_write
+        from renderer.system.atomic import atomic_write
 
         try:
             with atomic_write(arguments.json) as file:
@@ -64,7 +64,7 @@ def write_page(
     if arguments.html is None:
         return
     from app.checking.reports.page import page
-    from renderer.atomic import atomic_write
+    from renderer.system.atomic import atomic_write
 
     text = page(results, tasks, *_without_folders(arguments, problem), pictures)
     with atomic_write(arguments.html) as file:

@@ -72,7 +72,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.compare import compare
+    from renderer.compare.raster_and_ray import compare
     from renderer.images import PICTURES, check_image_path, write_picture
 
     if arguments.output is not None:

@@ -1,4 +1,4 @@
-"""`lucida doctor`: report what works on this machine. The checks are in renderer/doctor.py."""
+"""`lucida doctor`: check what this computer lets Lucida do (renderer/system/doctor.py)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from app import __version__
 
 if TYPE_CHECKING:
-    from renderer.doctor import Check
+    from renderer.system.doctor import Check
 
 NAME = "doctor"
 
@@ -33,7 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.doctor import can_draw, report
+    from renderer.system.doctor import can_draw, report
 
     checks = report()
     usable = can_draw(checks)

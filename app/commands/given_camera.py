@@ -10,13 +10,13 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from renderer.errors import LucidaError, one_line
+from renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from renderer.camera_formats import CameraSet, PosedCamera
-    from renderer.camera_formats.given import Given
+    from renderer.files.cameras import CameraSet, PosedCamera
+    from renderer.files.cameras.given import Given
 
     Size = tuple[int, int]
 
@@ -45,7 +45,7 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     """
     if arguments.view is None:
         return None
-    from renderer.camera_formats import Options, read_chosen, without_choice
+    from renderer.files.cameras import Options, read_chosen, without_choice
 
     file, which = without_choice(arguments.view)
     options = Options(ignore_distortion=arguments.ignore_distortion)
@@ -62,8 +62,8 @@ def say_notes(found: CameraSet, file: str) -> None:
 
 def source_of(file: str) -> Given:
     """Return a file, a folder, or the contents of standard input. Raises LucidaError."""
-    from renderer.camera_formats.given import LARGEST_BYTES, Given, given
-    from renderer.scene.reading import check_bytes
+    from renderer.files.cameras.given import LARGEST_BYTES, Given, given
+    from renderer.files.reading import check_bytes
 
     if file != STANDARD_INPUT:
         return given(file)
@@ -79,7 +79,7 @@ def with_remedy(error: LucidaError, remedy: str) -> LucidaError:
     """Return an error about a basis that is not orthonormal with this remedy in place of the
     window's; any other error unchanged.
     """
-    from renderer.camera_formats.rigid import REMEDY
+    from renderer.files.cameras.rigid import REMEDY
 
     if error.remedy != REMEDY:
         return error

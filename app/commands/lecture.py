@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from app.commands import arguments as common
 from app.commands.view import window_size
-from renderer.errors import LucidaError, one_line
+from renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
     from app.lecture.model import Lecture
@@ -116,7 +116,7 @@ def _place(text: str) -> tuple[int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.lecture.reading import BUILTIN, BUILTINS, load_lecture
-    from renderer.scene.outside import OutsideError
+    from renderer.files.outside import OutsideError
 
     if arguments.output is not None and arguments.results is None:
         raise LucidaError("-o", "is for --results", "pictures of the steps: --export")
@@ -171,14 +171,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
     """Write the lecture as one HTML file, or print that as PDF."""
-    from app.lecture_page import pdf
-    from renderer.atomic import atomic_write, check_writable
+    from app.web.lecture import pdf
+    from renderer.system.atomic import atomic_write, check_writable
 
     target = Path(arguments.export)
     check_writable(target)
     is_pdf = target.suffix.lower() == ".pdf"
     program = pdf.browser() if is_pdf else ""
-    from app.lecture_page.page import page
+    from app.web.lecture.page import page
     from app.window.lecturing import lecture_stills
 
     with common.progress_bar("export") as progress:
@@ -194,10 +194,10 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     """Write a page about what a class answered."""
-    from app.results.model import class_results
-    from app.results.page import page
-    from app.results.reading import read_answers
-    from renderer.atomic import atomic_write
+    from app.checking.results.model import class_results
+    from app.checking.results.page import page
+    from app.checking.results.reading import read_answers
+    from renderer.system.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
     if not answers:
@@ -219,8 +219,8 @@ def _check(lecture: Lecture, path: Path, name: str) -> int:
     """
     from app.lecture.hidden_pixels import first_wrong_answer
     from app.lecture.typesetting import first_mistake
-    from app.widgets import formula
-    from renderer.scene.places import Places, located
+    from app.ui import formula
+    from renderer.files.places import Places, located
 
     mistake = first_mistake(lecture.formulas)
     if mistake is not None:

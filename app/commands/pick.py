@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import add_view_option
-from renderer.errors import LucidaError
-from renderer.pixels import Pixel
+from renderer.images.pixels import Pixel
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.camera import Camera
-    from renderer.frame import Frame
+    from renderer.camera.camera import Camera
+    from renderer.images.frame import Frame
     from renderer.scene.model import Scene
 
 NAME = "pick"
@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.picked import as_text, picked
+    from renderer.compare.pixel_report import as_text, picked
 
     posed = common.own_camera(arguments)
     pixel = _pixel(arguments)

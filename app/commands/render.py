@@ -9,11 +9,11 @@ from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import add_view_option
 from app.commands.many import add_workers_options
-from renderer.errors import LucidaError, one_line
+from renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from renderer.camera import Camera
-    from renderer.frame import Frame
+    from renderer.camera.camera import Camera
+    from renderer.images.frame import Frame
     from renderer.scene.model import Scene
 
 NAME = "render"
@@ -93,7 +93,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.black import hits_nothing
+    from renderer.compare.why_black import hits_nothing
     from renderer.images import check_image_path, write_image
 
     if arguments.renderer != "ray":
@@ -126,7 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def is_in_parts(arguments: argparse.Namespace) -> bool:
     """Return True for an image that is too large for memory, or for many processes."""
-    from renderer.frame import LARGEST_PIXELS
+    from renderer.images.frame import LARGEST_PIXELS
 
     width, height = arguments.size
     is_large: bool = width * height > LARGEST_PIXELS
@@ -142,9 +142,9 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
     channels = tuple(dict.fromkeys((arguments.channel, "id")))
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
-            from renderer.precision import check_precision
             from renderer.raster import Rasterizer
             from renderer.scene import flatten
+            from renderer.scene.precision import check_precision
 
             check_precision(camera, size, lambda: flatten(scene))
             with Rasterizer(scene, backend=arguments.backend) as rasterizer:

@@ -8,21 +8,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from app.cameras.films.encoding import image_writer
+from app.cameras.films.film import Film
+from app.cameras.films.frames import Look, Shot
 from app.cameras.options import with_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import say_changes, say_notes, source_of
 from app.commands.many import look_of, make_film
-from app.films.encoding import image_writer
-from app.films.film import Film
-from app.films.frames import Look, Shot
-from renderer.atomic import file_stem
-from renderer.camera import Camera, Size
-from renderer.camera_formats import Options, PosedCamera, read_cameras
-from renderer.errors import LucidaError, one_line
-from renderer.frame import LARGEST_PIXELS, check_size
-from renderer.precision import check_precision
+from renderer.camera.camera import Camera, Size
+from renderer.files.cameras import Options, PosedCamera, read_cameras
+from renderer.images.frame import LARGEST_PIXELS, check_size
 from renderer.scene import flatten
 from renderer.scene.model import Scene, View
+from renderer.scene.precision import check_precision
+from renderer.system.atomic import file_stem
+from renderer.system.errors import LucidaError, one_line
 
 JOINED = (".png", ".exr")  # what is written of an image in parts
 PART_PIXELS = 1 << 21

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from renderer.editing.outline import OutlineRow
+    from renderer.files.models.repairs import Repair
     from renderer.scene import Material, Scene, Shape
-    from renderer.scene.repairs import Repair
-    from renderer.scene_editing.outline import OutlineRow
 
 NAME = "scene"
 
@@ -42,8 +42,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene, say
-    from renderer.scene import load_scene
-    from renderer.scene.repairs import repairs
+    from renderer.files import load_scene
+    from renderer.files.models.repairs import repairs
 
     check_is_scene(arguments.scene)
     with repairs() as mended:
@@ -58,8 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _named(scene: Scene) -> list[str]:
     """Return a line for each model file that a scene reads, and each camera of its models."""
-    from renderer.errors import one_line, quoted
-    from renderer.scene.outside import model_files, outside
+    from renderer.files.outside import model_files, outside
+    from renderer.system.errors import one_line, quoted
 
     lines = []
     for file in model_files(scene):
@@ -77,10 +77,10 @@ def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
     """Return all contents as JSON values. mended: the repairs made while reading the scene."""
     import numpy as np
 
+    from renderer.editing.outline import outline
+    from renderer.files.oddities import oddities
+    from renderer.files.views import view_table
     from renderer.scene.model import triangles_of
-    from renderer.scene.views import view_table
-    from renderer.scene_checks import oddities
-    from renderer.scene_editing.outline import outline
 
     outlined = outline(scene)
     rows = [row for row in outlined if not row.is_light]
@@ -126,8 +126,8 @@ def _bounds(shape: Shape) -> NDArray[np.float64]:
     """
     import numpy as np
 
+    from renderer.editing.moving import object_box
     from renderer.scene.model import Sphere
-    from renderer.scene_editing.moving import object_box
 
     if isinstance(shape, Sphere):
         return object_box(shape)
@@ -139,10 +139,10 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
     """Return the lights that are on, in the order of their numbers, then the hidden ones. rows: of
     all.
     """
+    from renderer.editing.changing import fields_of
+    from renderer.files.saving import light_table
+    from renderer.files.schema import LightTable
     from renderer.scene.material import parse_color
-    from renderer.scene.saving import light_table
-    from renderer.scene.schema import LightTable
-    from renderer.scene_editing.changing import fields_of
 
     names = [row.name for row in rows if not row.hidden] or [""] * len(scene.lights)
     lights = [
@@ -161,7 +161,7 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
 
 def _material(material: Material) -> dict[str, Any]:
     """Return its numbers, and which images it shows."""
-    from renderer.scene.saving import IMAGES, material_table
+    from renderer.files.saving import IMAGES, material_table
 
     table = material_table(replace(material, texture=None, metal=None), Path())
     for name in IMAGES:
@@ -176,7 +176,7 @@ def _material(material: Material) -> dict[str, Any]:
 def as_text(told: dict[str, Any]) -> str:
     """Return the same as text."""
     from app.commands.arguments import counted
-    from renderer.errors import one_line, quoted
+    from renderer.system.errors import one_line, quoted
 
     objects, lights = told["objects"], told["lights"]
     shining = sum(not light["hidden"] for light in lights)
@@ -219,7 +219,7 @@ def _box(bounds: list[list[float]] | None) -> str:
 
 
 def _color(material: dict[str, Any]) -> str:
-    from renderer.errors import one_line
+    from renderer.system.errors import one_line
 
     images = [f", {k} {one_line(material[k])}" for k in ("texture", "metal") if k in material]
     return f"diffuse {_vector(material['diffuse'])}{''.join(images)}"

@@ -95,11 +95,11 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     from app.commands.arguments import check_is_scene
-    from app.photograph.reading import found_photograph, is_photograph
-    from app.poses.model import PoseSet
-    from app.poses.reading import is_cameras, open_cameras
-    from app.storage.code_files import found_code, is_code
-    from renderer.camera_formats.given import Options
+    from app.images.photograph.reading import found_photograph, is_photograph
+    from app.instruments.poses.model import PoseSet
+    from app.instruments.poses.reading import is_cameras, open_cameras
+    from app.window.code_files import found_code, is_code
+    from renderer.files.cameras.given import Options
     from renderer.images import check_image_path
     from renderer.scene.model import View
 

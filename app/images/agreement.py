@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 from app.images.progressive_ray import RayImage
 from app.images.request import ImageRequest
-from app.widgets.background import Background
-from renderer.errors import LucidaError
-from renderer.frame import Frame
-from renderer.precision import check_precision
+from app.ui.background import Background
+from renderer.images.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene
+from renderer.scene.precision import check_precision
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.black import Darkness
-    from renderer.compare import Comparison
+    from renderer.compare.raster_and_ray import Comparison
+    from renderer.compare.why_black import Darkness
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,8 +84,8 @@ class Agreement:
         self._comparing.close()
 
     def _compare(self, request: ImageRequest, raster: Frame, ray: Frame) -> Verdict:
-        from renderer.black import darkness
-        from renderer.compare import compare_frames
+        from renderer.compare.raster_and_ray import compare_frames
+        from renderer.compare.why_black import darkness
 
         scene, camera, size = request.scene, request.camera, request.size
         if self._flat is None or self._flat[0] is not scene:

@@ -10,8 +10,8 @@ from typing import get_args
 
 from app.state.app_state import AppState
 from app.state.options import Channel, Component, ImageOptions
-from renderer.errors import LucidaError
-from renderer.frame import check_size
+from renderer.images.frame import check_size
+from renderer.system.errors import LucidaError
 
 CHANNELS: dict[Channel, tuple[str, str]] = {
     "color": ("Colour", "the shaded colour of each pixel"),

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from app.images.request import ImageRequest
-from app.widgets.background import Background
-from renderer.camera import Camera, Size
-from renderer.lens_faces import looked_up_faces
+from app.ui.background import Background
+from renderer.camera.camera import Camera, Size
+from renderer.camera.lens_faces import looked_up_faces
 
 Key = tuple[object, ...]
 

@@ -16,11 +16,11 @@ from app.images.lens_tables import LensTables
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
 from app.state.options import Pixel
-from renderer.coarseness import FACTORS, reduced
-from renderer.frame import CHANNELS, Frame
-from renderer.memo import Memo
+from renderer.images.coarseness import FACTORS, reduced
+from renderer.images.frame import CHANNELS, Frame
 from renderer.raster import Rasterizer
 from renderer.raster.targets import Region, Textures
+from renderer.system.memo import Memo
 
 # Returns the image to draw for a request, and how many times coarser.
 Choice = Callable[[ImageRequest], tuple[ImageRequest, int]]

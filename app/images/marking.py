@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from app.state.options import Pixel
-from renderer.camera import Size
+from renderer.camera.camera import Size
 from renderer.scene.model import View
 
 

@@ -8,9 +8,9 @@ from typing import Any
 import moderngl
 
 from app.images.shown import Held, Picture
-from renderer.memo import Memo
 from renderer.raster.resources import Owner
 from renderer.raster.screen_pass import SizedTarget, cover, new_array, plain_state
+from renderer.system.memo import Memo
 
 
 class Pass:

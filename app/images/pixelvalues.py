@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.state.options import ImageOptions
-from renderer.frame import Frame
 from renderer.images.display import LUMINANCE, from_srgb, picture, to_srgb8
-from renderer.shared_numbers import FARTHEST_GRAY
+from renderer.images.frame import Frame
+from renderer.images.shared_numbers import FARTHEST_GRAY
 
 Bytes = NDArray[np.uint8]
 Depths = tuple[float, float] | None  # that are shown white and darkest
@@ -24,7 +24,7 @@ DARK = 0.179  # of luminance: there black and white are as easy to read. Source:
 
 
 def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:
-    """Return a channel's values (renderer/frame.py) as displayed: uint8 (height, width, 3)."""
+    """Return a channel's values (see frame.py) as displayed: uint8 (height, width, 3)."""
     if options.channel == "depth":
         return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
     if options.channel == "color":

@@ -14,7 +14,7 @@ from functools import cached_property
 
 from app.state.bounds import range_of
 from app.state.options import ImageOptions
-from renderer.camera import Size
+from renderer.camera.camera import Size
 
 LEAST, MOST = range_of(ImageOptions, "magnification")
 # Where the wheel stops: whole numbers, so that all pixels are squares of one size.

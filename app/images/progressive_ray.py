@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.images.request import ImageRequest
-from renderer.camera import Camera
-from renderer.coarseness import reduced
-from renderer.frame import CHANNELS, Frame
-from renderer.samples import Progress, supersampled
+from renderer.camera.camera import Camera
+from renderer.images.coarseness import reduced
+from renderer.images.frame import CHANNELS, Frame
+from renderer.images.samples import Progress, supersampled
 from renderer.scene.model import Scene
 
 if TYPE_CHECKING:  # its import loads the compiler

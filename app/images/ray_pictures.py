@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.images.progressive_ray import LiveTrace
 from app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
-from app.widgets.background import Background
-from renderer.errors import LucidaError
+from app.ui.background import Background
+from renderer.editing.documents import are_versions
 from renderer.scene.model import Scene
-from renderer.scene_editing.documents import are_versions
+from renderer.system.errors import LucidaError
 
 T = TypeVar("T")
 Range = tuple[float, float]

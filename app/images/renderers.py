@@ -26,16 +26,16 @@ from app.images.textures import ImageTextures
 from app.images.window_rasterizer import FAILURES
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
-from app.widgets.background import lower_priority
-from renderer import compile_note
-from renderer.black import Reason
-from renderer.camera import Camera
-from renderer.coarseness import STILL_S, Coarseness, reduced
-from renderer.frame import Frame
-from renderer.memo import Memo
+from app.ui.background import lower_priority
+from renderer.camera.camera import Camera
+from renderer.compare.why_black import Reason
+from renderer.images.coarseness import STILL_S, Coarseness, reduced
+from renderer.images.frame import Frame
 from renderer.raster import Look
 from renderer.raster.targets import Region
 from renderer.scene.model import View
+from renderer.system import compile_note
+from renderer.system.memo import Memo
 
 NOTE_AFTER_S = 0.3
 BUDGET_S = 1 / 60  # for both images, while anything moves

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from renderer.camera import Camera
-from renderer.pixels import ENLARGEMENT
+from renderer.camera.camera import Camera
+from renderer.editing.documents import are_versions
+from renderer.images.pixels import ENLARGEMENT
 from renderer.scene.model import Scene
-from renderer.scene_editing.documents import are_versions
 
 MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
 

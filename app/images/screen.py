@@ -9,7 +9,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.images.placement import Placement
 from app.state.options import Pixel
-from app.widgets.theme import framebuffer_scale
+from app.ui.theme import framebuffer_scale
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
 

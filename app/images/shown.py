@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 import moderngl
 
 from app.images.placement import Placement, Size
-from renderer.memo import Memo
 from renderer.raster import Display, Look, Section
 from renderer.raster.resources import new_texture
+from renderer.system.memo import Memo
 
 
 @dataclass(frozen=True, eq=False)

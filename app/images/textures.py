@@ -12,8 +12,8 @@ from app.images.progressive_ray import RayImage
 from app.images.request import ImageRequest
 from app.images.shown import DepthBounds, Picture, ShownImage, whole
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
-from renderer.memo import Memo
 from renderer.raster import DepthRange, Look, upload
+from renderer.system.memo import Memo
 
 PANE, WHOLE = "pane", "whole"
 ATTEMPTS = 3  # to upload a ray image, one per frame

@@ -9,10 +9,10 @@ from __future__ import annotations
 import moderngl
 
 from app.images.request import ImageRequest
-from renderer.errors import LucidaError
 from renderer.raster import Prepared, Rasterizer
 from renderer.raster.targets import Textures
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
 
 # Errors of drawing, which are shown to the user, and do not end the program.
 FAILURES = (LucidaError, moderngl.Error, MemoryError)

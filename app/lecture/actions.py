@@ -7,9 +7,9 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from app.host.action import Action, Key, Window
 from app.lecture.reading import BUILTINS, load_lecture
 from app.lecture.view import LectureView
+from app.ui.action import Action, Key, Window
 
 
 def _given(window: Window) -> bool:

@@ -1,6 +1,6 @@
 """The answers of a sitting, kept on disk if the user asks for it: one JSON object a line.
 
-docs/lectures.md describes the format; app/results/ reads it.
+docs/lectures.md describes the format; app/checking/results/ reads it.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from pathlib import Path
 
 import msgspec
 
+from app.instruments.mistakes.model import situation_of
+from app.instruments.mistakes.options import MistakesOptions
+from app.instruments.mistakes.question import right_at
 from app.lecture.model import Lecture, Step
-from app.mistakes.model import situation_of
-from app.mistakes.options import MistakesOptions
-from app.mistakes.question import right_at
 from app.state.app_state import AppState
-from app.storage.kept_lecture import Answers, Judgement
-from renderer.atomic import check_writable
-from renderer.camera import Size
-from renderer.errors import LucidaError, describe
+from app.state.kept_lecture import Answers, Judgement
+from renderer.camera.camera import Size
+from renderer.system.atomic import check_writable
+from renderer.system.errors import LucidaError, describe
 
 LONGEST_NAME = 60
 

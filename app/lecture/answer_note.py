@@ -5,9 +5,9 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.lecture.answer_log import LONGEST_NAME, AnswerLog
-from app.widgets import theme
-from app.widgets.messages import wrapped
-from app.widgets.rows import button_width
+from app.ui import theme
+from app.ui.messages import wrapped
+from app.ui.rows import button_width
 
 
 def note_height(log: AnswerLog, is_asked: bool, width: float) -> float:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from app.host import layout
-from app.host.view import DockedView
 from app.lecture.model import Step
+from app.ui import layout
+from app.ui.view import DockedView
 
 
 def arrange(views: Iterable[DockedView], step: Step) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from app.host.view import Host
+from app.instruments.outside.diagram import Item
+from app.instruments.outside.extent import end_parameter
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.view import OutsideView
 from app.lecture.ghosts import ghosts
 from app.lecture.session import LectureSession
-from app.outside.diagram import Item
-from app.outside.extent import end_parameter
-from app.outside.options import OutsideOptions
-from app.outside.view import OutsideView
-from renderer.memo import Memo
+from app.ui.view import Host
+from renderer.system.memo import Memo
 
 SOURCE = "Lecture"  # of the drawing, in the outside view
 

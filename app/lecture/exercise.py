@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.explaining import symbols
 from app.lecture.exercises import ChoiceExercise, TypedExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise
 from app.lecture.slide import Slides
 from app.lecture.text import parse
+from app.state.kept_lecture import Answers, Judgement
 from app.state.options import Notation
-from app.storage.kept_lecture import Answers, Judgement
-from app.widgets import theme
-from app.widgets.areas import press_area
-from app.widgets.checks import verdict_sign
-from app.widgets.formula import vector_colors
-from app.widgets.lettering import lettering, underline
-from app.widgets.rows import button_width, follow
-from app.widgets.theme import Fonts
+from app.ui import theme
+from app.ui.areas import press_area
+from app.ui.checks import verdict_sign
+from app.ui.explaining import symbols
+from app.ui.formula import vector_colors
+from app.ui.lettering import lettering, underline
+from app.ui.rows import button_width, follow
+from app.ui.theme import Fonts
 
 LETTERS = "ABCDEFGH"
 

@@ -15,14 +15,14 @@ import numpy as np
 
 from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
-from app.explaining import symbols
-from app.explaining.arithmetic import text_of, vector, vector_text
 from app.lecture.text import escaped
-from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera, Floats, Ray
-from renderer.errors import LucidaError
-from renderer.pixels import Indexing
-from renderer.scene.schema import Numbers3, StrictTable
+from app.state.kept_lecture import Judgement
+from app.ui.explaining import symbols
+from app.ui.explaining.arithmetic import text_of, vector, vector_text
+from renderer.camera.camera import Camera, Floats, Ray
+from renderer.files.schema import Numbers3, StrictTable
+from renderer.images.pixels import Indexing
+from renderer.system.errors import LucidaError
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
 CORRECT = "Correct."

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from app.explaining.breaking import breakable, broken, narrowed
 from app.lecture.text import (
     Block,
     Code,
@@ -24,6 +23,7 @@ from app.lecture.text import (
     Question,
     Words,
 )
+from app.ui.explaining.breaking import breakable, broken, narrowed
 
 # In parts of the text's size.
 LEADING = 1.18  # from line to line

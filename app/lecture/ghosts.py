@@ -7,6 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from app.instruments.outside import answers
+from app.instruments.outside.diagram import Item, Role, in_notation
+from app.instruments.outside.second_camera import GivenRay, SecondCamera, second_camera
 from app.lecture.exercises import (
     ChoiceExercise,
     RayExercise,
@@ -17,13 +20,10 @@ from app.lecture.exercises import (
     vectors,
 )
 from app.lecture.model import Exercise
-from app.outside import answers
-from app.outside.diagram import Item, Role, in_notation
-from app.outside.second_camera import GivenRay, SecondCamera, second_camera
+from app.state.kept_lecture import Judgement
 from app.state.options import Notation
-from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera, Floats
-from renderer.scene.views import view_from_table
+from renderer.camera.camera import Camera, Floats
+from renderer.files.views import view_from_table
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 

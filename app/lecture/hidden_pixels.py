@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from app.lecture.hiding import HideExercise, Ids
 from app.lecture.model import Lecture
-from renderer.camera import Camera
-from renderer.errors import LucidaError, errors_as
+from renderer.camera.camera import Camera
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError, errors_as
 
 SIZE = (960, 720)  # of the images that answers are tried in
 

@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.lecture.text import escaped
-from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.state.kept_lecture import Judgement
+from renderer.camera.camera import Camera
+from renderer.editing.changing import Item, fields_of, set_field
+from renderer.editing.moving import bounds_of, transform
+from renderer.editing.objects import hide
+from renderer.editing.outline import OutlineRow, outline
+from renderer.files.reading import suggestion
 from renderer.scene.model import Scene, View, vector
-from renderer.scene.reading import suggestion
-from renderer.scene_editing.changing import Item, fields_of, set_field
-from renderer.scene_editing.moving import bounds_of, transform
-from renderer.scene_editing.objects import hide
-from renderer.scene_editing.outline import OutlineRow, outline
+from renderer.system.errors import LucidaError
 
 Ids = NDArray[np.int32]
 

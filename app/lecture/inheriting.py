@@ -8,8 +8,8 @@ from msgspec.structs import replace
 
 from app.lecture.schema import BuildTable, StepTable
 from app.lecture.text import extended
+from renderer.files.views import LOOK_AT, looks_at, view_from_table, view_table
 from renderer.scene.model import View
-from renderer.scene.views import LOOK_AT, looks_at, view_from_table, view_table
 
 _BY_BASIS = {"u", "v", "w", "viewport"}  # fields that no camera with a target has
 

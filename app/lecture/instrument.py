@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from app.host.instrument import Instrument
 from app.lecture.actions import LECTURE
 from app.lecture.view import LectureView
+from app.ui.instrument import Instrument
 
 SYNONYMS = {
     "Next step": "slide",

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from app.host.view import Host
 from app.lecture.reading import BUILTINS
-from app.widgets import theme
-from app.widgets.messages import wrapped
+from app.ui import theme
+from app.ui.messages import wrapped
+from app.ui.view import Host
 
 
 def invitation(host: Host) -> Path | None:

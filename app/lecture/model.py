@@ -11,7 +11,7 @@ from app.lecture.exercises import AskedExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.text import Block
 from renderer.scene.model import Scene, View
-from renderer.scene.noting import Noted
+from renderer.system.file_dependencies import Noted
 
 Exercise = AskedExercise | HideExercise
 

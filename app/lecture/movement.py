@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from app.cameras.animation import Passage
-from app.outside.frustum import plane_corners
+from app.instruments.outside.frustum import plane_corners
 from app.state.app_state import AppState
-from renderer.camera import Camera, Vector
-from renderer.focus import Focus
+from renderer.camera.camera import Camera, Vector
+from renderer.scene.focus import Focus
 from renderer.scene.model import View
 
 SIZE = 16, 9  # of an image that is not shown

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from app.explaining import symbols
 from app.lecture.model import Step
 from app.lecture.text import (
     Block,
@@ -22,6 +21,7 @@ from app.lecture.text import (
     formulas,
 )
 from app.state.options import Notation
+from app.ui.explaining import symbols
 
 _VECTOR = re.compile(r"\\mathbf\{([a-z])\}")
 _APART = re.compile(r"\\(?:mathbf|mathrm|mathit|text)\{[^{}]*\}|\\[A-Za-z]+")

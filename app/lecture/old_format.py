@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from app.lecture.schema import StepTable
 from app.lecture.text import Block, ItemList, parse
-from renderer.errors import under
+from renderer.system.errors import under
 
 Blocks = tuple[Block, ...]
 FIELDS = ("reveal", "answer", "links", "low")

@@ -31,20 +31,20 @@ from app.lecture.written import formulas_written, pieces_written
 from app.state.all_options import AllOptions
 from app.state.options import Notation
 from app.state.removed import without_removed, without_removed_views
-from renderer.errors import LucidaError, under
-from renderer.pixels import Indexing
-from renderer.scene.files import scene_from_tables
+from renderer.files.load import BUILTIN_SCENES, load_scene
+from renderer.files.outside import check_inside, kept_inside
+from renderer.files.places import Places, located
+from renderer.files.reading import decode_text, read_file, suggestion
+from renderer.files.scene_file import scene_from_tables
+from renderer.files.tables import parse_toml, to_struct
+from renderer.files.views import load_view, view_from_table
+from renderer.images.pixels import Indexing
 from renderer.scene.limits import TOML_BYTES, TRIANGLES
-from renderer.scene.load import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Mesh, Scene, View
-from renderer.scene.noting import noting
-from renderer.scene.outside import check_inside, kept_inside
-from renderer.scene.places import Places, located
-from renderer.scene.reading import decode_text, read_file, suggestion
-from renderer.scene.tables import parse_toml, to_struct
-from renderer.scene.views import load_view, view_from_table
+from renderer.system.errors import LucidaError, under
+from renderer.system.file_dependencies import noting
 
-_FOLDER = Path(__file__).parents[1] / "lectures"
+_FOLDER = Path(__file__).parent / "lectures"
 BUILTIN = _FOLDER / "images-rays-cameras.toml"
 BUILTINS = {  # by their titles
     "Images, rays and cameras": BUILTIN,

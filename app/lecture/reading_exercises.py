@@ -9,12 +9,12 @@ from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Exercise
 from app.lecture.schema import AnyExercise, HideTable, RayTable
-from renderer.errors import LucidaError, under
-from renderer.frame import check_size
-from renderer.pixels import Indexing
+from renderer.files.tables import to_struct
+from renderer.files.views import view_from_table
+from renderer.images.frame import check_size
+from renderer.images.pixels import Indexing
 from renderer.scene.model import Scene, View
-from renderer.scene.tables import to_struct
-from renderer.scene.views import view_from_table
+from renderer.system.errors import LucidaError, under
 
 ANSWERS = 8  # of an exercise: vectors that are asked for, options
 MISTAKES = 32  # that are known of an answer

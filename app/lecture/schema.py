@@ -9,10 +9,10 @@ from typing import Any, Literal
 
 from msgspec import field
 
-from app.instruments import ROOMS
 from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
 from app.state.options import Notation
-from renderer.scene.schema import Numbers3, StrictTable
+from app.state.rooms import ROOMS
+from renderer.files.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
 VIEWS = tuple(name for room in ROOMS for name in room.views)

@@ -12,13 +12,13 @@ from app.lecture.model import Lecture, Step
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.typesetting import first_mistake
 from app.state.app_state import AppState
-from app.storage.kept_lecture import Answers, KeptLecture
-from app.storage.paths import restored, stored
-from app.storage.watching import FilesWatch, fingerprint
-from renderer.errors import describe
-from renderer.scene.models import read_by
-from renderer.scene.noting import stamp
-from renderer.scene.subprocess_reader import ModelReader
+from app.state.kept_lecture import Answers, KeptLecture
+from app.state.paths import restored, stored
+from app.ui.watching import FilesWatch, fingerprint
+from renderer.files.models.models import read_by
+from renderer.files.models.subprocess_reader import ModelReader
+from renderer.system.errors import describe
+from renderer.system.file_dependencies import stamp
 
 
 class LectureSession:

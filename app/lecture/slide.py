@@ -6,16 +6,16 @@ import functools
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from app.instruments.outside.growing import lit_in
 from app.lecture.flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
 from app.lecture.notation import in_notation
 from app.lecture.text import Block
-from app.outside.growing import lit_in
 from app.state.options import Notation
-from app.widgets import theme
-from app.widgets.formula import lit, vector_colors
-from app.widgets.inline_math import inline_math
-from app.widgets.lettering import lettering
-from app.widgets.theme import Fonts, framebuffer_scale
+from app.ui import theme
+from app.ui.formula import lit, vector_colors
+from app.ui.inline_math import inline_math
+from app.ui.lettering import lettering
+from app.ui.theme import Fonts, framebuffer_scale
 
 ASCENT = 0.78  # of the line's height, in all our fonts
 TITLE = 1.4  # of a step's title, in parts of the type's size

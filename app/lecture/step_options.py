@@ -19,11 +19,11 @@ from app.lecture.model import Step
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState, is_orthonormal
 from app.state.bounds import check, files_of
-from app.storage.paths import stored
-from renderer.camera import Camera
-from renderer.errors import LucidaError, under
-from renderer.scene.reading import suggestion
-from renderer.scene.tables import to_struct
+from app.state.paths import stored
+from renderer.camera.camera import Camera
+from renderer.files.reading import suggestion
+from renderer.files.tables import to_struct
+from renderer.system.errors import LucidaError, under
 
 _types = lru_cache(get_type_hints)  # which takes long
 

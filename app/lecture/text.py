@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from app.explaining.languages import LANGUAGES
-from renderer.errors import LucidaError
+from app.ui.explaining.languages import LANGUAGES
+from renderer.system.errors import LucidaError
 
 
 class Words(NamedTuple):

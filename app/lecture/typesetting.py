@@ -13,8 +13,8 @@ import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
 
 from app.lecture.model import Written
-from app.widgets.formula import available
-from renderer.errors import LucidaError, one_line
+from app.ui.formula import available
+from renderer.system.errors import LucidaError, one_line
 
 _SIZE_PX = 24.0
 _WHITE = ImVec4(1, 1, 1, 1)

@@ -14,9 +14,9 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.explaining.languages import LANGUAGES
-from app.host import layout
-from app.host.view import DockedView, Host, view_of
+from app.instruments.outside.growing import stage_at, stages_of
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.view import OutsideView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
 from app.lecture.arrangement import arrange
@@ -32,18 +32,17 @@ from app.lecture.slide import TITLE, Slides
 from app.lecture.step_options import own, state_of
 from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
-from app.outside.growing import stage_at, stages_of
-from app.outside.options import OutsideOptions
-from app.outside.view import OutsideView
 from app.state.app_state import AppState
-from app.storage.kept_lecture import KeptLecture
-from app.storage.session import source_of
-from app.widgets import theme
-from app.widgets.background import Background
-from app.widgets.checks import radio_button
-from app.widgets.lettering import lettering
-from app.widgets.messages import wrapped
-from renderer.errors import LucidaError
+from app.state.kept_lecture import KeptLecture
+from app.state.session import source_of
+from app.ui import layout, theme
+from app.ui.background import Background
+from app.ui.checks import radio_button
+from app.ui.explaining.languages import LANGUAGES
+from app.ui.lettering import lettering
+from app.ui.messages import wrapped
+from app.ui.view import DockedView, Host, view_of
+from renderer.system.errors import LucidaError
 
 LECTURE = "Lecture"
 FADE_S = 0.5  # of a text that is added

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.host.view import Host
 from app.images.progressive_ray import RayImage
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
-from app.storage.kept_lecture import Judgement
-from app.widgets.background import Background
-from renderer.camera import Camera
+from app.state.kept_lecture import Judgement
+from app.ui.background import Background
+from app.ui.view import Host
+from renderer.camera.camera import Camera
 
 Counted = tuple[HideExercise, Camera, tuple[int, int]]  # for which image pixels were counted
 

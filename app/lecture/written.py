@@ -10,7 +10,7 @@ from typing import Any
 
 from app.lecture import text as texts
 from app.lecture.model import Written
-from renderer.scene.places import Places
+from renderer.files.places import Places
 
 _SOLID = re.compile(r"[^\s>]+")
 

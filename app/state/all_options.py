@@ -1,7 +1,7 @@
 """All options, as one immutable value in AppState: what all instruments share, and the own ones of
 each, by the name of its room.
 
-Knows no instrument by its name: the registry does (app/instruments.py).
+Knows no instrument by its name: the registry does (app/state/rooms.py).
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from app.instruments import ROOMS
 from app.state.options import SharedOptions
+from app.state.rooms import ROOMS
 
 T = TypeVar("T")
 

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from app.state.all_options import AllOptions
 from app.state.bounds import clamped
 from app.state.options import ImageOptions, Pixel, Preferences
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, View
 
 T = TypeVar("T")

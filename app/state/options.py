@@ -10,9 +10,9 @@ from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal
 
 from app.state.bounds import Accepted, AtMost, OneOf, Range
-from renderer.frame import LARGEST_SIDE, check_size
-from renderer.intrinsics import PixelOrigin
-from renderer.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
+from renderer.camera.intrinsics import PixelOrigin
+from renderer.images.frame import LARGEST_SIDE, check_size
+from renderer.images.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from renderer.scene.model import View
 
 Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.host.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
 from app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
 from app.window.instruments import INSTRUMENTS
 

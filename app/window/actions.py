@@ -5,12 +5,12 @@ shell.py, files.py and bookmarks.py carry them out.
 
 from __future__ import annotations
 
-from app.explaining import symbols
-from app.host import layout
-from app.host.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options import Notation, Preferences, Theme
+from app.ui import layout
+from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.explaining import symbols
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 

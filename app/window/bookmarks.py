@@ -5,15 +5,15 @@ Owns their storing, recall and names. They are options (options.py), so undo and
 
 from __future__ import annotations
 
+from app.cameras.films.key_file import keys_text
+from app.cameras.films.paths import Key
 from app.cameras.lens_choices import KINDS
-from app.films.key_file import keys_text
-from app.films.paths import Key
-from app.host.action import Window
 from app.state.app_state import AppState
 from app.state.options import MOST_BOOKMARKS, Bookmark
-from renderer.atomic import atomic_write
-from renderer.errors import one_line
+from app.ui.action import Window
 from renderer.scene import View
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import one_line
 
 NUMBERS = range(1, MOST_BOOKMARKS + 1)
 

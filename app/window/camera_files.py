@@ -2,7 +2,7 @@
 as.
 
 Owns their names. A format is an action, since several have the same ending. The formats are
-renderer/camera_formats/'s.
+renderer/files/cameras/'s.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from app.camera_panel.actions import image_size
+from app.cameras.camera_panel.actions import image_size
 from app.cameras.text import CALLED
-from app.host.action import Action, Window
-from renderer.camera_formats import FORMATS, Options, PosedCamera, written
-from renderer.camera_formats.formats import Format
-from renderer.camera_formats.saving import save_files
-from renderer.errors import LucidaError, one_line
+from app.ui.action import Action, Window
+from renderer.files.cameras import FORMATS, Options, PosedCamera, written
+from renderer.files.cameras.formats import Format
+from renderer.files.cameras.saving import save_files
+from renderer.system.errors import LucidaError, one_line
 
 MENU = "File/Save camera as"
 

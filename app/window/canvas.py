@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import moderngl
 
-from app.widgets.surface import Target, copy_pixels
+from app.ui.surface import Target, copy_pixels
 from renderer.raster.resources import new_texture
 
 MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on

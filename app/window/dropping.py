@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.host.view import Host
-from app.objects.editing import with_scene
-from app.objects.options import ObjectsOptions
+from app.instruments.objects.editing import with_scene
+from app.instruments.objects.options import ObjectsOptions
 from app.state.app_state import AppState
+from app.ui.view import Host
 from app.window.opening import Opened
-from renderer.errors import LucidaError, one_line
-from renderer.scene import SCENE_NAMES
+from renderer.editing.objects import add, model_table
+from renderer.files import SCENE_NAMES
+from renderer.files.models.models import ModelFile, read_by
 from renderer.scene.model import Scene
-from renderer.scene.models import ModelFile, read_by
-from renderer.scene_editing.objects import add, model_table
+from renderer.system.errors import LucidaError, one_line
 
 ADD, OPEN = "Add it to the scene", "Open it instead"
 

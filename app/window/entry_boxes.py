@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from app.images.pair.boxes import EntryBox, pixel_box, resolution_box
 from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
-from app.pair.boxes import EntryBox, pixel_box, resolution_box
 from app.state.app_state import AppState
 
 

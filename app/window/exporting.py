@@ -10,15 +10,15 @@ import threading
 import time
 from pathlib import Path
 
-from app.page import ENDINGS as PAGES
-from app.widgets.background import Background
-from app.widgets.messages import TextListing
-from renderer.camera import Camera, Size
-from renderer.errors import describe, one_line
-from renderer.scene.cancelling import cancelled_by
+from app.ui.background import Background
+from app.ui.messages import TextListing
+from app.web import ENDINGS as PAGES
+from renderer.camera.camera import Camera, Size
+from renderer.files.export import export_scene
+from renderer.files.models.subprocess_reader import CancelledError
 from renderer.scene.model import Scene, View
-from renderer.scene.subprocess_reader import CancelledError
-from renderer.scene_export import export_scene
+from renderer.system.cancelling import cancelled_by
+from renderer.system.errors import describe, one_line
 
 Lines = tuple[str, ...]
 NOT_CARRIED = "Not as it is there:"
@@ -61,7 +61,7 @@ class Exports:
         def write() -> Lines:
             with cancelled_by(check):
                 if Path(path).suffix.lower() in PAGES:
-                    from app.page.scene_page import write_scene_page
+                    from app.web.scene_page import write_scene_page
 
                     write_scene_page(path, scene, View(camera))
                     return ()

@@ -15,13 +15,13 @@ from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
-from app.photograph.reading import PHOTO_ENDINGS
-from app.poses.reading import CAMERA_ENDINGS
-from app.storage.code_files import CODE_ENDING, TASKS_ENDING
-from app.storage.recent import RecentFiles
-from app.storage.watching import SceneWatch
-from app.widgets.background import Background
-from app.widgets.dialog import FileDialog, FileQuestion
+from app.images.photograph.reading import PHOTO_ENDINGS
+from app.instruments.poses.reading import CAMERA_ENDINGS
+from app.ui.background import Background
+from app.ui.dialog import FileDialog, FileQuestion
+from app.ui.recent import RecentFiles
+from app.ui.watching import SceneWatch
+from app.window.code_files import CODE_ENDING, TASKS_ENDING
 from app.window.opening import (
     Opened,
     open_lecture,
@@ -30,18 +30,13 @@ from app.window.opening import (
     open_to_add,
     reread,
 )
-from renderer.errors import describe, one_line
-from renderer.scene import (
-    SCENE_ENDINGS,
-    SCENE_NAMES,
-    Scene,
-    View,
-    save_view,
-)
-from renderer.scene.cancelling import cancelled_by
-from renderer.scene.models import MODEL_ENDINGS, read_by
-from renderer.scene.outside import LISTED, OutsideError
-from renderer.scene.subprocess_reader import CancelledError, ModelReader
+from renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
+from renderer.files.models.models import MODEL_ENDINGS, read_by
+from renderer.files.models.subprocess_reader import CancelledError, ModelReader
+from renderer.files.outside import LISTED, OutsideError
+from renderer.scene import Scene, View
+from renderer.system.cancelling import cancelled_by
+from renderer.system.errors import describe, one_line
 
 LECTURE_ENDING = ".toml"
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by

@@ -1,10 +1,10 @@
-"""The instruments of the window, in the order of app/instruments.py, and all of their views."""
+"""The instruments of the window, in the order of app/state/rooms.py, and all of their views."""
 
 from __future__ import annotations
 
-from app.host.instrument import Instrument
-from app.host.view import DockedView
-from app.instruments import ROOMS, Room
+from app.state.rooms import ROOMS, Room
+from app.ui.instrument import Instrument
+from app.ui.view import DockedView
 
 
 def _of(room: Room) -> Instrument:
@@ -25,5 +25,5 @@ def make_views() -> list[DockedView]:
     missing = {name for room in ROOMS for name in room.views} - {
         view.name.lower() for view in views
     }
-    assert not missing, f"app/instruments.py: there is no view {missing}"
+    assert not missing, f"app/state/rooms.py: there is no view {missing}"
     return views

@@ -7,16 +7,16 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.images.imaging import with_resolution
-from app.photograph.model import with_photograph
-from app.poses.model import PoseSet, with_set, with_set_framed
-from app.storage.capture import free_path
-from app.storage.paths import stored
+from app.images.photograph.model import with_photograph
+from app.instruments.poses.model import PoseSet, with_set, with_set_framed
+from app.state.paths import stored
+from app.window.capture import free_path
 from app.window.platform import Platform, start_platform
 from app.window.start import begin_scene, begin_session, kept
 from app.window.viewer import WindowRun
-from renderer.atomic import check_writable
-from renderer.scene import EMPTY_SCENE
+from renderer.files import EMPTY_SCENE
 from renderer.scene import View as SceneView
+from renderer.system.atomic import check_writable
 
 DEFAULT_PICTURE = Path("lucida.png")
 

@@ -14,23 +14,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.laboratory.view import LABORATORY, LaboratoryView
+from app.instruments.laboratory.view import LABORATORY, LaboratoryView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
 from app.lecture.schema import PANEL
-from app.storage.capture import cut
-from app.widgets.surface import Target
+from app.ui.surface import Target
+from app.window.capture import cut
 from app.window.launch import start_drawing
 from app.window.main_window import MainWindow
 from app.window.platform import start_platform
 from app.window.start import Start, begin_lecture, begin_scene, first_state
 from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
-from renderer.atomic import check_writable
-from renderer.errors import LucidaError
-from renderer.scene.outside import OutsideError
+from renderer.files.outside import OutsideError
+from renderer.system.atomic import check_writable
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from app.lecture_page.page import Still
+    from app.web.lecture.page import Still
 
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 
@@ -131,7 +131,7 @@ def lecture_stills(
     They are in the light theme, for prints, and without tools. path, size: as in export_lecture().
     Needs no display. Raises LucidaError.
     """
-    from app.lecture_page.page import Still
+    from app.web.lecture.page import Still
 
     seen = [
         replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.builds

@@ -1,7 +1,7 @@
 """The open window: one frame after another.
 
 Owns the present state and everything that lives as long as the window: the views, the renderers,
-the threads, the history. Views get the state through host/view.py's Host and ask for a new one;
+the threads, the history. Views get the state through ui/view.py's Host and ask for a new one;
 this module keeps it and hands it to the renderers. viewer.py makes the window.
 """
 
@@ -17,20 +17,20 @@ from imgui_bundle import hello_imgui, imgui
 
 from app.cameras.presets import framed
 from app.cameras.travel import CameraTransition
-from app.host.fly import Fly
-from app.host.view import AView, DockedView
+from app.checking.your_code.view import YourCodeView
+from app.images.pair.boxes import asking_pixel, asking_size
+from app.images.pair.view import RASTER
 from app.images.renderers import Renderers
+from app.instruments.outside.view import OUTSIDE, OutsideView
 from app.lecture.movement import Movement
 from app.lecture.view import LECTURE, LectureView
-from app.outside.view import OUTSIDE, OutsideView
-from app.pair.boxes import asking_pixel, asking_size
-from app.pair.view import RASTER
 from app.state.app_state import AppState, History
 from app.state.options import Pixel
-from app.storage.session_store import Keeper
-from app.widgets import theme
-from app.widgets.background import Background
-from app.widgets.highlight import frame_views
+from app.ui import theme
+from app.ui.background import Background
+from app.ui.fly import Fly
+from app.ui.highlight import frame_views
+from app.ui.view import AView, DockedView
 from app.window.action_table import run_shortcuts
 from app.window.entry_boxes import EntryBoxes
 from app.window.files import Files
@@ -40,13 +40,13 @@ from app.window.menus import menu_bar, menu_button
 from app.window.platform import keep_open, on_drop, set_title
 from app.window.playing import Playing
 from app.window.scene_saving import SceneSaving, is_marked, title
+from app.window.session_store import Keeper
 from app.window.shell import Shell
 from app.window.status import Status, is_good_news, status_line, told
 from app.window.taking import take_opened
-from app.your_code.view import YourCodeView
-from renderer.errors import LucidaError
-from renderer.focus import Focus, object_corners, scene_focus
-from renderer.memo import Memo
+from renderer.scene.focus import Focus, object_corners, scene_focus
+from renderer.system.errors import LucidaError
+from renderer.system.memo import Memo
 
 
 class MainWindow:

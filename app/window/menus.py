@@ -10,15 +10,14 @@ from collections.abc import Callable
 
 from imgui_bundle import ImVec2, imgui
 
-from app.camera_panel.actions import SCENE_VIEW, go_to_view
-from app.host import layout
-from app.host.action import Action, Window
+from app.cameras.camera_panel.actions import SCENE_VIEW, go_to_view
 from app.state.app_state import History
 from app.state.changes import change
-from app.widgets import theme
+from app.ui import layout, theme
+from app.ui.action import Action, Window
 from app.window import bookmarks
 from app.window.action_table import ACTIONS, MENUS
-from renderer.scene import SCENE_NAMES
+from renderer.files import SCENE_NAMES
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0

@@ -13,20 +13,21 @@ from typing import Any
 
 from app.cameras.taken import TakenCamera
 from app.checking.task_file import load_tasks
+from app.images.photograph.reading import found_photograph, is_photograph
+from app.instruments.poses.model import PoseSet
+from app.instruments.poses.reading import is_cameras, open_cameras
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, load_lecture
-from app.photograph.reading import found_photograph, is_photograph
-from app.poses.model import PoseSet
-from app.poses.reading import is_cameras, open_cameras
-from app.storage.code_files import found_code, is_code, is_tasks
-from renderer.errors import LucidaError, describe
+from app.window.code_files import found_code, is_code, is_tasks
+from renderer.files import SCENE_NAMES, load_scene, load_view
+from renderer.files.models.models import read_by
+from renderer.files.models.subprocess_reader import ModelReader
+from renderer.files.outside import OutsideError, kept_inside
+from renderer.files.reading import first_bytes
 from renderer.raster import Prepared, prepare
-from renderer.scene import SCENE_NAMES, Scene, View, load_scene, load_view
-from renderer.scene.cancelling import check_cancelled
-from renderer.scene.models import read_by
-from renderer.scene.outside import OutsideError, kept_inside
-from renderer.scene.reading import first_bytes
-from renderer.scene.subprocess_reader import ModelReader
+from renderer.scene import Scene, View
+from renderer.system.cancelling import check_cancelled
+from renderer.system.errors import LucidaError, describe
 
 SNIFFED_BYTES = 1 << 20
 

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from app.widgets import theme
-from app.widgets.messages import box_width, overlay, top_center
+from app.ui import theme
+from app.ui.messages import box_width, overlay, top_center
 from app.window.palette_search import Entry, found
 
 SHOWN_ROWS = 12

@@ -8,15 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from app.camera_panel.actions import go_to_view
-from app.host.action import Action, Window
-from app.instruments import ROOMS, Room
+from app.cameras.camera_panel.actions import go_to_view
 from app.lecture.view import LectureView
+from app.state.rooms import ROOMS, Room
+from app.ui.action import Action, Window
 from app.window.action_table import ACTIONS
 from app.window.bookmarks import recall
 from app.window.instruments import INSTRUMENTS
 from app.window.palette_search import Entry
-from renderer.scene import SCENE_NAMES
+from renderer.files import SCENE_NAMES
 
 # The words of other programs and of other books, by names of actions and titles of views.
 OWN = {

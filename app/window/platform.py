@@ -25,7 +25,7 @@ import moderngl
 
 from app.window.key_names import give_key
 from app.window.keys import KeyFrames
-from renderer.errors import LucidaError, one_line
+from renderer.system.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
 _LOCKED = int(imgui.ImFontFlags_.lock_baked_sizes)

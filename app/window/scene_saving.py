@@ -1,6 +1,6 @@
 """The scene in the window and its file: saving it, what is not saved yet, and closing.
 
-Owns what is asked before something is lost. Writing is renderer/scene_editing/documents.py's, in
+Owns what is asked before something is lost. Writing is renderer/editing/documents.py's, in
 the background.
 """
 
@@ -11,21 +11,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.host.view import Host
 from app.state.app_state import AppState
-from app.widgets.background import Background
+from app.ui.background import Background
+from app.ui.view import Host
 from app.window.files import Files
-from renderer.errors import describe, one_line
+from renderer.editing.documents import ChangedOnDiskError, file_of, is_unsaved, save, suggested_file
+from renderer.files.outside import outside_files
+from renderer.files.rewriting import CommentsLostError
 from renderer.scene import Scene, View
-from renderer.scene.outside import outside_files
-from renderer.scene.rewriting import CommentsLostError
-from renderer.scene_editing.documents import (
-    ChangedOnDiskError,
-    file_of,
-    is_unsaved,
-    save,
-    suggested_file,
-)
+from renderer.system.errors import describe, one_line
 
 OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
 SAVE_AS = "Save as a new file..."

@@ -12,32 +12,32 @@ from pathlib import Path
 from imgui_bundle import hello_imgui, imgui
 
 from app import __version__
-from app.camera_panel.actions import image_size
-from app.host.action import Window
-from app.host.proportion import Proportion
-from app.host.stage import Stage
-from app.host.view import DockedView, Host
+from app.cameras.camera_panel.actions import image_size
 from app.images.renderers import Renderers
+from app.instruments.objects.choosing import choose, chosen
 from app.lecture.view import LectureView
-from app.objects.choosing import choose, chosen
-from app.page import ENDINGS as PAGES
 from app.state.app_state import AppState
-from app.storage.capture import Captures, Rect
-from app.storage.session import Session, session_of
-from app.storage.session_store import Keeper
-from app.widgets.messages import listing_box, loading_box, message_box
-from app.widgets.surface import Target
-from app.widgets.theme import Fonts
-from app.widgets.toasts import Toasts
+from app.state.session import Session, session_of
+from app.ui.action import Window
+from app.ui.messages import listing_box, loading_box, message_box
+from app.ui.stage import Stage
+from app.ui.surface import Target
+from app.ui.theme import Fonts
+from app.ui.toasts import Toasts
+from app.ui.view import DockedView, Host
+from app.web import ENDINGS as PAGES
+from app.window.capture import Captures, Rect
 from app.window.exporting import Exports
 from app.window.files import Files
 from app.window.palette import CommandPalette
 from app.window.palette_entries import entries
 from app.window.platform import toggle_full_screen
+from app.window.proportion import Proportion
+from app.window.session_store import Keeper
 from app.window.shortcut_sheet import help_sheet
-from renderer.atomic import file_stem
-from renderer.errors import LucidaError, describe
-from renderer.scene_export import ENDINGS
+from renderer.files.export import ENDINGS
+from renderer.system.atomic import file_stem
+from renderer.system.errors import LucidaError, describe
 
 EXPORTED = "glTF .glb, page .html"
 

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 
 from imgui_bundle import imgui
 
-from app.widgets import theme
-from app.widgets.lettering import lettering
-from app.widgets.messages import wrapped
+from app.ui import theme
+from app.ui.lettering import lettering
+from app.ui.messages import wrapped
 from app.window.action_table import ACTIONS, MENUS, MOUSE
 from app.window.instruments import INSTRUMENTS
 

@@ -13,20 +13,21 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui
 
+from app.instruments.poses.model import PoseSet
 from app.lecture.model import Lecture
 from app.lecture.session import LectureSession
 from app.lecture.step_options import own, state_of
-from app.poses.model import PoseSet
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState
-from app.storage.kept_lecture import KeptLecture
-from app.storage.session import Session
-from app.storage.session_store import Keeper, SessionFile, take_place
+from app.state.kept_lecture import KeptLecture
+from app.state.session import Session
 from app.window.opening import Opened, opened_scene
-from renderer.errors import LucidaError, describe, one_line
-from renderer.scene import BUILTIN_SCENES, Scene, View, load_scene
-from renderer.scene.models import ModelFile, read_by, read_model
-from renderer.scene.subprocess_reader import is_large
+from app.window.session_store import Keeper, SessionFile, take_place
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.files.models.models import ModelFile, read_by, read_model
+from renderer.files.models.subprocess_reader import is_large
+from renderer.scene import Scene, View
+from renderer.system.errors import LucidaError, describe, one_line
 
 ChangeView = Callable[[View], View]
 UNKEPT = "This session will not be kept: the settings folder cannot be written to."

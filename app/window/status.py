@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.images.agreement import Verdict
-from app.widgets import theme
-from app.widgets.lettering import fitting_words
-from renderer.errors import describe
-from renderer.pixels import Indexing, Pixel
+from app.ui import theme
+from app.ui.lettering import fitting_words
+from renderer.images.pixels import Indexing, Pixel
+from renderer.system.errors import describe
 
 VERDICTS = "agree", "disagree"  # what begins so is about both images
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it

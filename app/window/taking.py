@@ -9,17 +9,18 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Protocol
 
-from app.host.action import Window
+from app.checking.your_code.view import YourCodeView
+from app.images.photograph.model import with_photograph
+from app.instruments.poses.model import PoseSet
+from app.instruments.poses.view import PosesView
 from app.lecture.view import LectureView
-from app.photograph.model import with_photograph
-from app.poses.model import PoseSet
-from app.poses.view import PosesView
+from app.ui.action import Window
 from app.window import dropping
 from app.window.opening import Opened
-from app.your_code.view import YourCodeView
-from renderer.errors import one_line
-from renderer.scene import EMPTY_SCENE, Scene, load_scene
-from renderer.scene_editing.documents import are_versions, is_unsaved
+from renderer.editing.documents import are_versions, is_unsaved
+from renderer.files import EMPTY_SCENE, load_scene
+from renderer.scene import Scene
+from renderer.system.errors import one_line
 
 READ_AGAIN = "Read it again"
 

@@ -14,18 +14,16 @@ from typing import Any
 import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
-from app.host import layout
-from app.host.view import DockedView
-from app.poses.view import PosesView
+from app.instruments.poses.view import PosesView
 from app.state.app_state import AppState
-from app.storage.paths import is_unicode
-from app.storage.session import source_of
-from app.storage.session_store import settings_folder
-from app.storage.settings import kept_whole, settings_file
-from app.widgets import theme
-from app.widgets.focus_frame import FocusFrame
-from app.widgets.focusing import Focusing
-from app.widgets.surface import Target
+from app.state.paths import is_unicode
+from app.state.session import source_of
+from app.state.settings import kept_whole, settings_file
+from app.ui import layout, theme
+from app.ui.focus_frame import FocusFrame
+from app.ui.focusing import Focusing
+from app.ui.surface import Target
+from app.ui.view import DockedView
 from app.window.canvas import WindowCanvas
 from app.window.clicks import ClickTime
 from app.window.keys import KeyFrames
@@ -42,13 +40,14 @@ from app.window.platform import (
     take_keys,
 )
 from app.window.scene_saving import title
+from app.window.session_store import settings_folder
 from app.window.signals import ended_by_signals
 from app.window.start import Start
-from renderer import compile_note
-from renderer.atomic import atomic_write
-from renderer.errors import LucidaError
+from renderer.files import SCENE_NAMES
 from renderer.images.png import write_png
-from renderer.scene import SCENE_NAMES
+from renderer.system import compile_note
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError
 
 DEFAULT_SIZE = (1280, 720)
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer

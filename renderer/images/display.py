@@ -1,7 +1,7 @@
 """The display transform, and pictures of a frame's channels: sRGB, exposure and false colours.
 
 The window's shader (shaders/) computes the same display transform with the same constants
-(renderer/shared_numbers.py).
+(renderer/images/shared_numbers.py).
 """
 
 from __future__ import annotations
@@ -11,10 +11,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer import shared_numbers
-from renderer.errors import LucidaError
-from renderer.frame import Frame
-from renderer.shared_numbers import (
+from renderer.images import shared_numbers
+from renderer.images.frame import Frame
+from renderer.images.shared_numbers import (
     FARTHEST_GRAY,
     SRGB_GAMMA,
     SRGB_LINEAR,
@@ -23,6 +22,7 @@ from renderer.shared_numbers import (
     SRGB_SHIFT,
     SRGB_SLOPE,
 )
+from renderer.system.errors import LucidaError
 
 Bytes = NDArray[np.uint8]
 Floats32 = NDArray[np.float32]

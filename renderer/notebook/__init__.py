@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.camera import Camera
+    from renderer.camera.camera import Camera
     from renderer.notebook.widget import Explorer
     from renderer.scene import Scene
 

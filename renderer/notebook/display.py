@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from renderer.camera import Camera
-from renderer.frame import CHANNELS, Frame
+from renderer.camera.camera import Camera
 from renderer.images import picture
 from renderer.images.display import depth_gray
+from renderer.images.frame import CHANNELS, Frame
 from renderer.images.png import write_png
 
 if TYPE_CHECKING:
@@ -155,7 +155,7 @@ def _projected(points: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.nd
 
 def scene_html(scene: Scene) -> str:
     """Return a picture of a scene from its own view, by the ray tracer, and its contents."""
-    from renderer.scene_editing import outline
+    from renderer.editing import outline
     from renderer.trace import Tracer
 
     with Tracer(scene) as tracer:

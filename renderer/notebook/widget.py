@@ -19,21 +19,23 @@ import anywidget
 import traitlets
 from PIL import Image
 
-from renderer import compile_note, navigation
-from renderer.camera import Camera, Size, Vector, check_camera
-from renderer.coarseness import Coarseness, reduced
-from renderer.errors import LucidaError
-from renderer.focus import scene_focus
-from renderer.frame import CHANNELS, Frame, check_size
+from renderer.camera import navigation
+from renderer.camera.camera import Camera, Size, Vector, check_camera
+from renderer.compare.pixel_report import as_rows, picked
+from renderer.files import load_scene
+from renderer.files.views import view_from_table, view_table
 from renderer.images import picture
+from renderer.images.coarseness import Coarseness, reduced
+from renderer.images.frame import CHANNELS, Frame, check_size
+from renderer.images.pixels import Indexing, Pixel
 from renderer.images.png import write_png
-from renderer.memo import Memo
 from renderer.notebook.sliders import sliders_of, target_of, with_number
-from renderer.picked import as_rows, picked
-from renderer.pixels import Indexing, Pixel
-from renderer.scene import Scene, load_scene
+from renderer.scene import Scene
+from renderer.scene.focus import scene_focus
 from renderer.scene.model import View
-from renderer.scene.views import view_from_table, view_table
+from renderer.system import compile_note
+from renderer.system.errors import LucidaError
+from renderer.system.memo import Memo
 from renderer.trace import TraceJob, Tracer
 
 MOVING_S = 0.03  # what an image in motion may take: 15 a second, with the way to the browser

@@ -14,10 +14,10 @@ from typing import Any
 
 import moderngl
 
-from renderer.child import check_not_forked
-from renderer.errors import LucidaError
 from renderer.raster.current import found_library, load_egl, load_osmesa, nothing_current
 from renderer.raster.packages import remedy
+from renderer.system.child import check_not_forked
+from renderer.system.errors import LucidaError
 
 BACKENDS = ("auto", "egl", "osmesa")
 # From the headers of OSMesa and GL.

@@ -119,7 +119,7 @@ def exposure_factor(exposure_ev: float) -> float:
 def upload(
     context: moderngl.Context, array: NDArray, texture: moderngl.Texture | None = None
 ) -> moderngl.Texture:
-    """Upload a channel of a frame (renderer/frame.py) as a texture for Display.show().
+    """Upload a channel of a frame (renderer/images/frame.py) as a texture for Display.show().
 
     texture: one to overwrite; it is released if it does not fit. Raises LucidaError if memory is
     exhausted; the old texture is released then, too.

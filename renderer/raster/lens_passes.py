@@ -1,15 +1,15 @@
 """The image of a camera, with or without a lens: its passes over the scene.
 
-A lens's image takes one pass for each face (see renderer/lens_faces.py); each has the two passes of
-the rasterizer, see() and shade().
+A lens's image takes one pass for each face (see renderer/camera/lens_faces.py); each has the two
+passes of the rasterizer, see() and shade().
 """
 
 from __future__ import annotations
 
 import moderngl
 
-from renderer.camera import Camera
-from renderer.lens_faces import looked_up_faces
+from renderer.camera.camera import Camera
+from renderer.camera.lens_faces import looked_up_faces
 from renderer.raster.scene_data import SceneData
 from renderer.raster.setup import RasterView
 from renderer.raster.targets import Targets

@@ -8,8 +8,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Size
-from renderer.lens_faces import Face
+from renderer.camera.camera import Size
+from renderer.camera.lens_faces import Face
 from renderer.raster.resources import Owner, new_texture
 
 

@@ -13,8 +13,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.memo import Memo
+from renderer.camera.camera import Camera
 from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
 from renderer.raster.display import exposure_factor
 from renderer.raster.lines import BLENDING, Layer, LineRenderer
@@ -27,6 +26,7 @@ from renderer.raster.screen_pass import (
     set_uniforms,
 )
 from renderer.raster.targets import Textures
+from renderer.system.memo import Memo
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]

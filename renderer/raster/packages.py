@@ -44,7 +44,7 @@ _REMEDIES = {
 
 
 def remedy(part: str, system: str = "") -> str:
-    """Return one line of instructions for a part of renderer/doctor.py.
+    """Return one line of instructions for a part of renderer/system/doctor.py.
 
     system: one of SYSTEMS; "" for the current one.
     """

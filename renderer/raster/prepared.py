@@ -11,10 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Floats
-from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene, flatten, same_meshes
-from renderer.scene.model import Scene, check_scene
-from renderer.shared_numbers import (
+from renderer.camera.camera import Floats
+from renderer.images.shared_numbers import (
     CHECKERED,
     OBJECT_TEXELS,
     ROW_CELLS,
@@ -22,6 +20,8 @@ from renderer.shared_numbers import (
     ROW_DIFFUSE,
     ROW_WORLD,
 )
+from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene, flatten, same_meshes
+from renderer.scene.model import Scene, check_scene
 
 
 class SceneSetup(NamedTuple):

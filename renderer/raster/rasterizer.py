@@ -16,10 +16,10 @@ from typing import Any
 
 import moderngl
 
-from renderer.camera import Camera, check_camera
-from renderer.errors import LucidaError
-from renderer.frame import Frame, check_channels, check_size
-from renderer.pixels import ENLARGEMENT, ENLARGEMENTS
+from renderer.camera.camera import Camera, check_camera
+from renderer.images.frame import Frame, check_channels, check_size
+from renderer.images.pixels import ENLARGEMENT, ENLARGEMENTS
+from renderer.images.samples import Progress, check_samples, supersampled
 from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.lens_passes import draw_passes
 from renderer.raster.prepared import Prepared, prepare
@@ -28,9 +28,9 @@ from renderer.raster.resources import Owner, check
 from renderer.raster.scene_data import SceneData
 from renderer.raster.screen_pass import plain_state
 from renderer.raster.targets import Region, Targets, Textures
-from renderer.samples import Progress, check_samples, supersampled
 from renderer.scene.flat import same_places
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from renderer.camera import Floats
+from renderer.camera.camera import Floats
+from renderer.images.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 from renderer.raster.lens_targets import Lookup
 from renderer.raster.prepared import Prepared
 from renderer.raster.programs import UNITS, Programs, set_uniform
@@ -29,7 +30,6 @@ from renderer.raster.setup import (
 )
 from renderer.raster.tables import TABLE_WIDTH, Table
 from renderer.scene.flat import FlatScene
-from renderer.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 
 BOX_VERTICES = 36
 MARGIN = 1024  # pixels around the image, or half its size; Mesa 22.3 loses triangles with 4096

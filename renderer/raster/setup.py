@@ -23,12 +23,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import NEAREST, Camera, Floats
-from renderer.lens_faces import Face
-from renderer.raster.prepared import SceneSetup
-from renderer.scene.flat import FlatScene
-from renderer.scene.positions import lights_from, near_point
-from renderer.shared_numbers import (
+from renderer.camera.camera import NEAREST, Camera, Floats
+from renderer.camera.lens_faces import Face
+from renderer.images.shared_numbers import (
     ROW_ANCHOR,
     ROW_CELLS,
     ROW_FROM_NEAR,
@@ -36,6 +33,9 @@ from renderer.shared_numbers import (
     ROW_INSIDE,
     SPHERE_TEXELS,
 )
+from renderer.raster.prepared import SceneSetup
+from renderer.scene.flat import FlatScene
+from renderer.scene.positions import lights_from, near_point
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 TINY = 1e-30

@@ -12,9 +12,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.errors import LucidaError
+from renderer.images.shared_numbers import TABLE_SHIFT
 from renderer.raster.resources import new_texture
-from renderer.shared_numbers import TABLE_SHIFT
+from renderer.system.errors import LucidaError
 
 TABLE_WIDTH = 1 << TABLE_SHIFT
 

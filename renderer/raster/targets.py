@@ -10,9 +10,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.errors import LucidaError
 from renderer.raster.lens_targets import LensTargets
 from renderer.raster.resources import Owner, check, new_texture
+from renderer.system.errors import LucidaError
 
 Region = tuple[int, int, int, int]
 
@@ -79,8 +79,8 @@ class Targets:
     def read(
         self, channels: Iterable[str], region: Region | None = None
     ) -> dict[str, NDArray[np.float32] | NDArray[np.int32]]:
-        """Return channels (renderer/frame.py) of the last image, or of a part of it, by name. Waits
-        until it is drawn.
+        """Return channels (see frame.py) of the last image, or of a part of it, by name. Wait until
+        it is drawn.
 
         region: first row and column, one past the last of each.
         """

@@ -1,13 +1,8 @@
-"""Scenes: what they are made of, and how they are read from files.
+"""Scenes: what they are made of.
 
     model       the structures: objects, materials, lights, Scene, View
     shapes      procedural meshes
-    load        load_scene: a built-in scene, a scene file, or a model file
-    files       scene files (.toml); their format: schema
-    models      model files (.obj .ply .stl .off .glb .gltf)
-    views       view files: a camera written down
-    saving      a scene written down
-    texture     an image that a surface shows; images: how it is read from files
+    texture     an image that a surface shows
     flat        a scene as flat arrays, the form that both renderers read
 
 Knows nothing of renderers, pixels or windows.
@@ -15,13 +10,6 @@ Knows nothing of renderers, pixels or windows.
 
 from renderer.scene import shapes
 from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.load import (
-    BUILTIN_SCENES,
-    EMPTY_SCENE,
-    SCENE_ENDINGS,
-    SCENE_NAMES,
-    load_scene,
-)
 from renderer.scene.model import (
     Checker,
     Color,
@@ -36,18 +24,12 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.saving import save_scene
 from renderer.scene.texture import Texture
-from renderer.scene.views import load_view, save_view, view_from_toml, view_to_toml
 
 __all__ = [
-    "BUILTIN_SCENES",
-    "SCENE_ENDINGS",
-    "SCENE_NAMES",
     "Checker",
     "Color",
     "DirectionalLight",
-    "EMPTY_SCENE",
     "FlatScene",
     "Material",
     "Mesh",
@@ -60,11 +42,5 @@ __all__ = [
     "Texture",
     "View",
     "flatten",
-    "load_scene",
-    "load_view",
-    "save_scene",
-    "save_view",
     "shapes",
-    "view_from_toml",
-    "view_to_toml",
 ]

@@ -22,8 +22,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera_checks import arrays_text
-from renderer.errors import LucidaError
+from renderer.camera.checks import arrays_text
+from renderer.images.shared_numbers import CHECKERED
 from renderer.scene.boxes import extent, world_boxes
 from renderer.scene.flat_textures import TextureArrays, on_sphere, texture_arrays
 from renderer.scene.model import (
@@ -35,7 +35,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
-from renderer.shared_numbers import CHECKERED
+from renderer.system.errors import LucidaError
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]

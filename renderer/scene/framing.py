@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
 from renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
+from renderer.system.errors import LucidaError
 
 MATERIAL = Material(diffuse=(0.62, 0.62, 0.62), specular=(0.1, 0.1, 0.1), shininess=40.0)
 AMBIENT = (0.1, 0.1, 0.1)

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from renderer.camera_checks import number, numbers
-from renderer.errors import LucidaError
+from renderer.camera.checks import number, numbers
 from renderer.images.display import from_srgb
 from renderer.scene.metal import Metal, reflectances
 from renderer.scene.texture import WHITE, Texture
+from renderer.system.errors import LucidaError
 
 Color = tuple[float, float, float]
 

@@ -17,17 +17,17 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera import Camera
-from renderer.camera_checks import LARGEST, volume
-from renderer.errors import LucidaError, one_line, shortened
-from renderer.frame import DISPLAY
+from renderer.camera.camera import Camera
+from renderer.camera.checks import LARGEST, volume
+from renderer.images.frame import DISPLAY
 from renderer.scene.material import BRIGHTEST as BRIGHTEST
 from renderer.scene.material import Checker as Checker
 from renderer.scene.material import Color as Color
 from renderer.scene.material import Material, color, length, vector
 from renderer.scene.material import without_metal as without_metal
-from renderer.scene.noting import Noted
 from renderer.scene.texture import is_final
+from renderer.system.errors import LucidaError, one_line, shortened
+from renderer.system.file_dependencies import Noted
 
 ItemKind = Literal["objects", "lights"]
 Floats32 = NDArray[np.float32]

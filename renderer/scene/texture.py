@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera_checks import number, numbers
-from renderer.errors import LucidaError
+from renderer.camera.checks import number, numbers
 from renderer.images.display import from_srgb
+from renderer.images.shared_numbers import TEXEL_BITS
 from renderer.scene.limits import TEXTURE_SIDE
-from renderer.shared_numbers import TEXEL_BITS
+from renderer.system.errors import LucidaError
 
 WRAPS = ("repeat", "mirror", "clamp")  # by number
 LARGEST_SCALE = 1e5
@@ -34,7 +34,7 @@ def is_final(value: object) -> bool:
         if value.flags.owndata:
             return True
         value = value.base
-    return isinstance(value, bytes)  # from another process, see packing.py
+    return isinstance(value, bytes)  # from another process, see system/pipe.py
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 // Image coordinates: pixels from the image's centre, x right, y up; row 0 of the framebuffer is the
 // image's top row. In perspective a point's x and y are kept multiplied by its t.
 // HAS_LENS: a constant that is put in above: the image is a face in which a lens's pixels are
-// looked up (renderer/lens_faces.py).
+// looked up (renderer/camera/lens_faces.py).
 
 layout(std140) uniform Camera {
     mat3 image_from_world;  // of vectors; points are taken relative to an anchor

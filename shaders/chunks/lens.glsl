@@ -1,4 +1,4 @@
-// What a pixel of a lens's image looks up in a face (renderer/lens_faces.py).
+// What a pixel of a lens's image looks up in a face (renderer/camera/lens_faces.py).
 
 #include "chunks/camera.glsl"
 

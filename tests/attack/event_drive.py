@@ -18,17 +18,18 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key
 
-from app.host import layout
+from app.images.pair.view import RASTER, RAY
 from app.lecture.reading import BUILTIN, load_lecture
-from app.pair.view import RASTER, RAY
 from app.state.all_options import AllOptions
 from app.state.bounds import check
-from app.storage.session import from_bytes, session_of, to_bytes
+from app.state.session import from_bytes, session_of, to_bytes
+from app.ui import layout
 from app.window.action_table import ACTIONS
 from app.window.platform import set_size
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import View, save_view
+from renderer.camera.camera import Camera
+from renderer.files import save_view
+from renderer.scene import View
+from renderer.system.errors import LucidaError
 
 SEED = int(os.environ["LUCIDA_ATTACK_SEED"])
 MINUTES = float(os.environ["LUCIDA_ATTACK_MINUTES"])

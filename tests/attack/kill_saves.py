@@ -26,14 +26,15 @@ import msgspec
 import numpy as np
 
 from app.state.app_state import AppState
-from app.storage.recent import RecentFiles
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from app.storage.session_store import take_place
-from renderer import atomic
-from renderer.camera import Camera
-from renderer.frame import Frame
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from app.ui.recent import RecentFiles
+from app.window.session_store import take_place
+from renderer.camera.camera import Camera
+from renderer.files import load_scene, load_view, save_scene, save_view
 from renderer.images import write_image, write_picture
-from renderer.scene import View, load_scene, load_view, save_scene, save_view
+from renderer.images.frame import Frame
+from renderer.scene import View
+from renderer.system import atomic
 
 ROUNDS = 3.0  # of saving, at most, before a process is killed
 PADDING = 20_000  # characters in a session

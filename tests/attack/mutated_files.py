@@ -28,8 +28,9 @@ from typing import Any
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a fork has one thread
 
 from app.lecture.reading import load_lecture
-from renderer.errors import LucidaError
-from renderer.scene import flatten, load_scene, load_view
+from renderer.files import load_scene, load_view
+from renderer.scene import flatten
+from renderer.system.errors import LucidaError
 from tests.attack.seed_files import seed_files
 
 MEMORY_BYTES = 1 << 30  # that reading one of these small files may take

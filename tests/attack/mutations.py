@@ -1,6 +1,6 @@
 """Change single lines of the code that draws nothing, and report which changes no test notices.
 
-    python -m tests.attack mutations --room app/poses --sample 50 --seed 3
+    python -m tests.attack mutations --room app/instruments/poses --sample 50 --seed 3
 
 A room is a folder of the source, and its tests are those of the folder of the same name. A process
 collects a room's tests once, sees which functions each of them calls, and forks for each mutant,
@@ -38,7 +38,7 @@ TESTS = {
     "app/cameras": ("camera",),
     "app/checking": ("checking",),
     "app/images": ("images", "compare"),
-    "app/pair": ("pair", "images"),
+    "app/images/pair": ("pair", "images"),
     "renderer": ("camera", "compare", "images", "parity", "project"),
     "renderer/images": ("images", "scene"),
     "renderer/scene": ("scene", "scene_editing"),

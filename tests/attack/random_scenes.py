@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from renderer import Camera
-from renderer.lenses import MODELS, Lens
+from renderer.camera.lenses import MODELS, Lens
 from renderer.scene import shapes
 from renderer.scene.flat import FlatScene
 from renderer.scene.model import (

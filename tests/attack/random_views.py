@@ -25,7 +25,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from renderer import Camera, Rasterizer, Scene, Tracer
-from renderer.compare import CHANNELS, Comparison, compare_frames
+from renderer.compare.raster_and_ray import CHANNELS, Comparison, compare_frames
 from renderer.scene.flat import FlatScene, flatten
 from tests.attack.random_scenes import random_lens, random_scene, random_view
 

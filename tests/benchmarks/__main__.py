@@ -7,8 +7,8 @@ import sys
 import traceback
 from pathlib import Path
 
-from renderer.atomic import atomic_write
-from renderer.errors import LucidaError
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError
 from tests.benchmarks import report
 from tests.benchmarks.run import Run
 from tests.benchmarks.tables import TABLES

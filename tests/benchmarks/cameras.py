@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Size
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera, Size
+from renderer.camera.lenses import Lens
 from tests.benchmarks import interior
 from tests.benchmarks.scenes import Subject
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera import Camera, Size
+from renderer.camera.camera import Camera, Size
 from tests.benchmarks.meshes import Faces, Vertices
 from tests.benchmarks.peers import Hits, Peer, processors
 

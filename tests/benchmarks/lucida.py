@@ -5,8 +5,8 @@ Owns how it is called, by its public interface only.
 
 from __future__ import annotations
 
-from renderer.camera import Camera, Size
-from renderer.frame import Frame
+from renderer.camera.camera import Camera, Size
+from renderer.images.frame import Frame
 from renderer.scene import Mesh, Scene, SceneObject
 from renderer.trace import Tracer
 from tests.benchmarks.meshes import Faces, Vertices

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from renderer.camera import Camera, Size
+from renderer.camera.camera import Camera, Size
 from tests.benchmarks.cameras import rays
 from tests.benchmarks.meshes import Faces, Vertices
 

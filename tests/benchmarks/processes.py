@@ -17,7 +17,7 @@ from functools import partial
 from multiprocessing.connection import Connection
 from typing import Any
 
-from renderer.camera import Camera, Size
+from renderer.camera.camera import Camera, Size
 from tests.benchmarks.measure import Call, Plan, Stopwatch, Turn, turn
 from tests.benchmarks.peers import Hits, Peer
 from tests.benchmarks.scenes import Subject

@@ -16,7 +16,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 from tests.benchmarks.measure import Timing
 
 FORMAT = 1  # of the JSON file

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from renderer.camera import Size
+from renderer.camera.camera import Size
 from tests.benchmarks.cameras import look
 from tests.benchmarks.embree import NativeEmbree
 from tests.benchmarks.lucida import Lucida

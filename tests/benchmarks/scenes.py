@@ -12,13 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene import (
-    Mesh,
-    Scene,
-    SceneObject,
-    flatten,
-    load_scene,
-)
+from renderer.files import load_scene
+from renderer.scene import Mesh, Scene, SceneObject, flatten
 from renderer.scene.positions import world_vertices
 from tests.benchmarks.interior import interior
 from tests.benchmarks.meshes import (

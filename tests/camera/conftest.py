@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from renderer.scene import load_scene
+from renderer.files import load_scene
 from renderer.scene.model import Scene
 
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from app.cameras.reader import read_copied
 from app.cameras.text import Subject
-from renderer.camera import Camera
-from renderer.camera_checks import volume
-from renderer.lenses import MODELS, Lens
+from renderer.camera.camera import Camera
+from renderer.camera.checks import volume
+from renderer.camera.lenses import MODELS, Lens
 from renderer.scene.model import View
 
 SIZE = (160, 90)

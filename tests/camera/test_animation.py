@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from app.cameras.animation import INVISIBLE_PX, Passage
 from app.cameras.presets import PRESETS, preset_view
 from app.state.app_state import is_orthonormal
-from renderer.camera import Camera
-from renderer.focus import scene_focus
-from renderer.navigation import depth_of, switched_projection
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.camera.navigation import depth_of, switched_projection
+from renderer.files import load_scene
+from renderer.scene.focus import scene_focus
 from renderer.scene.model import View
 
 PRESET = {preset.name: preset for preset in PRESETS}

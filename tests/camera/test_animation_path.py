@@ -12,9 +12,9 @@ from test_animation import BOUNDS, FOCUS, PRESET, SIZE
 from app.cameras.animation import Passage
 from app.cameras.presets import preset_view
 from app.state.app_state import is_orthonormal
-from renderer.camera import Camera
-from renderer.focus import scene_focus
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene.focus import scene_focus
 from renderer.scene.model import View
 
 

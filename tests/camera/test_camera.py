@@ -9,8 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from renderer import Camera, LucidaError
-from renderer.camera import check_camera
-from renderer.camera_checks import LARGEST, SMALLEST, volume
+from renderer.camera.camera import check_camera
+from renderer.camera.checks import LARGEST, SMALLEST, volume
 from renderer.scene.model import View
 
 numbers = st.floats(-3, 3, allow_nan=False)

@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 
-from app.camera_panel import actions as camera_actions
-from app.camera_panel.actions import CAMERA, EDIT
+from app.cameras.camera_panel import actions as camera_actions
+from app.cameras.camera_panel.actions import CAMERA, EDIT
 from app.cameras.presets import PRESETS
-from app.host.fly import KEYS
 from app.state.app_state import AppState
+from app.ui.fly import KEYS
 from app.window.action_table import ACTIONS
-from renderer.camera import Camera
-from renderer.focus import Focus, scene_focus
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene.focus import Focus, scene_focus
 
 
 @dataclass

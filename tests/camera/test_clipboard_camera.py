@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from app.cameras.reader import MOST_CHARACTERS
 from app.cameras.text import Form, as_text
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
 from renderer.scene.model import View
+from renderer.system.errors import LucidaError
 
 ROOT = Path(__file__).parents[2]
 

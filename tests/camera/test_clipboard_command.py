@@ -11,7 +11,7 @@ from copied_views import NOW, read_view, subject
 from app.cameras.text import as_text, command_line
 from app.cli import main
 from app.commands import view as view_command
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import View
 
 

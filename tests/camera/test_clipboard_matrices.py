@@ -10,9 +10,9 @@ from copied_views import BOUNDS, NOW, SIZE, read_view, subject, views
 from hypothesis import given
 
 from app.cameras.text import Subject, as_text
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
 from renderer.scene.model import View
+from renderer.system.errors import LucidaError
 
 
 @given(views)

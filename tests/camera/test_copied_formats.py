@@ -10,11 +10,11 @@ from copied_views import NOW, SIZE, read_view, subject
 
 from app.cameras.reader import read_copied
 from app.cameras.text import FORMATS_OF, FORMS, Form, as_text
-from renderer.camera import Camera
-from renderer.camera_formats import FORMATS
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import FORMATS
 from renderer.scene.model import View
+from renderer.system.errors import LucidaError
 
 AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40)
 WIDE = View(AIMED, fit=True)

@@ -10,8 +10,8 @@ import pytest
 
 from app.cameras.described import as_data, as_text, facts, lens_text
 from renderer import Camera
-from renderer.camera_formats import CameraSet, PosedCamera
-from renderer.lenses import Lens
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import CameraSet, PosedCamera
 
 PLAIN = Camera(viewport=(-2 / 3, 2 / 3, -0.5, 0.5))
 SIZE = (64, 48)

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from app.camera_panel.view import CameraView
+from app.cameras.camera_panel.view import CameraView
 from app.state.app_state import AppState
-from renderer.focus import scene_focus
-from renderer.scene import load_scene
+from renderer.files import load_scene
+from renderer.scene.focus import scene_focus
 
 
 def test_before_images_have_a_size_a_mark_of_the_last_session_is_nowhere() -> None:

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from app.host.fly import Fly
-from app.host.view import DockedView
 from app.state.app_state import AppState
-from renderer.camera import Camera
-from renderer.camera_checks import LARGEST
-from renderer.focus import Focus
+from app.ui.fly import Fly
+from app.ui.view import DockedView
+from renderer.camera.camera import Camera
+from renderer.camera.checks import LARGEST
+from renderer.scene.focus import Focus
 from renderer.scene.model import Scene
 
 Key = imgui.Key

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.camera import Camera
-from renderer.focus import Focus, object_corners, scene_focus
+from renderer.camera.camera import Camera
+from renderer.scene.focus import Focus, object_corners, scene_focus
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere, View
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from format_cameras import any_size, skewed_camera
 
-from renderer.camera import Camera
-from renderer.camera_checks import LARGEST
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.camera.checks import LARGEST
+from renderer.system.errors import LucidaError
 
 K = [[800.0, 0.0, 320.0], [0.0, 810.0, 240.0], [0.0, 0.0, 1.0]]
 SIZE = (640, 480)

@@ -10,12 +10,12 @@ import pytest
 from copied_views import NOW, SIZE, read_view
 
 from app.cameras.other_words import other_words
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, written
-from renderer.camera_formats.given import Options
-from renderer.errors import LucidaError
-from renderer.intrinsics import PixelOrigin
+from renderer.camera.camera import Camera
+from renderer.camera.intrinsics import PixelOrigin
+from renderer.files.cameras import PosedCamera, written
+from renderer.files.cameras.given import Options
 from renderer.scene.model import View
+from renderer.system.errors import LucidaError
 
 AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SIZE[1])
 POINTS = np.random.default_rng(3).uniform(-1, 1, (20, 3))

@@ -16,9 +16,9 @@ from app.cameras.lens_choices import (
     with_lens,
 )
 from app.cameras.presets import PRESETS, framed, preset_view
-from renderer import navigation
-from renderer.camera import Camera
-from renderer.lenses import MODELS, Lens, coefficient_range, with_coefficient
+from renderer.camera import navigation
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
 from renderer.scene.model import View
 
 SIZE = (64, 36)

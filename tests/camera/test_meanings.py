@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.cameras.meanings import matrix_in, meanings
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import View
 
 CAMERA = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40)

@@ -11,10 +11,10 @@ from copied_views import cameras, vectors
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from app.host.fly import way_flown
-from renderer import navigation
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.ui.fly import way_flown
+from renderer.camera import navigation
+from renderer.camera.camera import Camera
+from renderer.system.errors import LucidaError
 
 SIZE = (320, 200)
 points = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))

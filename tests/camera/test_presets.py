@@ -14,9 +14,10 @@ from hypothesis import strategies as st
 from app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at
 from app.cameras.presets import preset_view as make_view
 from app.state.app_state import is_orthonormal
-from renderer.camera import Camera
-from renderer.focus import object_corners, scene_focus
-from renderer.scene import BUILTIN_SCENES, Mesh, Scene, SceneObject, Sphere, load_scene, shapes
+from renderer.camera.camera import Camera
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.scene import Mesh, Scene, SceneObject, Sphere, shapes
+from renderer.scene.focus import object_corners, scene_focus
 from renderer.scene.model import View
 
 PRESET = {preset.name: preset for preset in PRESETS}

@@ -10,9 +10,9 @@ from test_animation import PRESET, SIZE
 from app.cameras.presets import preset_view
 from app.cameras.travel import DURATION_S, CameraTransition, Ends
 from app.state.app_state import AppState, History, is_orthonormal
-from renderer.camera import Camera
-from renderer.focus import Focus, scene_focus
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene.focus import Focus, scene_focus
 from renderer.scene.model import Scene
 
 

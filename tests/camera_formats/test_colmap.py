@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, read_cameras, written
-from renderer.camera_formats.given import Options
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import PosedCamera, read_cameras, written
+from renderer.files.cameras.given import Options
+from renderer.system.errors import LucidaError
 
 CAMERAS = """\
 # Camera list with one line of data per camera:

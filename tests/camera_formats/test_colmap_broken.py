@@ -7,8 +7,8 @@ import struct
 import pytest
 from test_colmap import BINARY, CAMERAS, IMAGES, POINTS, POSE, binary_model, model, packed_image
 
-from renderer.camera_formats import read_cameras
-from renderer.errors import LucidaError
+from renderer.files.cameras import read_cameras
+from renderer.system.errors import LucidaError
 
 
 def said(folder) -> str:

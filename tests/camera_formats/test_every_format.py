@@ -22,12 +22,12 @@ from format_cameras import (
     straight_camera,
 )
 
-from renderer.camera import Camera
-from renderer.camera_formats import FORMATS, CameraSet, PosedCamera, read_cameras, written
-from renderer.camera_formats.given import Given, Options
-from renderer.camera_formats.rigid import UNSEEN_PX, moved_px
-from renderer.camera_formats.saving import save_files
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files.cameras import FORMATS, CameraSet, PosedCamera, read_cameras, written
+from renderer.files.cameras.given import Given, Options
+from renderer.files.cameras.rigid import UNSEEN_PX, moved_px
+from renderer.files.cameras.saving import save_files
+from renderer.system.errors import LucidaError
 
 CAMERAS = {
     "view": skewed_camera,

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from format_cameras import pasted
 
-from renderer.camera_formats import Options, read_cameras
-from renderer.errors import LucidaError
+from renderer.files.cameras import Options, read_cameras
+from renderer.system.errors import LucidaError
 
 FOCAL = "fx: 500\nfy: 500\ncx: 320\ncy: 240\nwidth: 640\nheight: 480\n"
 K = [[500, 0, 320], [0, 500, 240], [0, 0, 1]]

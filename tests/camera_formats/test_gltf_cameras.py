@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given as over
 from hypothesis import strategies as st
 
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, read_cameras, written
-from renderer.camera_formats.given import Given, Options
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files.cameras import PosedCamera, read_cameras, written
+from renderer.files.cameras.given import Given, Options
+from renderer.system.errors import LucidaError
 
 PERSPECTIVE = {"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1, "zfar": 50.0}}
 ORTHOGRAPHIC = {

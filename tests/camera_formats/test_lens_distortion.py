@@ -9,16 +9,10 @@ import numpy as np
 import pytest
 
 from renderer import Camera, LucidaError
-from renderer.camera_formats.colmap_lenses import ColmapLens, add_lens
-from renderer.camera_formats.distortion import (
-    COUNTS,
-    FISHEYE_NAMES,
-    NAMES,
-    lens_of,
-    shift_px,
-)
-from renderer.camera_formats.given import Options
-from renderer.lenses import Lens
+from renderer.camera.lenses import Lens
+from renderer.files.cameras.colmap_lenses import ColmapLens, add_lens
+from renderer.files.cameras.distortion import COUNTS, FISHEYE_NAMES, NAMES, lens_of, shift_px
+from renderer.files.cameras.given import Options
 
 K = np.array([[500.0, 0.0, 320.0], [0.0, 500.0, 240.0], [0.0, 0.0, 1.0]])
 SIZE = (640, 480)

@@ -14,9 +14,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from PIL import Image
 
-from renderer.camera_formats import CameraSet, one_of, read_cameras
-from renderer.camera_formats.given import Options
-from renderer.errors import LucidaError
+from renderer.files.cameras import CameraSet, one_of, read_cameras
+from renderer.files.cameras.given import Options
+from renderer.system.errors import LucidaError
 
 POSE = [
     [-0.9999021887779236, 0.004192245192825794, -0.013345719315111637, -0.05379832163453102],

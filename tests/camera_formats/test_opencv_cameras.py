@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from format_cameras import assert_same_pixels, pasted
 
-from renderer.camera import Camera
-from renderer.camera_formats.given import Options
-from renderer.camera_formats.rotations import from_vector, to_vector
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files.cameras.given import Options
+from renderer.files.cameras.rotations import from_vector, to_vector
+from renderer.system.errors import LucidaError
 
 # As OpenCV's calibration sample writes it.
 SAMPLE = """%YAML:1.0

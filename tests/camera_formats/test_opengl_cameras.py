@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from format_cameras import any_size, assert_same_pixels, centred_camera, pasted
 
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, written
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files.cameras import PosedCamera, written
+from renderer.system.errors import LucidaError
 
 SIZE = (640, 480)
 CAMERA = Camera.look_at((1, 2, 3), (0, 0, 0), fov_y_deg=40, aspect=4 / 3)

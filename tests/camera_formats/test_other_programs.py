@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from renderer.camera_formats import CameraSet, read_cameras
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import CameraSet, read_cameras
+from renderer.system.errors import LucidaError
 
 ORB = """%YAML:1.0
 Camera.type:"KannalaBrandt8"

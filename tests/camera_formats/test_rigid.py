@@ -10,9 +10,9 @@ from format_cameras import straight_camera
 from hypothesis import given
 from hypothesis import strategies as st
 
-from renderer.camera_checks import told_apart
-from renderer.camera_formats.rigid import rigid
-from renderer.camera_formats.rotations import quaternion_of, rotation_of
+from renderer.camera.checks import told_apart
+from renderer.files.cameras.rigid import rigid
+from renderer.files.cameras.rotations import quaternion_of, rotation_of
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])

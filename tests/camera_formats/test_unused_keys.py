@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from format_cameras import pasted
 
-from renderer.camera import Camera
-from renderer.camera_formats import CameraSet, read_cameras
-from renderer.camera_formats.given import Given
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files.cameras import CameraSet, read_cameras
+from renderer.files.cameras.given import Given
+from renderer.system.errors import LucidaError
 
 K = [[500, 0, 320], [0, 510, 240], [0, 0, 1]]
 AT_REST = np.eye(4).tolist()

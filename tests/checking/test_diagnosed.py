@@ -11,7 +11,7 @@ from app.checking.calls import Run
 from app.checking.checked import judged
 from app.checking.diagnosed import MOST
 from app.checking.kinds import KINDS
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import View
 
 TASKS = {task.name: task for task in BUILTIN}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from asked_rays import made_cases
 
-import app.lectures
+import app.lecture.lectures
 from app.checking.mistakes.program import Mistake, Program
 from app.checking.mistakes.ray_trial import known_values
 from app.checking.mistakes.rays import (
@@ -22,8 +22,8 @@ from app.checking.mistakes.rays import (
     run_rays,
 )
 from app.checking.mistakes.value_programs import value_program
-from renderer.camera import Camera
-from renderer.pixels import Indexing
+from renderer.camera.camera import Camera
+from renderer.images.pixels import Indexing
 
 PROJECTIONS = ("perspective", "parallel")
 BASIS = value_program("basis")
@@ -105,7 +105,7 @@ def test_the_right_basis():
 
 def test_the_table():
     """Names are unique, lines exist and are wrong, parts are the lecture's; shown lines are run."""
-    file = Path(app.lectures.__file__).parent / "images-rays-cameras.toml"
+    file = Path(app.lecture.lectures.__file__).parent / "images-rays-cameras.toml"
     titles = {step["title"] for step in tomllib.loads(file.read_text("utf-8"))["steps"]}
     tasks = [
         RayTask(projection, indexing, from_top, frozenset(words))

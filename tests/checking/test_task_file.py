@@ -9,7 +9,7 @@ from app.checking.builtin import BUILTIN
 from app.checking.cases import shots
 from app.checking.kinds import KINDS
 from app.checking.task_file import load_tasks
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 RAYS = '[[tasks]]\nkind = "viewing-ray"\n'
 

@@ -11,7 +11,7 @@ from asked_rays import made_cases
 from app.checking.mistakes.ray_diagnosis import diagnose_rays
 from app.checking.mistakes.ray_trial import RayCase, RayTrial
 from app.checking.mistakes.rays import RayTask
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 
 
 def diagnosed(make, cases=None, task=None, **more):

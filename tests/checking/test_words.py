@@ -16,7 +16,7 @@ from app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventio
 from app.checking.courses import course_names, task_path
 from app.checking.kinds import KINDS
 from app.checking.task_file import load_tasks
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import View
 
 KIND = KINDS["viewing-ray"]

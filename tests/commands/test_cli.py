@@ -14,7 +14,7 @@ import pytest
 from app import __version__
 from app.cli import main
 from app.commands import COMMANDS, WITHOUT_FILE, arguments, render, view
-from renderer.scene import BUILTIN_SCENES
+from renderer.files import BUILTIN_SCENES
 
 ROOT = Path(__file__).parents[2]
 NAMES = [command.NAME for command in COMMANDS]

@@ -16,8 +16,8 @@ import pytest
 
 from app.cli import main
 from app.window.opening import open_sources
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="POSIX's special files and limits")
 VIEW = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n"

@@ -10,9 +10,9 @@ from both_lectures import both_lectures
 
 from app.checking.builtin import BUILTIN
 from app.cli import main
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
+from renderer.files.views import save_view
 from renderer.scene.model import View
-from renderer.scene.views import save_view
 
 RIGHT = """\
 def memory_offset(i, j, width):

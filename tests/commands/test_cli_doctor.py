@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-import renderer.doctor
+import renderer.system.doctor
 from app import __version__
 from app.cli import main
-from renderer.doctor import Check
+from renderer.system.doctor import Check
 
 EGL = Check("egl", "draws without a window", True, "llvmpipe, OpenGL 4.5", "")
 NO_EGL = Check("egl", "draws without a window", False, "libEGL is missing", "install libegl1")
@@ -19,8 +19,8 @@ NO_DISPLAY = Check("display", "shows the window", False, "DISPLAY is not set", "
 @pytest.fixture
 def checks(monkeypatch):
     found = [EGL, NO_DISPLAY]
-    monkeypatch.setattr(renderer.doctor, "report", lambda: found)
-    monkeypatch.setattr(renderer.doctor, "candidates", lambda: ("egl", "osmesa"))
+    monkeypatch.setattr(renderer.system.doctor, "report", lambda: found)
+    monkeypatch.setattr(renderer.system.doctor, "candidates", lambda: ("egl", "osmesa"))
     return found
 
 

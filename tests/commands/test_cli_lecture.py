@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.widgets import formula
+from app.ui import formula
 
 ROOT = Path(__file__).parents[2]
 LECTURE = '''\

@@ -15,8 +15,8 @@ import pytest
 from PIL import Image
 
 from app.cli import main
+from renderer.files import load_scene, save_view
 from renderer.images import ENDINGS, to_srgb8
-from renderer.scene import load_scene, save_view
 from renderer.scene.model import View
 
 ROOT = Path(__file__).parents[2]
@@ -153,16 +153,16 @@ class TestCompare:
             assert "is not a gain" in capsys.readouterr().err
 
     def test_disagreement_is_status_1(self, monkeypatch, capsys, gl_backend):
-        import renderer.compare
+        import renderer.compare.raster_and_ray
 
-        real = renderer.compare.compare
+        real = renderer.compare.raster_and_ray.compare
 
         def wrong(*arguments):
             comparison = real(*arguments)
             object.__setattr__(comparison, "unexplained", 3)
             return comparison
 
-        monkeypatch.setattr(renderer.compare, "compare", wrong)
+        monkeypatch.setattr(renderer.compare.raster_and_ray, "compare", wrong)
         assert main(["compare", "canonical", "--size", "16x16", "--backend", gl_backend]) == 1
         assert "unexplained: 3" in capsys.readouterr().out
 

@@ -8,15 +8,9 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from renderer.scene import (
-    Mesh,
-    Scene,
-    SceneObject,
-    Sphere,
-    load_scene,
-    shapes,
-)
-from renderer.scene_checks import oddities
+from renderer.files import load_scene
+from renderer.files.oddities import oddities
+from renderer.scene import Mesh, Scene, SceneObject, Sphere, shapes
 
 
 def told(capsys, source) -> dict:

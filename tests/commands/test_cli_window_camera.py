@@ -12,7 +12,7 @@ from PIL import Image
 
 from app.cli import main
 from app.window import launch
-from renderer.lenses import Lens
+from renderer.camera.lenses import Lens
 from renderer.scene.model import View
 
 LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}

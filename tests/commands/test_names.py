@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
+from app.checking.results.model import class_results
+from app.checking.results.page import page as results_page
+from app.checking.results.reading import read_answers
 from app.cli import main
 from app.lecture.reading import load_lecture
-from app.lecture_page.page import page
-from app.results.model import class_results
-from app.results.page import page as results_page
-from app.results.reading import read_answers
 from app.state.app_state import AppState
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from renderer.atomic import file_stem
-from renderer.scene import load_scene, save_scene
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from app.web.lecture.page import page
+from renderer.files import load_scene, save_scene
+from renderer.system.atomic import file_stem
 
 NAMES = (
     "\u8336\u58f6",  # Chinese

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from flawed_images import changed, image
 
-from app.compare import comparing
+from app.images.compare import comparing
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
 from renderer import Camera, load_scene
-from renderer.compare import CAUSES, SHADING, UNEXPLAINED, compare_frames
-from renderer.difference import LARGEST_GAIN
+from renderer.compare.raster_and_ray import CAUSES, SHADING, UNEXPLAINED, compare_frames
+from renderer.images.difference import LARGEST_GAIN
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 

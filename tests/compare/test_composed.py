@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.compare.composed import RIM, Composed, Mapping, marks
+from app.images.compare.composed import RIM, Composed, Mapping, marks
 from renderer import Frame
-from renderer.compare import AGREE, CAUSES, LABEL_COLORS, SHADING, UNEXPLAINED
-from renderer.difference import (
+from renderer.compare.raster_and_ray import AGREE, CAUSES, LABEL_COLORS, SHADING, UNEXPLAINED
+from renderer.images.difference import (
     ABSOLUTE_COLORS,
     SIGNED_COLORS,
     STEPS,

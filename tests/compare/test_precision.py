@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from renderer.camera import Camera
-from renderer.compare import compare
-from renderer.errors import LucidaError
-from renderer.precision import check_precision
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import compare
+from renderer.files import load_scene
 from renderer.scene.flat import flatten
+from renderer.scene.precision import check_precision
+from renderer.system.errors import LucidaError
 
 SIZE = (64, 36)
 SPHERES = load_scene("spheres")

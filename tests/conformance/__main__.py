@@ -6,9 +6,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from renderer.atomic import atomic_write
-from renderer.camera_formats import FORMATS
-from renderer.errors import LucidaError
+from renderer.files.cameras import FORMATS
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError
 from tests.conformance import report
 from tests.conformance.run import outcomes
 

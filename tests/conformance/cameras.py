@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from renderer.camera import Camera, Size
-from renderer.camera_checks import Floats
-from renderer.camera_formats import CameraSet, Options, PosedCamera, read_cameras, written
-from renderer.camera_formats.given import Given
+from renderer.camera.camera import Camera, Size
+from renderer.camera.checks import Floats
+from renderer.files.cameras import CameraSet, Options, PosedCamera, read_cameras, written
+from renderer.files.cameras.given import Given
 from tests.conformance.measured import Job
 from tests.support.format_cameras import lens_camera
 

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 from tests.conformance.cameras import MOST_SIDE, POINTS
 from tests.conformance.measured import Checked, Measured
 

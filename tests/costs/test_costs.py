@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from app.costs.plots import apart
-from app.costs.recorded import COSTS
+from app.instruments.costs.plots import apart
+from app.instruments.costs.recorded import COSTS
 
 
 @pytest.mark.parametrize("unit", COSTS)

@@ -8,18 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.explaining.languages import julia
-from app.explaining.symbols import TABLE
+from app.instruments.stepper import loop_parts, raster_parts
+from app.instruments.stepper.loop_parts import Model
+from app.instruments.stepper.recording import Order
+from app.instruments.stepper.source import shown_lines, source_of
 from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
 from app.state.app_state import AppState
-from app.stepper import loop_parts, raster_parts
-from app.stepper.loop_parts import Model
-from app.stepper.recording import Order
-from app.stepper.source import shown_lines, source_of
-from renderer.pixels import Indexing
-from renderer.scene import load_scene
+from app.ui.explaining.languages import julia
+from app.ui.explaining.symbols import TABLE
+from renderer.files import load_scene
+from renderer.images.pixels import Indexing
 
 # The stepper's loops.
 

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from app.explaining.notation import (
+from app.ui.explaining.notation import (
     Line,
     Slot,
     bold,

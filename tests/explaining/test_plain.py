@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.explaining.plain import plain_math
+from app.ui.explaining.plain import plain_math
 
 
 @pytest.mark.parametrize(

@@ -16,15 +16,15 @@ import numpy as np
 import pytest
 from compilers import needs_julia, run_julia
 
-from app.explaining.languages import julia
-from app.explaining.symbols import TABLE
-from app.probe.copying import as_julia, as_python
-from app.probe.model import Probe
-from app.probe.reading import Reading
+from app.instruments.probe.copying import as_julia, as_python
+from app.instruments.probe.model import Probe
+from app.instruments.probe.reading import Reading
 from app.state.options import Notation
-from renderer.lenses import Lens
-from renderer.pixels import Indexing
-from renderer.scene import load_scene
+from app.ui.explaining.languages import julia
+from app.ui.explaining.symbols import TABLE
+from renderer.camera.lenses import Lens
+from renderer.files import load_scene
+from renderer.images.pixels import Indexing
 
 SIZE = (64, 48)
 LENSES = (

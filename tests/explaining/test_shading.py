@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.explaining.shading import SurfaceHit, hit_at, shade
+from app.ui.explaining.shading import SurfaceHit, hit_at, shade
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     DirectionalLight,

@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from app.explaining import symbols
-from app.explaining.plain import plain_math
+from app.ui.explaining import symbols
+from app.ui.explaining.plain import plain_math
 
 FORMULAS = (
     r"\mathbf{d} = u\,\mathbf{u} + v\,\mathbf{v} - d\,\mathbf{w}",

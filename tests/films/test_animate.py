@@ -14,12 +14,12 @@ import pytest
 from PIL import Image
 
 from app import __version__
+from app.cameras.films import frames, workers
+from app.cameras.films.encoding import film_writer
+from app.cameras.films.paths import around
 from app.cli import main
-from app.films import frames, workers
-from app.films.encoding import film_writer
-from app.films.paths import around
 from renderer import LucidaError, load_scene
-from renderer.focus import scene_focus
+from renderer.scene.focus import scene_focus
 
 SMALL = ("--size", "32x18", "--renderer", "ray")
 

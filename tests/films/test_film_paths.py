@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.films.key_file import keys_text, load_keys
-from app.films.paths import Key, around, dolly_zoom, through, to_parallel
+from app.cameras.films.key_file import keys_text, load_keys
+from app.cameras.films.paths import Key, around, dolly_zoom, through, to_parallel
 from renderer import LucidaError, View, load_scene, save_view
-from renderer.focus import scene_focus
+from renderer.scene.focus import scene_focus
 
 SIZE = (64, 36)
 SCENE = load_scene("still-life")

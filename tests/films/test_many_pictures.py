@@ -13,9 +13,9 @@ from PIL import Image
 from app.cli import main
 from app.commands import render_many
 from renderer import Camera, LucidaError, Tracer, load_scene
-from renderer.camera_formats import PosedCamera
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import PosedCamera
 from renderer.images import picture
-from renderer.lenses import Lens
 
 SCENE, SIZE = load_scene("still-life"), (80, 100)
 VIEW = ("--view", "transforms.json", "--all", "--size", "24x16")
@@ -25,7 +25,7 @@ VIEW = ("--view", "transforms.json", "--all", "--size", "24x16")
 def render(tmp_path, monkeypatch, capsys):
     """Return a function that runs the command, for which 80 x 64 pixels are many."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("renderer.frame.LARGEST_PIXELS", 80 * 64)
+    monkeypatch.setattr("renderer.images.frame.LARGEST_PIXELS", 80 * 64)
     monkeypatch.setattr(render_many, "LARGEST_PIXELS", 80 * 64)
     monkeypatch.setattr(render_many, "PART_PIXELS", 80 * 32)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.host.docks import are_sound
+from app.ui.docks import are_sound
 
 SPACE = "DockSpace ID=0x000000AA Window=0x01 Pos=0,24 Size=1278,638 Split=X\n"
 LEFT = "  DockNode ID=0x00000001 Parent=0x000000AA SizeRef=312,638 Selected=0xAA49D574\n"

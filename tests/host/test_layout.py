@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import pytest
 from imgui_bundle import ImVec2, imgui
 
-from app.host import layout
-from app.host.layout import LECTURE
-from app.host.proportion import Proportion
+from app.ui import layout
+from app.ui.layout import LECTURE
+from app.window.proportion import Proportion
 
 SPACE = "RightSpace"
 FRAMES = 20  # for a share to take a new room up

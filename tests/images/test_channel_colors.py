@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets import contrast, theme
+from app.ui import contrast, theme
 
 
 @pytest.mark.parametrize(

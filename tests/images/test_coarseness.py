@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from renderer.coarseness import FACTORS, STILL_S, Coarseness, reduced
+from renderer.images.coarseness import FACTORS, STILL_S, Coarseness, reduced
 
 PIXELS, BUDGET_S, FRAME_S = 1280 * 720, 0.006, 1 / 60
 

@@ -11,8 +11,6 @@ import OpenEXR
 import pytest
 from PIL import Image
 
-from renderer.errors import LucidaError
-from renderer.frame import Frame
 from renderer.images import (
     ENDINGS,
     encode_srgb,
@@ -23,6 +21,8 @@ from renderer.images import (
     write_image,
     write_picture,
 )
+from renderer.images.frame import Frame
+from renderer.system.errors import LucidaError
 
 WIDTH, HEIGHT = 11, 5  # neither even nor square, and no whole number of bytes of bits a row
 

@@ -13,12 +13,12 @@ from app.images.marking import followed, moved
 from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
 from app.state.app_state import AppState
 from app.state.options import ImageOptions
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import Frame
+from renderer.camera.camera import Camera
 from renderer.images.display import picture
+from renderer.images.frame import Frame
+from renderer.images.shared_numbers import FARTHEST_GRAY
 from renderer.scene.model import Scene, View
-from renderer.shared_numbers import FARTHEST_GRAY
+from renderer.system.errors import LucidaError
 
 COLOR = ImageOptions()
 

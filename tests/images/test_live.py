@@ -16,10 +16,10 @@ from app.images import progressive_ray as live
 from app.images.agreement import Agreement, Verdict
 from app.images.progressive_ray import LiveTrace, RayImage
 from app.images.request import ImageRequest
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import CHANNELS, Frame
+from renderer.camera.camera import Camera
+from renderer.images.frame import CHANNELS, Frame
 from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 
 SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene(())
 TWO = Scene((SceneObject(Sphere()), SceneObject(Sphere())))

@@ -16,13 +16,13 @@ from app.images.request import ImageRequest
 from app.images.shown import Picture, whole
 from app.images.textures import ImageTextures
 from app.state.app_state import AppState
-from renderer.coarseness import STILL_S
-from renderer.errors import LucidaError
-from renderer.frame import CHANNELS, Frame
-from renderer.navigation import moved
+from renderer.camera.navigation import moved
+from renderer.files import load_scene
+from renderer.images.coarseness import STILL_S
+from renderer.images.frame import CHANNELS, Frame
 from renderer.raster import Look, Rasterizer
 from renderer.raster.targets import Targets
-from renderer.scene import load_scene
+from renderer.system.errors import LucidaError
 
 SIZE, OTHER_SIZE = (96, 64), (120, 90)
 SCENE = load_scene("still-life")

@@ -7,7 +7,8 @@ import pytest
 
 from app.images.picking import MOST_OBJECTS, is_quick, object_on_ray
 from renderer import Tracer
-from renderer.scene import BUILTIN_SCENES, Scene, SceneObject, Sphere, load_scene, shapes
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.scene import Scene, SceneObject, Sphere, shapes
 
 SIZE = (24, 14)
 

@@ -9,6 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.images import placement
+from app.images.pair.rulers import numbered, thinning
 from app.images.placement import (
     magnification_text,
     place,
@@ -17,7 +18,6 @@ from app.images.placement import (
     zoomed_at,
 )
 from app.images.shown import section_of, whole
-from app.pair.rulers import numbered, thinning
 from app.state.options import MAGNIFICATIONS, ImageOptions
 
 SIZES = st.tuples(st.integers(1, 4096), st.integers(1, 4096))

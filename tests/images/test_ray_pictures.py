@@ -12,8 +12,8 @@ from waiting import wait_for
 
 from app.images.ray_pictures import RayPictures
 from app.images.scene_tracer import UnwantedError
-from renderer.errors import LucidaError
 from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 
 SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene((), background=(0.1, 0.2, 0.3))
 ORIGINS, DIRECTIONS = np.zeros((2, 3, 3)), np.broadcast_to((0.0, 0.0, -1.0), (2, 3, 3))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.laboratory.displays import COLORS, DISPLAYS, FADING, MARKED, course
+from app.instruments.laboratory.displays import COLORS, DISPLAYS, FADING, MARKED, course
 
 MOMENTS = 3000
 TUBE, DLP, LCD, LED = DISPLAYS

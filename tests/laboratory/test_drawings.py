@@ -8,18 +8,18 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from app.laboratory import array, images, light, ruler, shapes, storage
-from app.laboratory.kinds import KINDS
-from app.laboratory.looks import look_of
-from app.laboratory.options import LONGEST, LaboratoryOptions
-from app.laboratory.page import Page
-from app.laboratory.pages import PAGES, drawn
-from app.laboratory.sheet import LIGHTS, between, reached
-from app.outside.figure import Figure, Label, Line, Picture, Polygon
-from app.outside.svg import svg
-from app.widgets import theme
-from app.widgets.uploads import nearest
-from renderer.camera import Camera
+from app.instruments.laboratory import array, images, light, ruler, shapes, storage
+from app.instruments.laboratory.kinds import KINDS
+from app.instruments.laboratory.looks import look_of
+from app.instruments.laboratory.options import LONGEST, LaboratoryOptions
+from app.instruments.laboratory.page import Page
+from app.instruments.laboratory.pages import PAGES, drawn
+from app.instruments.laboratory.sheet import LIGHTS, between, reached
+from app.instruments.outside.figure import Figure, Label, Line, Picture, Polygon
+from app.instruments.outside.svg import svg
+from app.ui import theme
+from app.ui.uploads import nearest
+from renderer.camera.camera import Camera
 
 # Of sheets, with the heights of the windows that they are in; the last is a phone's page.
 SIZES = {(1280, 1080): 1080, (853, 720): 720, (683, 768): 768, (1920, 1080): 1080, (360, 480): 0}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.laboratory import kinds
-from app.laboratory.stored import shown, store
+from app.instruments.laboratory import kinds
+from app.instruments.laboratory.stored import shown, store
 from app.lecture.reading import BUILTIN, load_lecture
 from renderer.images import to_srgb8
 from renderer.images.display import from_srgb, luminance

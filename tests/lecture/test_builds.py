@@ -15,7 +15,7 @@ from app.lecture.session import LectureSession
 from app.lecture.step_options import state_of
 from app.lecture.text import ItemList, Paragraph, Question, extended, parse
 from app.state.app_state import AppState
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 STEP = "[[steps]]\ntitle = 'T'\n"
 BUILD = "[[steps.builds]]\n"

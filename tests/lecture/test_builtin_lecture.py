@@ -11,13 +11,13 @@ from both_lectures import both_lectures
 from PIL import Image
 from plain_text import plain_text
 
-from app.explaining.languages import LANGUAGES
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTINS, load_lecture
+from app.ui.explaining.languages import LANGUAGES
+from renderer.camera.lenses import Lens
 from renderer.images.display import to_srgb8
-from renderer.lenses import Lens
 from renderer.trace import Tracer
 
 

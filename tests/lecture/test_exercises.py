@@ -10,8 +10,6 @@ import pytest
 
 from app.checking.mistakes.program import Mistake
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
-from app.explaining.arithmetic import number, text_of, vector, vector_text
-from app.explaining.symbols import words
 from app.lecture import exercises
 from app.lecture.exercises import (
     TOLERANCE,
@@ -22,9 +20,11 @@ from app.lecture.exercises import (
     Wanted,
     WrongVector,
 )
-from renderer.camera import Camera, Ray
-from renderer.errors import LucidaError
-from renderer.pixels import Indexing
+from app.ui.explaining.arithmetic import number, text_of, vector, vector_text
+from app.ui.explaining.symbols import words
+from renderer.camera.camera import Camera, Ray
+from renderer.images.pixels import Indexing
+from renderer.system.errors import LucidaError
 
 
 class TestAnswers:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from both_lectures import both_lectures
 
+from app.instruments.outside.diagram import Arrow, Dot
 from app.lecture.ghosts import ghosts
-from app.outside.diagram import Arrow, Dot
 
 STEPS = {step.title: step for step in both_lectures().steps if step.exercise is not None}
 

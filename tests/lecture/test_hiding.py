@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from app.cli import main
+from app.instruments.objects.choosing import chosen
 from app.lecture.hiding import HideExercise, percent
 from app.lecture.model import Step
 from app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from app.lecture.step_options import state_of
-from app.objects.choosing import chosen
 from app.state.app_state import AppState
-from renderer.errors import LucidaError
+from renderer.editing import objects
+from renderer.editing.changing import set_field
+from renderer.editing.outline import outline
 from renderer.scene.model import Scene, View
-from renderer.scene_editing import objects
-from renderer.scene_editing.changing import set_field
-from renderer.scene_editing.outline import outline
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 TEXT = """\

@@ -13,9 +13,9 @@ from app.lecture.reading import lecture_from_toml, load_lecture
 from app.lecture.step_options import ELSEWHERE, state_of
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 
 class TestReading:

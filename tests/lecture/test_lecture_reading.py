@@ -10,8 +10,8 @@ from app.lecture import reading
 from app.lecture.exercises import ChoiceExercise, VectorExercise
 from app.lecture.model import Lecture
 from app.lecture.reading import is_lecture, lecture_from_toml, load_lecture
-from renderer.errors import LucidaError
-from renderer.scene.outside import OutsideError
+from renderer.files.outside import OutsideError
+from renderer.system.errors import LucidaError
 
 STEP = "[[steps]]\ntitle = 'T'\n"
 OPTION = "{ text = 'a', feedback = 'b' }, "

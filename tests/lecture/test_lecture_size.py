@@ -16,9 +16,9 @@ from app.lecture import reading
 from app.lecture import text as texts
 from app.lecture.reading import PIECES, lecture_from_toml
 from app.lecture.text import Math, Paragraph, Words, parse
-from renderer.errors import LucidaError
+from renderer.files.places import Places
 from renderer.scene.limits import TOML_BYTES
-from renderer.scene.places import Places
+from renderer.system.errors import LucidaError
 
 STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
 SMALL = 8_000  # characters

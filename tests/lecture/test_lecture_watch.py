@@ -10,9 +10,9 @@ from app.lecture import reading
 from app.lecture.model import Lecture
 from app.lecture.reading import load_lecture
 from app.lecture.session import LectureSession
-from app.storage.kept_lecture import Judgement
-from app.storage.watching import FilesWatch
-from renderer.scene.noting import stamp
+from app.state.kept_lecture import Judgement
+from app.ui.watching import FilesWatch
+from renderer.system.file_dependencies import stamp
 
 
 def test_what_is_pointed_out_is_looked_for_once():

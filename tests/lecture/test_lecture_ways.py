@@ -10,7 +10,7 @@ from both_lectures import both_lectures
 from app.images.marking import followed
 from app.lecture.step_options import OWN, state_of
 from app.state.app_state import AppState
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 LECTURE = both_lectures()
 

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.instruments.outside.frustum import plane_corners
+from app.instruments.outside.options import OutsideOptions
 from app.lecture.movement import Movement
-from app.outside.frustum import plane_corners
-from app.outside.options import OutsideOptions
 from app.state.app_state import AppState
 from app.state.bounds import check
-from renderer.camera import Camera
-from renderer.focus import scene_focus
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene.focus import scene_focus
 from renderer.scene.model import View
 
 SIZE = 160, 90

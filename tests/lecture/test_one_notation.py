@@ -15,30 +15,30 @@ import numpy as np
 import pytest
 from both_lectures import both_lectures
 
-from app.camera_panel import panel, projection
+from app.cameras.camera_panel import panel, projection
 from app.checking.builtin import builtin_tasks
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.starter import starter
-from app.explaining import symbols
-from app.explaining.symbols import TABLE
-from app.laboratory.options import LaboratoryOptions
-from app.laboratory.page import Page
-from app.laboratory.ruler import ruler
-from app.laboratory.sheet import Look
+from app.instruments.laboratory.options import LaboratoryOptions
+from app.instruments.laboratory.page import Page
+from app.instruments.laboratory.ruler import ruler
+from app.instruments.laboratory.sheet import Look
+from app.instruments.outside import figure
+from app.instruments.outside.camera_diagram import Content, diagram
+from app.instruments.outside.diagram import Label, RayEnd
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
+from app.instruments.probe.model import Probe
+from app.instruments.stepper import loop_parts, raster_parts
+from app.instruments.stepper.recording import Order
+from app.instruments.stepper.source import shown_code, shown_lines, source_of
 from app.lecture import text as texts
 from app.lecture.notation import TwiceUsed, in_notation
-from app.outside import figure
-from app.outside.camera_diagram import Content, diagram
-from app.outside.diagram import Label, RayEnd
-from app.outside.options import OutsideOptions
-from app.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
-from app.probe.model import Probe
 from app.state.options import Notation
-from app.stepper import loop_parts, raster_parts
-from app.stepper.recording import Order
-from app.stepper.source import shown_code, shown_lines, source_of
-from renderer.pixels import Indexing
-from renderer.scene import load_scene
+from app.ui.explaining import symbols
+from app.ui.explaining.symbols import TABLE
+from renderer.files import load_scene
+from renderer.images.pixels import Indexing
 
 LECTURE = both_lectures()
 STEPS = LECTURE.builds

@@ -6,11 +6,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.explaining.arithmetic import vector_text
 from app.lecture.exercises import VectorExercise
 from app.lecture.model import Step
 from app.lecture.reading import BUILTINS, load_lecture
-from renderer.camera import Camera
+from app.ui.explaining.arithmetic import vector_text
+from renderer.camera.camera import Camera
 
 SIZE = (8, 6)
 K = np.array([[8, 0, 3.5], [0, 8, 2.5], [0, 0, 1]])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from renderer.scene.places import Places, parsed_path
+from renderer.files.places import Places, parsed_path
 
 
 class TestPlaces:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.lecture.step_options import files_named, options_from_table, with_files
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 
 def test_files_are_found_in_the_lectures_folder(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from both_lectures import both_lectures
 
 from app.lecture.reading import lecture_from_toml
 from app.lecture.typesetting import first_mistake, mistake
-from app.widgets import formula
+from app.ui import formula
 
 pytestmark = pytest.mark.skipif(
     not formula.available(), reason="formulas are set only with the locale en_US.UTF-8"

@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 from both_lectures import both_lectures
 
+from app.checking.results.reading import read_answers
 from app.cli import main
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import lecture_from_toml
-from app.lecture_page import exercises, pdf
-from app.lecture_page.mathml import inline
-from app.lecture_page.page import Still, page
-from app.page.bundle import bundle
-from app.page.scene_page import packed_scene
-from app.results.reading import read_answers
-from renderer.scene_editing.moving import transform
+from app.web.bundle import bundle
+from app.web.lecture import exercises, pdf
+from app.web.lecture.mathml import inline
+from app.web.lecture.page import Still, page
+from app.web.scene_page import packed_scene
+from renderer.editing.moving import transform
 from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 from tests.support.browser import chromium
 

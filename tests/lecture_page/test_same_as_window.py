@@ -14,27 +14,27 @@ import numpy as np
 import pytest
 from both_lectures import both_lectures
 
-from app.explaining.notation import text_tuple
 from app.images.request import MIRROR_DEPTH
-from app.laboratory.looks import look_of
-from app.laboratory.options import LaboratoryOptions
-from app.laboratory.page import Page
-from app.laboratory.pages import drawn
+from app.instruments.laboratory.looks import look_of
+from app.instruments.laboratory.options import LaboratoryOptions
+from app.instruments.laboratory.page import Page
+from app.instruments.laboratory.pages import drawn
+from app.instruments.outside.figure import Figure, Inset, Label
+from app.instruments.outside.options import OutsideOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
-from app.lecture_page.page import Still, page
-from app.outside.figure import Figure, Inset, Label
-from app.outside.options import OutsideOptions
 from app.state.app_state import AppState
-from app.widgets.theme import PRESENTED_DARK
+from app.ui.explaining.notation import text_tuple
+from app.ui.theme import PRESENTED_DARK
+from app.web.lecture.page import Still, page
 from app.window.start import first_state
-from renderer.camera import Camera
-from renderer.scene.views import view_from_table
+from renderer.camera.camera import Camera
+from renderer.files.views import view_from_table
 
 GRAY = np.full((30, 40, 3), 128, np.uint8)
 DATA = re.compile(r'(?<=id="lucida-data">).*?(?=</script>)', re.DOTALL)
 SECTION = re.compile(r'<section [^>]*?id="([\d.]+)".*?</section>', re.DOTALL)
-SEEN = (320, 180)  # an image's size where a build says none: app/lecture_page/described.py
+SEEN = (320, 180)  # an image's size where a build says none: app/web/lecture/described.py
 WITH_RAY = ("raster", "ray", "outside", "compare", "mistakes")
 RAY = re.compile(r"Pixel (\([^)]*\)) is marked: its ray has p = (\(.*?\)) and d = (\(.*?\)),")
 Said = dict[str, Any]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from renderer import Camera, LucidaError, View
-from renderer.lenses import Lens
-from renderer.scene.views import view_from_toml, view_to_toml
+from renderer.camera.lenses import Lens
+from renderer.files.views import view_from_toml, view_to_toml
 
 SIZE = (120, 80)
 PINHOLE = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=70.0, aspect=1.5)

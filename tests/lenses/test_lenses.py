@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from renderer import Camera, LucidaError
-from renderer.camera_checks import Floats
-from renderer.lens_distortion import Distortion, Point
-from renderer.lenses import MODELS, Lens
-from renderer.undistort import undistorted, undistorted_camera
+from renderer.camera.checks import Floats
+from renderer.camera.distortion import Distortion, Point
+from renderer.camera.lenses import MODELS, Lens
+from renderer.camera.undistort import undistorted, undistorted_camera
 
 DIRECTIONS = np.array([(0.64, 0.48, 1.0), (-0.64, 0.3, 1.0)]).T
 # Where these appear: cv2.projectPoints and cv2.fisheye of OpenCV 5.0.0, pycolmap 4.2.1.

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from app.images.ray_pictures import RayPainter
+from app.instruments.mistakes import model
+from app.instruments.mistakes import question as quiz
+from app.instruments.mistakes.options import MistakesOptions
 from app.lecture.step_options import options_from_table
-from app.mistakes import model
-from app.mistakes import question as quiz
-from app.mistakes.options import MistakesOptions
 from app.state.app_state import AppState
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from renderer.files import load_scene
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 SIZE = (64, 48)

@@ -10,12 +10,12 @@ import pytest
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.reports.picture import MARK, changed_pixels, difference_picture
 from app.images.ray_pictures import RayPainter
-from app.mistakes import model
-from app.mistakes.model import Situation
+from app.instruments.mistakes import model
+from app.instruments.mistakes.model import Situation
 from app.state.app_state import AppState
-from app.widgets.picture_grid import columns_for
-from renderer.pixels import Indexing
-from renderer.scene import load_scene
+from app.ui.picture_grid import columns_for
+from renderer.files import load_scene
+from renderer.images.pixels import Indexing
 from renderer.trace import Tracer
 
 SIZE = (80, 60)

@@ -13,13 +13,13 @@ import pytest
 from PIL import Image
 
 from renderer import Camera, Frame, LucidaError, Tracer, View, load_scene, picture
-from renderer.camera_formats import CameraSet, PosedCamera
-from renderer.compare import compare
-from renderer.focus import scene_focus
-from renderer.lenses import MODELS, Lens
+from renderer.camera.lenses import MODELS, Lens
+from renderer.compare.raster_and_ray import compare
+from renderer.files.cameras import CameraSet, PosedCamera
 from renderer.notebook import explore
 from renderer.notebook.display import camera_svg
 from renderer.scene import flatten
+from renderer.scene.focus import scene_focus
 
 SIZE = (40, 30)
 

@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from renderer import Camera, Lens, LucidaError, load_scene, picture
-from renderer.focus import Focus
 from renderer.notebook import explore
 from renderer.notebook.sliders import is_level, sliders_of, with_number
+from renderer.scene.focus import Focus
 
 pytest.importorskip("anywidget")
 SIZE = (80, 60)

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
+from renderer.images.pixels import Pixel
 from renderer.notebook import explore
-from renderer.pixels import Pixel
 
 pytest.importorskip("anywidget")
 playwright = pytest.importorskip("playwright.sync_api")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from scenes import crowd
 
-from app.objects.choosing import (
+from app.instruments.objects.choosing import (
     choose,
     choose_also,
     chosen,
@@ -15,12 +15,12 @@ from app.objects.choosing import (
     rows_of,
     walked,
 )
-from app.objects.editing import with_scene
+from app.instruments.objects.editing import with_scene
 from app.state.app_state import AppState, History
-from renderer.scene import load_scene
+from renderer.editing import objects
+from renderer.editing.changing import set_field
+from renderer.files import load_scene
 from renderer.scene.model import Mesh
-from renderer.scene_editing import objects
-from renderer.scene_editing.changing import set_field
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.objects.handles import (
+from app.instruments.objects.handles import (
     STEPS_PER_REACH,
     cleaned,
     frame_of,
@@ -16,11 +16,11 @@ from app.objects.handles import (
     operation_of,
     snap_step,
 )
-from renderer.errors import LucidaError
+from renderer.editing import objects
+from renderer.editing.changing import fields_of, set_field
+from renderer.editing.moving import bounds_of, matrix_of
 from renderer.scene.model import Scene
-from renderer.scene_editing import objects
-from renderer.scene_editing.changing import fields_of, set_field
-from renderer.scene_editing.moving import bounds_of, matrix_of
+from renderer.system.errors import LucidaError
 
 CENTER = (1.0, 2.0, 3.0)
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from app.objects.choosing import choose, rows_of
-from app.objects.listed import Listed, Outliner, scroll_to
+from app.instruments.objects.choosing import choose, rows_of
+from app.instruments.objects.listed import Listed, Outliner, scroll_to
 from app.state.app_state import AppState
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 
 @pytest.mark.parametrize(

@@ -7,15 +7,15 @@ from itertools import product
 import numpy as np
 import pytest
 
-from app.objects import editing
-from app.objects.choosing import choose, chosen, rows_of, unlocked
+from app.instruments.objects import editing
+from app.instruments.objects.choosing import choose, chosen, rows_of, unlocked
 from app.state.app_state import AppState
-from renderer.focus import object_corners, scene_focus
-from renderer.scene import SCENE_NAMES, load_scene
+from renderer.editing import objects
+from renderer.editing.changing import set_field
+from renderer.editing.moving import bounds_of
+from renderer.files import SCENE_NAMES, load_scene
+from renderer.scene.focus import object_corners, scene_focus
 from renderer.scene.model import Scene
-from renderer.scene_editing import objects
-from renderer.scene_editing.changing import set_field
-from renderer.scene_editing.moving import bounds_of
 
 
 @pytest.fixture

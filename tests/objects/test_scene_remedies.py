@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scenes import crowd
 
-from app.objects.choosing import rows_of
-from app.objects.editing import with_scene
-from app.objects.remedies import ADD_LIGHT, SHOW_ALL, remedied, scene_remedy
+from app.instruments.objects.choosing import rows_of
+from app.instruments.objects.editing import with_scene
+from app.instruments.objects.remedies import ADD_LIGHT, SHOW_ALL, remedied, scene_remedy
 from app.state.app_state import AppState
 from renderer import Tracer
-from renderer.scene import load_scene
-from renderer.scene_editing import objects
-from renderer.scene_editing.changing import set_field, set_scene_field
+from renderer.editing import objects
+from renderer.editing.changing import set_field, set_scene_field
+from renderer.files import load_scene
 
 
 def dark(lights_behind: bool) -> AppState:

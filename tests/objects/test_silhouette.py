@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.objects import silhouette
-from app.objects.silhouette import edges_of, outline_of, outlines_of
-from renderer.camera import Camera
+from app.instruments.objects import silhouette
+from app.instruments.objects.silhouette import edges_of, outline_of, outlines_of
+from renderer.camera.camera import Camera
 from renderer.scene.model import Material, Mesh, SceneObject, Sphere
 from renderer.scene.shapes import box
 

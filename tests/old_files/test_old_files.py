@@ -8,16 +8,17 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from app.cameras.films.key_file import load_keys
 from app.checking.task_file import load_tasks
-from app.films.key_file import load_keys
 from app.lecture.reading import load_lecture
 from app.lecture.schema import VIEWS
 from app.state import removed
 from app.state.all_options import AllOptions
-from app.storage.session import from_bytes
-from renderer.camera import Camera
-from renderer.lenses import Lens
-from renderer.scene import View, load_scene, load_view
+from app.state.session import from_bytes
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files import load_scene, load_view
+from renderer.scene import View
 
 FOLDER = Path(__file__).parent / "2026-11"
 CAMERA = Camera(

@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.system.errors import LucidaError
 
 SIZE = (64, 48)
 LOOKING = Camera.look_at((4.0, 3.0, 6.0), (0.0, 0.0, -1.0), fov_y_deg=40.0, aspect=4 / 3)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from app.outside.cloud import Cloud
-from app.outside.cloud_layer import CloudLayer
-from app.outside.diagram import Segments
-from app.outside.paint import role_color
-from app.outside.screen import OutsideScreen
-from renderer.camera import Camera
+from app.instruments.outside.cloud import Cloud
+from app.instruments.outside.cloud_layer import CloudLayer
+from app.instruments.outside.diagram import Segments
+from app.instruments.outside.paint import role_color
+from app.instruments.outside.screen import OutsideScreen
+from renderer.camera.camera import Camera
 from renderer.raster import Rasterizer
 from renderer.raster.overlay import CLOUD_HIDDEN, Overlay
 from renderer.scene.model import Material, Scene, SceneObject, Sphere

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from looked_at import looking_cameras, vectors
 
-from app.outside import answers
-from app.outside.diagram import Arrow, Label, Segments
-from app.outside.second_camera import ROLE, GivenRay
-from app.outside.widening import backed
+from app.instruments.outside import answers
+from app.instruments.outside.diagram import Arrow, Label, Segments
+from app.instruments.outside.second_camera import ROLE, GivenRay
+from app.instruments.outside.widening import backed
 
 SIZE = (200, 150)
 CORRECT = GivenRay(np.array([1.0, 0.0, 3.0]), np.array([0.2, 0.1, -1.0]))

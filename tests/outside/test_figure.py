@@ -14,9 +14,9 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from app.outside.camera_diagram import Content, diagram
-from app.outside.diagram import Item, Label, RayEnd, Segments
-from app.outside.figure import (
+from app.instruments.outside.camera_diagram import Content, diagram
+from app.instruments.outside.diagram import Item, Label, RayEnd, Segments
+from app.instruments.outside.figure import (
     Figure,
     PlaneImage,
     dashes,
@@ -25,12 +25,12 @@ from app.outside.figure import (
     plane_t,
     with_picture,
 )
-from app.outside.frustum import pixel_corners, plane_corners
-from app.outside.options import OutsideOptions
-from app.outside.projected import project
-from app.outside.screen import OutsideScreen, image_plane
-from app.outside.svg import svg
-from renderer.camera import Camera
+from app.instruments.outside.frustum import pixel_corners, plane_corners
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.projected import project
+from app.instruments.outside.screen import OutsideScreen, image_plane
+from app.instruments.outside.svg import svg
+from renderer.camera.camera import Camera
 from renderer.scene import shapes
 from renderer.scene.model import Scene, SceneObject, Sphere
 

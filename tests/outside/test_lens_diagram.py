@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.outside.camera_diagram import Content, diagram
-from app.outside.diagram import Arrow, Face, Label, RayEnd, Segments
-from app.outside.frustum import (
+from app.instruments.outside.camera_diagram import Content, diagram
+from app.instruments.outside.diagram import Arrow, Face, Label, RayEnd, Segments
+from app.instruments.outside.frustum import (
     CURVE,
     border,
     has_plane,
@@ -18,13 +18,13 @@ from app.outside.frustum import (
     pixel_seen,
     ways,
 )
-from app.outside.growing import grown_diagram, growth, stages_of
-from app.outside.lens_diagram import OUTSIDE
-from app.outside.options import LENS_STAGES, OutsideOptions
-from app.outside.projected import project
-from app.outside.screen import OutsideScreen
-from renderer.camera import Camera
-from renderer.lenses import Lens
+from app.instruments.outside.growing import grown_diagram, growth, stages_of
+from app.instruments.outside.lens_diagram import OUTSIDE
+from app.instruments.outside.options import LENS_STAGES, OutsideOptions
+from app.instruments.outside.projected import project
+from app.instruments.outside.screen import OutsideScreen
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
 
 SIZE = (48, 32)
 MARKED = RayEnd((5, 40), 3.0)

@@ -14,22 +14,22 @@ from hypothesis import strategies as st
 from looked_at import SIZE, cameras, looking_cameras, vectors
 
 from app.images.ray_pictures import RayPainter
-from app.outside.camera_diagram import Content, diagram
-from app.outside.diagram import RayEnd, Segments
-from app.outside.gizmo import (
+from app.instruments.outside.camera_diagram import Content, diagram
+from app.instruments.outside.diagram import RayEnd, Segments
+from app.instruments.outside.gizmo import (
     gl_matrices,
     motion,
     nearest_rotation,
     rotation_between,
     rotation_of,
 )
-from app.outside.looking import ray_depths
-from app.outside.options import OutsideOptions
-from app.outside.projected import Text, project
-from app.outside.screen import OutsideScreen
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.instruments.outside.looking import ray_depths
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.projected import Text, project
+from app.instruments.outside.screen import OutsideScreen
+from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 

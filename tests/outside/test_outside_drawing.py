@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from app.outside.diagram import Dot, Face, Item, Role, Segments
-from app.outside.frustum import pixel_corners, plane_corners
-from app.outside.paint import figure_color, ground_of, layers, role_color
-from app.outside.projected import project
-from app.outside.screen import OutsideScreen
-from app.widgets import contrast, theme
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.instruments.outside.diagram import Dot, Face, Item, Role, Segments
+from app.instruments.outside.frustum import pixel_corners, plane_corners
+from app.instruments.outside.paint import figure_color, ground_of, layers, role_color
+from app.instruments.outside.projected import project
+from app.instruments.outside.screen import OutsideScreen
+from app.ui import contrast, theme
+from renderer.camera.camera import Camera
 from renderer.raster import Rasterizer
 from renderer.raster.overlay import Overlay, Plane, plane_on_screen
 from renderer.scene.model import Material, Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 
 SIZE = (160, 120)
 INNER = Camera(eye=(0.3, -0.2, 2.0), viewport=(-0.8, 0.9, -0.4, 0.6), w=(0.1, 0.0, 1.0))

@@ -12,8 +12,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from looked_at import LOOKING, SIZE, cameras, vectors
 
-from app.outside.extent import end_parameter, framed, outside_camera
-from app.outside.frustum import (
+from app.instruments.outside.extent import end_parameter, framed, outside_camera
+from app.instruments.outside.frustum import (
     MOST_GRID_LINES,
     bundle_pixels,
     grid,
@@ -25,7 +25,7 @@ from app.outside.frustum import (
     point_at,
     rectangle,
 )
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 
 
 class TestSolid:

@@ -11,13 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from looked_at import LOOKING, SIZE, cameras, looking_cameras, vectors
 
-from app.outside.diagram import Arrow, Label, Segments, polyline
-from app.outside.frustum import (
-    plane_corners,
-)
-from app.outside.projected import Shape, Strokes, Text, project
-from app.outside.screen import OutsideScreen
-from renderer.camera import Camera
+from app.instruments.outside.diagram import Arrow, Label, Segments, polyline
+from app.instruments.outside.frustum import plane_corners
+from app.instruments.outside.projected import Shape, Strokes, Text, project
+from app.instruments.outside.screen import OutsideScreen
+from renderer.camera.camera import Camera
 from renderer.raster.overlay import plane_on_screen
 
 

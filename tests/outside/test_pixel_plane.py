@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.outside.diagram import Dot, Label
-from app.outside.frustum import plane_corners
-from app.outside.pixel_plane import Part, dragged, pixel_items
-from renderer.camera import Camera
-from renderer.intrinsics import PixelOrigin
+from app.instruments.outside.diagram import Dot, Label
+from app.instruments.outside.frustum import plane_corners
+from app.instruments.outside.pixel_plane import Part, dragged, pixel_items
+from renderer.camera.camera import Camera
+from renderer.camera.intrinsics import PixelOrigin
 
 SIZE = (8, 6)
 CAMERA = Camera.look_at((3.2, 1.6, 3.8), (0.0, 0.0, 0.0), fov_y_deg=35.0, aspect=4 / 3)

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from app.outside.placing import Box, LabelPlacer
-from app.outside.projected import Primitive, Strokes, Text
+from app.instruments.outside.placing import Box, LabelPlacer
+from app.instruments.outside.projected import Primitive, Strokes, Text
 
 SIZE = (400.0, 300.0)
 BOX = Box(60.0, 16.0, 10.0)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from app.images.picking import line_meetings
-from app.outside.camera_diagram import Content, diagram
-from app.outside.diagram import Arrow, Dot, Item, Label, RayEnd, Segments
-from app.outside.options import OutsideOptions
-from app.outside.ray_drawing import half_line, meetings, rays_to
-from app.outside.simple_camera import pixel_numbers, simple_camera, simple_ray
-from renderer.camera import Camera
-from renderer.scene import load_scene
+from app.instruments.outside.camera_diagram import Content, diagram
+from app.instruments.outside.diagram import Arrow, Dot, Item, Label, RayEnd, Segments
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.ray_drawing import half_line, meetings, rays_to
+from app.instruments.outside.simple_camera import pixel_numbers, simple_camera, simple_ray
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
 
 CAMERA = Camera.canonical()
 SIZE = (10, 10)

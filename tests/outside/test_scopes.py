@@ -8,10 +8,10 @@ import pytest
 from imgui_bundle import ImVec2
 
 from app.images.ray_pictures import RayPictures
-from app.outside import looking
-from app.outside.looking import NOTHING, STILL_S, Scopes, ray_ends
-from app.outside.options import OutsideOptions
-from renderer.camera import Camera
+from app.instruments.outside import looking
+from app.instruments.outside.looking import NOTHING, STILL_S, Scopes, ray_ends
+from app.instruments.outside.options import OutsideOptions
+from renderer.camera.camera import Camera
 
 PLACE = ImVec2(0, 0), ImVec2(300, 200)
 REACH = 3  # cameras are numbers here; a picture shows those that are nearer to it

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.outside.diagram import Dot, Label, Segments
-from app.outside.paint import DARKER, FIXED, role_color
-from app.outside.projected import project
-from app.outside.screen import OutsideScreen
-from app.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
-from app.widgets import contrast, theme
-from renderer.camera import Camera
+from app.instruments.outside.diagram import Dot, Label, Segments
+from app.instruments.outside.paint import DARKER, FIXED, role_color
+from app.instruments.outside.projected import project
+from app.instruments.outside.screen import OutsideScreen
+from app.instruments.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
+from app.ui import contrast, theme
+from renderer.camera.camera import Camera
 
 SIZE = (40, 30)
 REACH = 6.0

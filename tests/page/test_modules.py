@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from app.page import bundle as bundling
+from app.web import bundle as bundling
 
 HERE = Path(__file__).parent
 

@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from app.cli import main
-from app.page.scene_page import scene_page
+from app.web.scene_page import scene_page
 from renderer import Camera, Tracer, load_scene
-from renderer import shared_numbers as shared
+from renderer.files.views import view_from_toml, view_table
 from renderer.images import picture
+from renderer.images import shared_numbers as shared
 from renderer.scene import Checker, Material, Mesh, PointLight, Scene, SceneObject, Sphere, Texture
 from renderer.scene.model import View
-from renderer.scene.views import view_from_toml, view_table
 from tests.support.browser import Page, chromium, unexplained
 from tests.support.page_cameras import LENSES, random_cameras, ray_error
 from tests.support.textured import noise
@@ -110,7 +110,7 @@ def test_shadows_and_reflections(pages, scenes, page, tab):
 
 
 def test_numbers_of_shading_are_the_programs():
-    text = Path("app/page/modules/numbers.js").read_text()
+    text = Path("app/web/modules/numbers.js").read_text()
     found = re.findall(r"\b([A-Z][A-Z_]+) = (-?[\d.e-]+)[,;]", text)
     shown = [(name, number) for name, number in found if name in vars(shared)]
     assert len(shown) > 15

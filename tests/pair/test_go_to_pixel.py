@@ -2,9 +2,9 @@
 
 import pytest
 
-from app.pair.boxes import parsed_pixel
-from renderer.errors import LucidaError
-from renderer.pixels import Indexing
+from app.images.pair.boxes import parsed_pixel
+from renderer.images.pixels import Indexing
+from renderer.system.errors import LucidaError
 
 SIZE = (8, 6)
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from app.pair.straight_lines import grid
-from renderer.camera import Camera
-from renderer.lenses import Lens
+from app.images.pair.straight_lines import grid
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
 
 SIZE = (320, 200)
 WIDE = (-1.6, 1.6, -1.0, 1.0)

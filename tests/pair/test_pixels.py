@@ -8,10 +8,10 @@ import re
 import pytest
 
 from app.cli import main
-from app.pair.actions import COUNTING
+from app.images.pair.actions import COUNTING
 from app.state.all_options import AllOptions
 from app.window.action_table import ACTIONS
-from renderer.pixels import Indexing
+from renderer.images.pixels import Indexing
 
 PIXEL = (0, 11)
 

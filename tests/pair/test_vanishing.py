@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.pair.footprint import square
-from app.pair.vanishing import ends, vanishing_point
-from renderer.camera import Camera
-from renderer.samples import offsets
+from app.images.pair.footprint import square
+from app.images.pair.vanishing import ends, vanishing_point
+from renderer.camera.camera import Camera
+from renderer.images.samples import offsets
 
 SIZE = (64, 48)
 POINTS = [(-2.0, 0.0, 1.0), (2.5, 3.0, 0.0), (0.1, -1.0, 9.0)]

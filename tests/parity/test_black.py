@@ -10,14 +10,14 @@ import pytest
 
 from app.cameras.remedies import helped, remedy_for
 from app.cli import main
-from app.compare import comparing
+from app.images.compare import comparing
 from app.state.app_state import AppState
 from renderer import Camera, load_scene
-from renderer.black import Darkness, darkness, middle_of, why_nothing_is_hit
-from renderer.compare import compare
-from renderer.focus import scene_focus
-from renderer.lenses import Lens
+from renderer.camera.lenses import Lens
+from renderer.compare.raster_and_ray import compare
+from renderer.compare.why_black import Darkness, darkness, middle_of, why_nothing_is_hit
 from renderer.scene import DirectionalLight, Mesh, Scene, SceneObject, Sphere, View, flatten
+from renderer.scene.focus import scene_focus
 from renderer.trace import Tracer
 
 SIZE = (32, 24)

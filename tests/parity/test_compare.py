@@ -6,15 +6,10 @@ import numpy as np
 import pytest
 from flawed_images import CAMERA, SIZE, changed, counts, image, wall
 
-from renderer.compare import (
-    SHADING,
-    UNEXPLAINED,
-    compare,
-    compare_frames,
-)
-from renderer.frame import CHANNELS
-from renderer.lenses import Lens
-from renderer.scene import load_scene
+from renderer.camera.lenses import Lens
+from renderer.compare.raster_and_ray import SHADING, UNEXPLAINED, compare, compare_frames
+from renderer.files import load_scene
+from renderer.images.frame import CHANNELS
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
 from renderer.trace import Tracer
@@ -282,5 +277,5 @@ def test_more_differing_pixels_than_edges_have_are_not_examined(monkeypatch):
     flat = flatten(Scene((wall(-2), wall(-2))))  # surfaces that coincide meet everywhere
     pair = image(2, 0, 0), image(2, 1, 2)
     for most, cause in ((768, "edge"), (767, "unexplained")):
-        monkeypatch.setattr("renderer.compare.MOST_EXAMINED", most)
+        monkeypatch.setattr("renderer.compare.raster_and_ray.MOST_EXAMINED", most)
         assert counts(compare_frames(flat, CAMERA, SIZE, *pair)) == {cause: 768}

@@ -6,13 +6,9 @@ import numpy as np
 import pytest
 from flawed_images import CAMERA, SIZE, changed, image, wall
 
-from renderer.compare import (
-    CAUSES,
-    LABEL_COLORS,
-    compare_frames,
-)
-from renderer.difference import CAUSE_COLORS, false_color, signed_difference
+from renderer.compare.raster_and_ray import CAUSES, LABEL_COLORS, compare_frames
 from renderer.images import encode_srgb
+from renderer.images.difference import CAUSE_COLORS, false_color, signed_difference
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from renderer import Frame
-from renderer.compare import CAUSES
-from renderer.difference import (
+from renderer.compare.raster_and_ray import CAUSES
+from renderer.images import encode_srgb
+from renderer.images.difference import (
     ABSOLUTE_COLORS,
     CAUSE_COLORS,
     SHADING_COLOR,
@@ -16,7 +17,6 @@ from renderer.difference import (
     most,
     signed_difference,
 )
-from renderer.images import encode_srgb
 from renderer.images.display import from_srgb, luminance
 
 INF = np.inf

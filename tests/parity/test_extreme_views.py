@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from renderer import Camera, Tracer
-from renderer.compare import CHANNELS, compare_frames
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, PointLight, Scene, SceneObject, Sphere

@@ -14,13 +14,13 @@ from scenes import ODD, crowd, moved, placed
 from trace_reference import ball, reference
 
 from app.images.picking import object_on_ray
-from app.probe.model import Probe
-from app.stepper import loop_parts
+from app.instruments.probe.model import Probe
+from app.instruments.stepper import loop_parts
 from renderer import Camera, Rasterizer, Tracer
-from renderer.compare import CHANNELS, compare_frames
-from renderer.focus import scene_focus
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from renderer.scene import shapes
 from renderer.scene.flat import flatten
+from renderer.scene.focus import scene_focus
 from renderer.scene.model import (
     Checker,
     DirectionalLight,

@@ -11,9 +11,9 @@ import pytest
 from scenes import crowd
 
 from renderer import Camera, Rasterizer, Tracer
-from renderer.black import darkness
-from renderer.compare import CHANNELS, compare_frames
-from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from renderer.compare.why_black import darkness
+from renderer.files import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Checker,

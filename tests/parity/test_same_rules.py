@@ -8,10 +8,10 @@ from agreeing import agree
 from scenes import moved, placed
 from trace_reference import reference
 
-from app.probe.model import Probe
+from app.instruments.probe.model import Probe
 from renderer import Camera, Rasterizer, Tracer
-from renderer.compare import CHANNELS, compare_frames
-from renderer.frame import Frame
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from renderer.images.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import DirectionalLight, Material, Mesh, PointLight, Scene, SceneObject
 

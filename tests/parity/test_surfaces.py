@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from textured import WHITE, noise, wall
 
-from app.probe.crossings import Index
-from app.probe.model import Probe
+from app.instruments.probe.crossings import Index
+from app.instruments.probe.model import Probe
 from renderer import Camera, Rasterizer, Tracer
-from renderer.compare import CHANNELS, compare_frames
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from renderer.scene.flat import flatten
 from renderer.scene.metal import METAL_DIFFUSE, Metal
 from renderer.scene.model import DirectionalLight, Material, Mesh, PointLight, Scene, SceneObject

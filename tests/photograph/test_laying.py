@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.images.photograph.laying import LaidPhotograph, Laying, level
+from app.images.photograph.model import WHOLE
 from app.images.placement import Placement
 from app.images.shown import Picture, whole
-from app.photograph.laying import LaidPhotograph, Laying, level
-from app.photograph.model import WHOLE
 from renderer.raster.resources import Owner, new_texture
 
 SIZE = (13, 7)  # (width, height), odd on purpose

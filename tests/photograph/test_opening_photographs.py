@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.images.photograph.model import with_photograph
+from app.images.photograph.options import PhotographOptions
 from app.lecture.reading import load_lecture
-from app.photograph.model import with_photograph
-from app.photograph.options import PhotographOptions
 from app.state.app_state import AppState
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 STEP = 'title = "Photographs"\n[[steps]]\ntitle = "one"\nviews = ["raster", "ray"]\n'
 

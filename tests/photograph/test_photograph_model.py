@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.photograph.model import (
+from app.images.photograph.model import (
     WHOLE,
     closed,
     covered,
@@ -16,10 +16,10 @@ from app.photograph.model import (
     pixels_of,
     with_photograph,
 )
-from app.photograph.options import PhotographOptions
+from app.images.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from renderer import load_scene
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 
 CAMERA = replace(Camera.canonical(), viewport=(-1.0, 3.0, -2.0, 1.0))
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.photograph import reading
-from app.photograph.reading import ORIENTATION, decoded, found_photograph, is_photograph
-from renderer.errors import LucidaError, describe
+from app.images.photograph import reading
+from app.images.photograph.reading import ORIENTATION, decoded, found_photograph, is_photograph
+from renderer.system.errors import LucidaError, describe
 
 WHOLE = (1000, 1000)
 RNG = np.random.default_rng(2)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from trace_reference import closest
 
-from app.photograph.model import can_undistort, undistorting, with_photograph
-from app.photograph.options import PhotographOptions
-from app.photograph.reading import DecodedPhotograph, without_lens
+from app.images.photograph.model import can_undistort, undistorting, with_photograph
+from app.images.photograph.options import PhotographOptions
+from app.images.photograph.reading import DecodedPhotograph, without_lens
 from app.state.app_state import AppState
 from renderer import load_scene
-from renderer.camera import Camera
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, View
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.poses.model import PoseSet, pose_set
-from renderer.camera import Camera
-from renderer.camera_formats import CameraSet, PosedCamera, written
+from app.instruments.poses.model import PoseSet, pose_set
+from renderer.camera.camera import Camera
+from renderer.files.cameras import CameraSet, PosedCamera, written
 
 SIZE = (80, 60)
 

@@ -11,9 +11,15 @@ from PIL import Image
 from sets_of_cameras import a_set, ring
 from waiting import wait_for
 
-from app.poses.model import PoseSet, pose_set
-from app.poses.photographs import KEPT, SIDE_PX, Photographs, photo_path, read_photograph
-from renderer.camera_formats import CameraSet
+from app.instruments.poses.model import PoseSet, pose_set
+from app.instruments.poses.photographs import (
+    KEPT,
+    SIDE_PX,
+    Photographs,
+    photo_path,
+    read_photograph,
+)
+from renderer.files.cameras import CameraSet
 
 
 def with_images(folder: Path, *images: str, name: str = "") -> PoseSet:

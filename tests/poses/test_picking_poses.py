@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from sets_of_cameras import a_set, ring
 
-from app.outside.screen import OutsideScreen
-from app.poses.model import LINES, PoseSet, frusta, pose_set
-from app.poses.picking import AS_NEAR_PX, REACH_PX, picked
-from renderer.camera import Camera
-from renderer.camera_formats import CameraSet
+from app.instruments.outside.screen import OutsideScreen
+from app.instruments.poses.model import LINES, PoseSet, frusta, pose_set
+from app.instruments.poses.picking import AS_NEAR_PX, REACH_PX, picked
+from renderer.camera.camera import Camera
+from renderer.files.cameras import CameraSet
 
 SIZE = (640, 480)
 LENGTH = 0.4

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from sets_of_cameras import SIZE, a_set, ring
 
-from app.outside.frustum import plane_corners
-from app.poses.model import (
+from app.instruments.outside.frustum import plane_corners
+from app.instruments.poses.model import (
     LINES,
     LONGEST,
     NO_POINTS,
@@ -24,9 +24,9 @@ from app.poses.model import (
     walked,
 )
 from app.state.app_state import AppState
-from renderer.camera import Camera
-from renderer.camera_formats import CameraSet
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files.cameras import CameraSet
 from renderer.scene import Scene, View
 
 

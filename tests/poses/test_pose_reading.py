@@ -14,19 +14,19 @@ from waiting import wait_for
 
 from app import cli
 from app.cameras.taken import TakenCamera
+from app.instruments.poses import reading
+from app.instruments.poses.model import PoseSet
+from app.instruments.poses.options import PosesOptions
+from app.instruments.poses.reading import PosesReader, is_cameras, open_cameras
 from app.lecture.reading import load_lecture
-from app.poses import reading
-from app.poses.model import PoseSet
-from app.poses.options import PosesOptions
-from app.poses.reading import PosesReader, is_cameras, open_cameras
 from app.state.app_state import AppState
-from app.storage.paths import stored
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.state.paths import stored
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
-from renderer.camera_formats import written
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
-from renderer.scene import load_scene
+from renderer.camera.lenses import Lens
+from renderer.files import load_scene
+from renderer.files.cameras import written
+from renderer.system.errors import LucidaError
 
 
 def test_a_transforms_json_is_a_set(tmp_path: Path) -> None:

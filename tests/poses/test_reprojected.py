@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 from sets_of_cameras import ring
 
-from app.poses.model import PoseSet, pose_set
-from app.poses.photographs import SIDE_PX, pictured
-from app.poses.reprojected import BARE, DARKER, bare, with_points
-from renderer.camera import Camera
-from renderer.camera_formats import CameraSet, PosedCamera
+from app.instruments.poses.model import PoseSet, pose_set
+from app.instruments.poses.photographs import SIDE_PX, pictured
+from app.instruments.poses.reprojected import BARE, DARKER, bare, with_points
+from renderer.camera.camera import Camera
+from renderer.files.cameras import CameraSet, PosedCamera
 
 LOOKING = Camera(eye=(0.0, 0.0, 4.0), viewport=(-0.4, 0.4, -0.3, 0.3))
 

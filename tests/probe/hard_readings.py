@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.probe.model import Probe
-from app.probe.reading import Reading
-from renderer.camera import Camera
+from app.instruments.probe.model import Probe
+from app.instruments.probe.reading import Reading
+from renderer.camera.camera import Camera
 from renderer.scene.model import (
     DirectionalLight,
     Material,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     Material,

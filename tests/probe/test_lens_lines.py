@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from read_pixels import BALL, SIZE, line
 
-from app.probe.copying import all_lines, as_latex, as_text
-from app.probe.model import Probe
-from app.probe.reading import OUTSIDE
-from renderer.camera import Camera
-from renderer.lenses import Lens
-from renderer.pixels import Indexing
+from app.instruments.probe.copying import all_lines, as_latex, as_text
+from app.instruments.probe.model import Probe
+from app.instruments.probe.reading import OUTSIDE
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.images.pixels import Indexing
 
 PIXEL = (19, 37)
 CAMERA = Camera(distance=1.3, viewport=(-0.8, 0.8, -0.6, 0.6), u=(1.0, 0.2, 0.0))

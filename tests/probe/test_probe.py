@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from read_pixels import BALL, SIZE, line
 
-from app.probe.color_formulas import color_lines
-from app.probe.formulas import hit_lines, ray_lines
-from app.probe.model import Probe
-from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN
-from renderer.camera import Camera
+from app.instruments.probe.color_formulas import color_lines
+from app.instruments.probe.formulas import hit_lines, ray_lines
+from app.instruments.probe.model import Probe
+from app.instruments.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN
+from renderer.camera.camera import Camera
 from renderer.images.display import to_srgb8
 from renderer.scene import shapes
 from renderer.scene.model import (

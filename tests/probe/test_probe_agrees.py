@@ -10,12 +10,12 @@ import pytest
 from read_pixels import ALL, BALL, SIZE, cameras, line
 from trace_reference import closest, random_camera, random_scene
 
-from app.explaining.notation import number
-from app.probe.color_formulas import color_lines
-from app.probe.model import Probe
-from renderer.camera import Camera
+from app.instruments.probe.color_formulas import color_lines
+from app.instruments.probe.model import Probe
+from app.ui.explaining.notation import number
+from renderer.camera.camera import Camera
+from renderer.files import BUILTIN_SCENES, load_scene
 from renderer.images.display import encode_srgb, to_srgb8
-from renderer.scene import BUILTIN_SCENES, load_scene
 from renderer.scene.model import (
     DirectionalLight,
     Material,

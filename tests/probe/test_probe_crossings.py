@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from app.probe.crossings import RUN, Index
+from app.instruments.probe.crossings import RUN, Index
 from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere

@@ -18,16 +18,16 @@ from hard_readings import (
     on_the_floor,
 )
 
-from app.explaining.languages import julia
+from app.instruments.probe.color_formulas import color_lines
+from app.instruments.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
+from app.instruments.probe.formulas import LEAST_COSINE, hit_lines, ray_lines
+from app.instruments.probe.model import Probe
+from app.instruments.probe.reading import Reading
 from app.lecture.typesetting import mistake
-from app.probe.color_formulas import color_lines
-from app.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
-from app.probe.formulas import LEAST_COSINE, hit_lines, ray_lines
-from app.probe.model import Probe
-from app.probe.reading import Reading
-from app.widgets import formula
-from renderer.camera import Camera
-from renderer.pixels import Indexing
+from app.ui import formula
+from app.ui.explaining.languages import julia
+from renderer.camera.camera import Camera
+from renderer.images.pixels import Indexing
 from renderer.scene.model import (
     DirectionalLight,
     Mesh,
@@ -35,7 +35,7 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
-from renderer.trace.scalar.shade import GRAZING
+from renderer.trace.reference.shade import GRAZING
 
 ON_THE_FLOOR = """\
 pixel in row 2, column 0 of 1 x 4, from 0

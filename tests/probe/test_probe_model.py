@@ -8,11 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app.explaining.shading import SurfaceHit
-from app.probe.model import Probe, winner_of
-from app.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.instruments.probe.model import Probe, winner_of
+from app.instruments.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
+from app.ui.explaining.shading import SurfaceHit
+from renderer.camera.camera import Camera
 from renderer.scene.flat import flatten
 from renderer.scene.model import (
     DirectionalLight,
@@ -23,7 +22,8 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
-from renderer.trace.packets.effects import effects_of
+from renderer.system.errors import LucidaError
+from renderer.trace.tiles.effects import effects_of
 
 MIRROR = Material((0.5, 0.5, 0.5), (0.5, 0.5, 0.5))
 CORNERS = [[-9, 0, -9], [9, 0, -9], [9, 0, 9], [-9, 0, 9]]

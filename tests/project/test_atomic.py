@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from renderer.atomic import atomic_write
-from renderer.errors import LucidaError
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError
 
 
 def write(path: Path, content: bytes) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from app.commands.arguments import progress_bar
 from app.window.status import is_good_news, told
-from renderer import compile_note
+from renderer.system import compile_note
 
 
 @pytest.fixture(autouse=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from renderer.camera_formats import FORMATS
+from renderer.files.cameras import FORMATS
 from tests.conformance import cameras, report, run
 from tests.conformance.measured import Checked, Job, PeerMissing, measured, needed
 from tests.support.format_cameras import centred_camera, skewed_camera, straight_camera

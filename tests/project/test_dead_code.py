@@ -14,8 +14,8 @@ from collections.abc import Iterator
 
 from test_layers import MODULES, ROOT
 
-from renderer.camera_formats import FORMATS
-from renderer.frame import DISPLAY
+from renderer.files.cameras import FORMATS
+from renderer.images.frame import DISPLAY
 
 # What is found by its name, and by whom.
 FOUND = {
@@ -24,7 +24,7 @@ FOUND = {
     "run": "the same",
     "explore": "called in notebooks",
     "main": "run by `python -m`, or in a child process",
-    "INSTRUMENT": "app/window/instruments.py looks for it in each room of app/instruments.py",
+    "INSTRUMENT": "app/window/instruments.py looks for it in each room of app/state/rooms.py",
     "OPTIONS": "app/state/all_options.py does the same",
     "__all__": "read by `import *` and by tools",
     "__getattr__": "called by Python for what a module lacks",
@@ -35,7 +35,7 @@ FOUND = {
 REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callable"}
 
 # Modules that are loaded by name: what they define is asked of what comes.
-LOADED = {f"renderer.camera_formats.{entry.name}" for entry in FORMATS} | {DISPLAY}
+LOADED = {f"renderer.files.cameras.{entry.name}" for entry in FORMATS} | {DISPLAY}
 
 
 def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:
@@ -89,7 +89,7 @@ def used() -> frozenset[tuple[str, str]]:
     by_python = {use for module, tree in trees().items() for use in uses(module, tree)}
     shaders = (path for path in ROOT.glob("shaders/**/*.*") if path.suffix != ".py")
     words = {word for path in shaders for word in re.findall(r"\w+", path.read_text("latin-1"))}
-    return frozenset(by_python | {("renderer.shared_numbers", word) for word in words})
+    return frozenset(by_python | {("renderer.images.shared_numbers", word) for word in words})
 
 
 def test_what_a_module_defines_is_used() -> None:

@@ -6,9 +6,9 @@ import sys
 
 import pytest
 
-from renderer import doctor
 from renderer.raster.contexts import candidates
 from renderer.raster.packages import remedy
+from renderer.system import doctor
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 """A user's mistake is one line, whatever it is about."""
 
-from renderer.errors import LucidaError, one_line, shortened
+from renderer.system.errors import LucidaError, one_line, shortened
 
 
 def test_an_error_tells_source_field_problem_and_remedy():

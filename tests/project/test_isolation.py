@@ -12,15 +12,16 @@ from pathlib import Path
 
 import pytest
 
-from renderer import child, compile_note, doctor
 from renderer.raster.contexts import candidates
+from renderer.system import child, compile_note, doctor
 from renderer.trace.compile.cache_folder import cache_folder
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 280  # the first rendering compiles the tracer
 # What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
 NAMES = """\
-json numpy struct app renderer/__init__ renderer/child renderer/doctor shaders/__init__ os re
+json numpy struct app renderer/__init__ renderer/system/child renderer/system/doctor
+shaders/__init__ os re
 io subprocess threading signal ctypes enum types random logging locale numba llvmlite trimesh
 PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercustomize cuda
 scipy networkx lxml site encodings/__init__ encodings/utf_8"""
@@ -156,8 +157,8 @@ def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_no
         "-c",
         "import sys\n"
         "from pathlib import Path\n"
-        "from renderer import doctor\n"
-        "from renderer.scene import subprocess_reader as apart\n"
+        "from renderer.system import doctor\n"
+        "from renderer.files.models import subprocess_reader as apart\n"
         "apart.read_model = None\n"  # not in this process
         "sys.path.insert(0, '')\n"
         "print(len(apart.ModelReader().read(Path('models/large.obj')).objects))\n"

@@ -10,84 +10,39 @@ from pathlib import Path
 
 import pytest
 
-from app.instruments import ROOMS
+from app.state.rooms import ROOMS
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 
 # From the ground up, as docs/architecture.md says. A module belongs to the longest name here that
-# it is within, and imports from its own floor and from those before it; local imports count, and
+# it is within, and imports from its own layer and from those before it; local imports count, and
 # those that are only for types.
-FLOORS = (
-    "renderer.errors",
-    "renderer.memo",
-    "renderer.shared_numbers",
-    "renderer.compile_note",
-    "renderer.private",
-    "renderer.atomic",
-    "renderer.child",
-    "renderer.pixels",
-    "renderer.camera_checks",
-    "renderer.frame",
-    "renderer.intrinsics",
-    "renderer.lens_distortion",
-    "renderer.lenses",
-    "renderer.camera",
-    "renderer.navigation",
-    "renderer.coarseness",
-    "renderer.lens_faces",
-    "renderer.undistort",
-    "renderer.samples",
-    "renderer.images",
-    "renderer.scene",
-    "renderer.focus",
-    "renderer.picked",
-    "renderer.scene_editing",
-    "renderer.camera_formats",
-    "renderer.scene_checks",
-    "renderer.scene_export",
-    "renderer.raster",
-    "renderer.trace.compile",
-    "renderer.trace.simd",
-    "renderer.trace.threads",
-    "renderer.trace.arguments",
-    "renderer.trace.scalar",
-    "renderer.trace.bvh",
-    "renderer.trace.rays",
-    "renderer.trace.packets",
-    "renderer.trace.jobs",
-    "renderer.trace",
-    "renderer.pure_python",
-    "renderer.precision",
-    "renderer.black",
-    "renderer.difference",
-    "renderer.seen_surfaces",
-    "renderer.explained",
-    "renderer.compare",
-    "renderer.doctor",
-    "renderer.notebook",
-    "renderer",
-    "app",
-    "app.lectures",
-    "app.instruments",
-    "app.state",
-    "app.explaining",
-    "app.checking",
-    "app.widgets",
-    "app.cameras",
-    "app.films",
-    "app.storage",
-    "app.images",
-    "app.host",
-    *(room.package for room in ROOMS),
-    "app.results",
-    "app.page",
-    "app.lecture_page",
-    "app.window",
-    "app.commands",
-    "app.cli",
-    "app.__main__",
+LAYERS = (
+    ("renderer.system",),
+    ("renderer.camera.checks", "renderer.images"),
+    ("renderer.camera", "renderer.images.samples"),
+    ("renderer.scene",),
+    ("renderer.files",),
+    ("renderer.editing",),
+    ("renderer.raster",),
+    ("renderer.trace.compile",),
+    ("renderer.trace.vector",),
+    ("renderer.trace.arguments", "renderer.trace.threads"),
+    ("renderer.trace.reference",),
+    ("renderer.trace.bvh",),
+    ("renderer.trace.rays",),
+    ("renderer.trace.tiles",),
+    ("renderer.trace",),
+    ("renderer.compare",),
+    ("renderer.notebook", "renderer.system.doctor"),
+    ("renderer", "app"),
+    ("app.state",),
+    ("app.ui", "app.images", "app.cameras"),
+    ("app.instruments", "app.lecture", "app.checking", "app.web"),
+    ("app.window", "app.commands", "app.cli", "app.__main__"),
 )
+LAYER = {name: number for number, names in enumerate(LAYERS) for name in names}
 
 # What a place may not import, beside what stands above it.
 FORBIDDEN = {
@@ -100,31 +55,17 @@ FORBIDDEN = {
     "app/commands": ["glfw", "imgui_bundle", "moderngl", "numba"],
 }
 
-# Rooms that compute and say: what they import, and what that imports, draws nothing. Of the rooms
-# of instruments all files but those that draw: the ROLES, and what is named here beside them.
-INSTRUMENTS = {room.package for room in ROOMS}
+# What computes: what these files import, and what that imports, draws nothing.
 GRAPHICS = ("glfw", "imgui_bundle", "moderngl")
-PURE = ("app/state", "app/explaining", "app/checking", "app/cameras")
-DRAW = {
-    "camera_panel": "basis_numbers lens_section projection sections",
-    "photograph": "layer laying",
-    "pair": "boxes camera_drag choices dark_note footprint image_mouse marks overlay pane "
-    "pixelgrid rulers straight_lines toolbar vanishing",
-    "compare": "composed differences",
-    "outside": "cloud_layer extensions figure_view gizmo ground hosted looking mouse paint "
-    "painting parts pixel_plane tint tools widening",
-    "objects": "handles in_views inspector material_fields outliner value_fields",
-    "probe": "",
-    "stepper": "controls drawing numbers pictures questions",
-    "costs": "plots",
-    "your_code": "code_pictures",
-    "laboratory": "looks",
-    "mistakes": "pages",
-    "poses": "",
-    "lecture": "answer_note arrangement drawn_answer exercise foot invitation session slide "
-    "typesetting watching_hidden",
-}
-ROLES = ("actions", "instrument", "panel", "view")
+PURE = (
+    "app/state/**/*.py",
+    "app/ui/explaining/**/*.py",
+    "app/cameras/*.py",
+    "app/checking/*.py",
+    "app/checking/[!y]*/**/*.py",  # the view your_code/ draws
+    "app/web/**/*.py",
+    "app/instruments/*/model.py",
+)
 
 
 @functools.cache
@@ -164,21 +105,21 @@ def imported(module: str) -> frozenset[str]:
     return frozenset((found & MODULES.keys()) - {module})
 
 
-def floor(module: str) -> int:
-    names = [name for name in FLOORS if is_within(module, name)]
-    # A package's own __init__ is what the floor is named by; other files need a room.
-    assert names and (module in FLOORS or max(names, key=len) not in ("app", "renderer")), (
-        f"{module} belongs to no floor: put it into a room, or name it in FLOORS"
+def layer(module: str) -> int:
+    names = [name for name in LAYER if is_within(module, name)]
+    # A package's own __init__ is what the layer is named by; other files need a package.
+    assert names and (module in LAYER or max(names, key=len) not in ("app", "renderer")), (
+        f"{module} belongs to no layer: put it into a package, or name it in LAYERS"
     )
-    return FLOORS.index(max(names, key=len))
+    return LAYER[max(names, key=len)]
 
 
 def test_imports_point_down():
     up = {
-        f"{module} (floor {FLOORS[floor(module)]}) imports {name}"
+        f"{module} imports {name}, which is above it"
         for module in MODULES
         for name in imported(module)
-        if floor(name) > floor(module)
+        if layer(name) > layer(module)
     }
     assert not up
 
@@ -210,20 +151,10 @@ def test_what_a_place_must_not_know(place):
     assert not wrong
 
 
-def _pure_files() -> Iterator[Path]:
-    for path in SOURCES:
-        room = path.parent.name
-        if any(path.is_relative_to(ROOT / place) for place in PURE) or (
-            path.is_relative_to(ROOT / "app")
-            and f"app.{room}" in INSTRUMENTS
-            and path.stem not in (*ROLES, *DRAW.get(room, "").split())
-        ):
-            yield path
-
-
 def test_cores_draw_nothing():
     """Nor does anything of the window that they import. The rasterizer's OpenGL does not count."""
-    seen, todo = set(), [name_of(path) for path in _pure_files()]
+    seen: set[str] = set()
+    todo = [name_of(path) for pattern in PURE for path in ROOT.glob(pattern)]
     assert todo
     while todo:
         module = todo.pop()
@@ -249,14 +180,8 @@ def test_options_know_the_state_alone(module):
 def test_every_instrument_is_registered():
     """Those alone have an instrument.py, which nothing but the registry's name of it imports."""
     found = {name for name in MODULES if name.startswith("app.") and name.endswith(".instrument")}
-    assert found - {"app.host.instrument"} == set(_rooms("instrument"))
+    assert found - {"app.ui.instrument"} == set(_rooms("instrument"))
     assert len(found) == len(ROOMS) + 1
-
-
-@pytest.mark.parametrize("room", DRAW)
-def test_the_files_that_draw_are_there(room):
-    for name in DRAW[room].split():
-        assert (ROOT / "app" / room / f"{name}.py").is_file()
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""renderer/memo.py: what is kept of a function, and when it is called again."""
+"""renderer/system/memo.py: what is kept of a function, and when it is called again."""
 
 import math
 from collections import deque
@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from renderer.memo import Memo, same
+from renderer.system.memo import Memo, same
 
 _ARRAYS = np.zeros(2), np.zeros(2)
 KEYS = st.sampled_from(

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 from numba.core import config
 
-from renderer.errors import LucidaError
-from renderer.private import private_folder
+from renderer.system.errors import LucidaError
+from renderer.system.private_folder import private_folder
 from renderer.trace.compile import cache_folder, compiled
 
 ROOT = Path(__file__).parents[2]

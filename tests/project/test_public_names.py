@@ -15,7 +15,7 @@ from renderer import (
     load_view,
     read_cameras,
 )
-from renderer.frame import check_size
+from renderer.images.frame import check_size
 from renderer.scene.model import Scene
 
 SIZE = (8, 6)

@@ -12,8 +12,8 @@ from textured import saved, slopes
 
 from app.commands import COMMANDS, view
 from app.commands.arguments import Parser
-from renderer.scene import view_from_toml
-from renderer.scene.files import scene_from_toml
+from renderer.files import view_from_toml
+from renderer.files.scene_file import scene_from_toml
 
 ROOT = Path(__file__).parents[2]
 PAGES = {

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 from trace_reference import reference
 
-from renderer.camera import Camera
-from renderer.compare import CHANNELS, compare_frames
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from renderer.scene import shapes
 from renderer.scene.flat import flatten
 from renderer.scene.model import (

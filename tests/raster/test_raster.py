@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from raster_scenes import CAMERAS, SIZE, WIDE, agrees, square, still_life, triangle
 
-from renderer.camera import Camera
-from renderer.compare import CHANNELS
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import CHANNELS
 from renderer.scene.model import (
     Material,
     Mesh,

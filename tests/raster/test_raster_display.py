@@ -7,9 +7,9 @@ import pytest
 
 from app.images.pixelvalues import shown_bytes
 from app.state.options import ImageOptions
-from renderer.frame import Frame
 from renderer.images import to_srgb8
 from renderer.images.display import picture
+from renderer.images.frame import Frame
 from renderer.raster import DepthRange, Display, Look, Section, upload
 
 

@@ -8,9 +8,9 @@ from raster_scenes import still_life
 from trace_reference import reference
 
 from renderer import Camera, LucidaError
-from renderer.compare import CHANNELS, compare_frames
-from renderer.lens_faces import looked_up_faces
-from renderer.lenses import Lens
+from renderer.camera.lens_faces import looked_up_faces
+from renderer.camera.lenses import Lens
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from renderer.scene.flat import flatten
 
 SIZE = (48, 32)

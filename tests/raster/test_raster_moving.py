@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 from renderer import Rasterizer
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
+from renderer.editing.moving import transform
+from renderer.editing.outline import outline
+from renderer.files import load_scene
 from renderer.raster.tables import TABLE_WIDTH
-from renderer.scene import Scene, load_scene
+from renderer.scene import Scene
 from renderer.scene.shapes import placement
-from renderer.scene_editing.moving import transform
-from renderer.scene_editing.outline import outline
 
 SIZES = (40, 30), (44, 30)
 CHANNELS = ("depth", "id", "normal")

@@ -7,7 +7,7 @@ import pytest
 from raster_scenes import CHECKERED, SIZE, WIDE, agrees, square, triangle
 from trace_reference import reference
 
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.raster import setup
 from renderer.raster.prepared import scene_setup
 from renderer.scene.flat import flatten

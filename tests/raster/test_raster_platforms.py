@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from import_path import import_path
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
 from renderer.raster import Display, Look, Rasterizer, Section, contexts, current
 from renderer.raster.packages import SYSTEMS, remedy, this_system
 from renderer.raster.resources import check
 from renderer.raster.tables import Table
-from renderer.scene import load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 
 on_each_platform = pytest.mark.parametrize("_session_rasterizer", ["egl", "osmesa"], indirect=True)
 

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from raster_scenes import CAMERAS, SIZE, WIDE, agrees, square, still_life
 
-from renderer.camera import Camera
-from renderer.compare import CHANNELS
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import CHANNELS
 from renderer.raster import prepare
 from renderer.scene.model import (
     Mesh,
@@ -17,6 +16,7 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
+from renderer.system.errors import LucidaError
 
 
 class TestSizesAndScenes:

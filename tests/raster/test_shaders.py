@@ -4,9 +4,9 @@ from importlib.resources import files
 
 import pytest
 
-from renderer.errors import LucidaError
 from renderer.raster import sources
 from renderer.raster.sources import ShaderSource, link, read_shader
+from renderer.system.errors import LucidaError
 
 STAGES = sorted(
     entry.name

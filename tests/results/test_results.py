@@ -10,16 +10,16 @@ from pathlib import Path
 import pytest
 from both_lectures import both_lectures
 
+from app.checking.results.model import ClassAnswer, NamedMistake, class_results
+from app.checking.results.page import page
+from app.checking.results.reading import read_answers
 from app.cli import main
+from app.instruments.mistakes.options import MistakesOptions
+from app.instruments.mistakes.question import right_at
 from app.lecture.answer_log import AnswerLog
-from app.mistakes.options import MistakesOptions
-from app.mistakes.question import right_at
-from app.results.model import ClassAnswer, NamedMistake, class_results
-from app.results.page import page
-from app.results.reading import read_answers
 from app.state.app_state import AppState
-from app.storage.kept_lecture import Answers
-from renderer.errors import LucidaError
+from app.state.kept_lecture import Answers
+from renderer.system.errors import LucidaError
 
 FLIPPED, MIDDLE = "rows count upwards", "corners, not middles"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from imgui_bundle import hello_imgui
 from window_driver import RASTER, RAY, Driver, Key
 
-from app.host import layout
-from app.probe.view import PROBE
-from app.stepper.view import STEPPER, StepperView
+from app.instruments.probe.view import PROBE
+from app.instruments.stepper.view import STEPPER, StepperView
+from app.ui import layout
 
 START = (100, 120)
 F3, ESCAPE = int(Key.f3), int(Key.escape)

@@ -6,9 +6,9 @@ import moderngl
 from imgui_bundle import imgui
 from window_driver import SIZE, Driver
 
-from app.camera_panel.view import CAMERA
-from app.host import layout
-from app.pair.view import RAY
+from app.cameras.camera_panel.view import CAMERA
+from app.images.pair.view import RAY
+from app.ui import layout
 from app.window.platform import set_size
 
 PROJECTIONS = ("perspective", "parallel")

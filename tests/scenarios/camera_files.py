@@ -11,13 +11,13 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import PATIENT_S, Driver, Key
 
-from app.widgets import theme
+from app.ui import theme
 from app.window import exporting
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, read_cameras, written
-from renderer.lenses import Lens
-from renderer.scene import load_scene
-from renderer.scene.cancelling import check_cancelled
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files import load_scene
+from renderer.files.cameras import PosedCamera, read_cameras, written
+from renderer.system.cancelling import check_cancelled
 
 CTRL = int(Key.mod_ctrl)
 PANEL = "//Camera"

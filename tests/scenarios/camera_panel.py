@@ -12,10 +12,10 @@ from window_driver import Driver, Key, changed
 from app.cameras.lens_choices import LENS_PRESETS
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
-from app.pair.options import PairOptions
-from app.widgets import typed
-from renderer.camera import Camera
-from renderer.lenses import Lens
+from app.images.pair.options import PairOptions
+from app.ui import typed
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
 
 SIZE = (400, 300)
 

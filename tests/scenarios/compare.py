@@ -10,14 +10,14 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import SIZE, Driver, Key
 
-from app.compare import comparing
-from app.compare.view import waiting
+from app.images.compare import comparing
+from app.images.compare.view import waiting
 from app.images.progressive_ray import RayImage
 from app.state.options import ImageOptions, Pixel
-from app.widgets.theme import framebuffer_scale
-from renderer.compare import LABEL_COLORS, SHADING, Comparison
-from renderer.difference import false_color, signed_difference
-from renderer.frame import Frame
+from app.ui.theme import framebuffer_scale
+from renderer.compare.raster_and_ray import LABEL_COLORS, SHADING, Comparison
+from renderer.images.difference import false_color, signed_difference
+from renderer.images.frame import Frame
 
 NAME = "Compare"
 WORST: Pixel = (40, 60)

@@ -11,13 +11,13 @@ from typing import Any
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Driver, Key, changed
 
-from app.widgets import folders, messages
-from app.widgets.folders import FolderContent
+from app.ui import folders, messages
+from app.ui.folders import FolderContent
 from app.window.palette_entries import entries
 from app.window.viewer import IDLE_FPS, WAITING_FPS
-from renderer.camera import Camera
-from renderer.scene import load_scene, save_view
-from renderer.scene_export import export_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene, save_view
+from renderer.files.export import export_scene
 
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 

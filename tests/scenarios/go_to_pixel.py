@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from window_driver import Driver, Key
 
-from app.pair.boxes import PIXEL_TITLE as TITLE
+from app.images.pair.boxes import PIXEL_TITLE as TITLE
 
 OPEN = int(Key.mod_ctrl) | int(Key.g)
 

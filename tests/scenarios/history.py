@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from window_driver import IMAGES, Driver, Key
 
-from app.pair.view import RASTER, RAY
+from app.images.pair.view import RASTER, RAY
 
 CTRL = int(Key.mod_ctrl)
 

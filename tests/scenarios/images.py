@@ -9,9 +9,9 @@ from imgui_bundle import hello_imgui, imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
 from window_driver import SIZE, Key
 
-from app.pair.view import RASTER, RAY
-from app.widgets.theme import framebuffer_scale
-from renderer.lenses import Lens
+from app.images.pair.view import RASTER, RAY
+from app.ui.theme import framebuffer_scale
+from renderer.camera.lenses import Lens
 from renderer.raster import Display
 
 

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 from views_in_turn import views_in_turn, with_content
 from window_driver import FRAME_S, Driver, Key
 
-from app.widgets import theme
+from app.ui import theme
 from app.window.menu_keys import BAR
 
 STEPS_BACK = 8  # to controls where Tab was before, one after another: it is round

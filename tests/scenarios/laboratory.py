@@ -7,9 +7,9 @@ import itertools
 from maximised import Maximised
 from window_driver import Driver
 
-from app.laboratory.pages import PAGES
-from app.laboratory.view import LaboratoryView
-from app.outside.figure import Label
+from app.instruments.laboratory.pages import PAGES
+from app.instruments.laboratory.view import LaboratoryView
+from app.instruments.outside.figure import Label
 
 ALONE = Maximised(LaboratoryView, "laboratory")
 

@@ -10,13 +10,12 @@ from imgui_bundle import hello_imgui, imgui
 from lecture_window import SMALL, give, item, lecture_of, number_of, shown
 from window_driver import SIZE, Driver, Key, changed
 
-from app.host import layout
 from app.lecture import view
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureReread, LectureSession
 from app.lecture.step_options import state_of
 from app.lecture.view import LECTURE
-from app.widgets import formula
+from app.ui import formula, layout
 
 
 def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:

@@ -11,14 +11,14 @@ from objects_window import handle_px
 from outside_window import place
 from window_driver import Driver, Key, changed
 
+from app.instruments.objects.choosing import chosen
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.view import OUTSIDE, OutsideView
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
-from app.objects.choosing import chosen
-from app.outside.options import OutsideOptions
-from app.outside.view import OUTSIDE, OutsideView
-from app.storage.kept_lecture import Judgement
-from renderer.camera import Camera
-from renderer.scene_editing.moving import bounds_of
+from app.state.kept_lecture import Judgement
+from renderer.camera.camera import Camera
+from renderer.editing.moving import bounds_of
 
 
 def _looking(d: Driver) -> Camera | None:

@@ -8,11 +8,11 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver, Key
 
-from app.host import layout
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.view import LECTURE, LectureView
-from app.storage.capture import Rect
-from app.widgets.theme import framebuffer_scale
+from app.ui import layout
+from app.ui.theme import framebuffer_scale
+from app.window.capture import Rect
 
 SPOILED = (1, 9, 21, 30)  # steps with images, without, and with a resolution
 JUMPS = (0, 37, 3, 29, 1, 22, 12, 21, 2, 19)

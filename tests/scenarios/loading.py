@@ -9,16 +9,16 @@ from pathlib import Path
 import numpy as np
 from window_driver import Driver, Key, changed
 
-from app.widgets.messages import SHOWN_AFTER_S
+from app.ui.messages import SHOWN_AFTER_S
 from app.window.files import Files
-from renderer.scene import subprocess_reader as apart
+from renderer.files.models import subprocess_reader as apart
 
 FRAMES = 40
 # Reads as the usual process does, once it may.
 PATIENT_READER = """
 import os, time
 from pathlib import Path
-from renderer.scene import subprocess_reader as apart
+from renderer.files.models import subprocess_reader as apart
 read = apart.read_model
 
 def wait(path):

@@ -9,10 +9,9 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from PIL import Image
 from window_driver import SIZE, Driver, Key
 
-from app.camera_panel.view import CAMERA
-from app.host import layout
-from app.pair.view import RASTER, RAY
-from app.widgets import theme
+from app.cameras.camera_panel.view import CAMERA
+from app.images.pair.view import RASTER, RAY
+from app.ui import layout, theme
 from app.window.platform import begin_letters, lock_letters
 
 SIDE = layout.LAYOUTS[0].name

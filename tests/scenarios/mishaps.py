@@ -8,7 +8,7 @@ from typing import Any
 import moderngl
 from window_driver import Driver
 
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 
 def is_told(d: Driver) -> bool:

@@ -6,11 +6,11 @@ import numpy as np
 from maximised import Maximised
 from window_driver import Driver, Key, changed
 
-from app.mistakes import model
-from app.mistakes import question as quiz
-from app.mistakes.options import MistakesOptions
-from app.mistakes.view import MISTAKES, MistakesView
-from app.outside.view import OUTSIDE, OutsideView
+from app.instruments.mistakes import model
+from app.instruments.mistakes import question as quiz
+from app.instruments.mistakes.options import MistakesOptions
+from app.instruments.mistakes.view import MISTAKES, MistakesView
+from app.instruments.outside.view import OUTSIDE, OutsideView
 
 ALONE = Maximised(MistakesView, "mistakes")
 SHIFT = int(Key.mod_shift)

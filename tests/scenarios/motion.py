@@ -10,15 +10,15 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import Driver
 
-from app.compare.view import CompareView
-from app.host.view import DockedView
 from app.images import renderers as module
+from app.images.compare.view import CompareView
 from app.images.live_raster import LiveRaster
+from app.images.pair.view import RASTER, RAY
 from app.images.request import ImageRequest
-from app.pair.view import RASTER, RAY
-from app.widgets.surface import Target
-from renderer.coarseness import Coarseness
-from renderer.navigation import moved
+from app.ui.surface import Target
+from app.ui.view import DockedView
+from renderer.camera.navigation import moved
+from renderer.images.coarseness import Coarseness
 
 
 def live_raster(d: Driver) -> LiveRaster:

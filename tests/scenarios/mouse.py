@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from window_driver import Driver, Key, changed
 
-from app.pair.view import RASTER, RAY
+from app.images.pair.view import RASTER, RAY
 
 SIZE = (400, 300)  # to project with
 

@@ -18,13 +18,13 @@ from objects_window import (
 )
 from window_driver import RASTER, RAY, Driver, Key
 
-from app.objects.choosing import choose, chosen, rows_of
-from app.objects.in_views import CHOSEN
-from app.objects.options import ObjectsOptions
-from app.objects.view import InspectorView
-from app.outside.view import OUTSIDE
+from app.instruments.objects.choosing import choose, chosen, rows_of
+from app.instruments.objects.in_views import CHOSEN
+from app.instruments.objects.options import ObjectsOptions
+from app.instruments.objects.view import InspectorView
+from app.instruments.outside.view import OUTSIDE
 from app.state.app_state import History
-from renderer.scene_editing import objects
+from renderer.editing import objects
 
 # Choosing.
 

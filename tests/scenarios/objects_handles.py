@@ -15,10 +15,10 @@ from objects_window import (
 )
 from window_driver import RASTER, Driver, Key
 
-from app.objects.choosing import choose
-from app.outside.view import OUTSIDE
-from renderer.scene_editing.changing import fields_of
-from renderer.scene_editing.moving import bounds_of
+from app.instruments.objects.choosing import choose
+from app.instruments.outside.view import OUTSIDE
+from renderer.editing.changing import fields_of
+from renderer.editing.moving import bounds_of
 
 
 def drive_handles_move_in_the_images_and_outside(d: Driver) -> None:

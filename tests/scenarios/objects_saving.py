@@ -12,13 +12,13 @@ from objects_window import (
 )
 from window_driver import Driver, Key
 
-from app.objects.choosing import chosen
-from app.objects.editing import with_scene
+from app.instruments.objects.choosing import chosen
+from app.instruments.objects.editing import with_scene
 from app.window import dropping
 from app.window.scene_saving import title
-from renderer.scene import load_scene
-from renderer.scene_editing.changing import set_field
-from renderer.scene_editing.documents import is_unsaved
+from renderer.editing.changing import set_field
+from renderer.editing.documents import is_unsaved
+from renderer.files import load_scene
 
 # Saving.
 

@@ -11,15 +11,15 @@ from imgui_bundle.imguizmo import im_guizmo
 from outside_window import enter, place, press, scope, strokes, view
 from window_driver import Driver, Key
 
-from app.outside import gizmo as outside_gizmo
-from app.outside import tint as outside_tint
-from app.outside import view as outside
-from app.outside.frustum import plane_corners
-from app.outside.gizmo import LENGTH
-from app.outside.paint import ground_of
-from app.outside.view import OUTSIDE
-from app.widgets import theme
-from renderer.camera import Camera
+from app.instruments.outside import gizmo as outside_gizmo
+from app.instruments.outside import tint as outside_tint
+from app.instruments.outside import view as outside
+from app.instruments.outside.frustum import plane_corners
+from app.instruments.outside.gizmo import LENGTH
+from app.instruments.outside.paint import ground_of
+from app.instruments.outside.view import OUTSIDE
+from app.ui import theme
+from renderer.camera.camera import Camera
 from renderer.scene.model import Sphere
 
 

@@ -8,9 +8,9 @@ from outside_window import empty_place, enter, press, scope, view
 from window_driver import Driver, Key
 
 from app.cameras.travel import DURATION_S
-from app.outside.ground import Ground
-from app.outside.projected import Strokes
-from app.outside.view import OUTSIDE
+from app.instruments.outside.ground import Ground
+from app.instruments.outside.projected import Strokes
+from app.instruments.outside.view import OUTSIDE
 
 
 def ground(d: Driver) -> Ground:

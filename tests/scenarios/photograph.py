@@ -10,15 +10,15 @@ import numpy as np
 from PIL import Image
 from window_driver import SIZE, Driver, Key
 
+from app.images.pair.view import RasterView
+from app.images.photograph.actions import PHOTOGRAPH
+from app.images.photograph.layer import PhotographLayer
+from app.images.photograph.model import closed
+from app.images.photograph.panel import UNDISTORT
 from app.images.renderers import Renderers
-from app.pair.view import RasterView
-from app.photograph.actions import PHOTOGRAPH
-from app.photograph.layer import PhotographLayer
-from app.photograph.model import closed
-from app.photograph.panel import UNDISTORT
 from app.state.app_state import AppState
-from app.storage.paths import restored
-from renderer.lenses import Lens
+from app.state.paths import restored
+from renderer.camera.lenses import Lens
 
 
 def layer(d: Driver) -> PhotographLayer:

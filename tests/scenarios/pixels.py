@@ -6,8 +6,8 @@ import numpy as np
 from shown_pixels import ALT, SHIFT, choose, magnified, placement, without_overlays
 from window_driver import Driver, Key
 
-from app.pair.view import RASTER, RAY
-from app.widgets.theme import framebuffer_scale
+from app.images.pair.view import RASTER, RAY
+from app.ui.theme import framebuffer_scale
 
 
 def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:

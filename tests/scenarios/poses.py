@@ -12,16 +12,16 @@ from outside_window import view as outside_view
 from PIL import Image
 from window_driver import RASTER, Driver, Key, changed
 
-from app.host import layout
-from app.objects.options import ObjectsOptions
-from app.pair.view import RasterView
-from app.photograph.options import PhotographOptions
-from app.poses.model import PoseSet, frusta
-from app.poses.photographs import photo_path
-from app.poses.view import POSES, PosesView
-from app.storage.paths import restored
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, written
+from app.images.pair.view import RasterView
+from app.images.photograph.options import PhotographOptions
+from app.instruments.objects.options import ObjectsOptions
+from app.instruments.poses.model import PoseSet, frusta
+from app.instruments.poses.photographs import photo_path
+from app.instruments.poses.view import POSES, PosesView
+from app.state.paths import restored
+from app.ui import layout
+from renderer.camera.camera import Camera
+from renderer.files.cameras import PosedCamera, written
 
 WINDOW = f"//###{POSES}"
 COUNT = 12

@@ -6,12 +6,11 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import RASTER, Driver, Key
 
-from app.host import layout
-from app.outside.projected import Strokes
-from app.outside.view import OUTSIDE, OutsideView
-from app.probe.reading import Reading
-from app.probe.view import PROBE, ProbeView
-from app.widgets import formula
+from app.instruments.outside.projected import Strokes
+from app.instruments.outside.view import OUTSIDE, OutsideView
+from app.instruments.probe.reading import Reading
+from app.instruments.probe.view import PROBE, ProbeView
+from app.ui import formula, layout
 from renderer.images.display import to_srgb8
 
 WINDOW = f"//###{PROBE}"

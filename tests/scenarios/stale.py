@@ -6,10 +6,10 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
-from app.pair.view import RASTER, RAY
+from app.images.pair.view import RASTER, RAY
 from app.state.app_state import History
-from app.storage.session import from_bytes, session_of, to_bytes
-from renderer.navigation import orbited
+from app.state.session import from_bytes, session_of, to_bytes
+from renderer.camera.navigation import orbited
 
 COMPARE = "Compare"
 

@@ -6,12 +6,12 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import Driver, Key
 
-from app.host import layout
-from app.outside.projected import Strokes
-from app.outside.view import OUTSIDE, OutsideView
-from app.stepper.model import Moment
-from app.stepper.recording import Order
-from app.stepper.view import STEPPER, StepperView
+from app.instruments.outside.projected import Strokes
+from app.instruments.outside.view import OUTSIDE, OutsideView
+from app.instruments.stepper.model import Moment
+from app.instruments.stepper.recording import Order
+from app.instruments.stepper.view import STEPPER, StepperView
+from app.ui import layout
 from app.window.palette_entries import entries
 from app.window.shortcut_sheet import sections
 

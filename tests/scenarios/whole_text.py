@@ -11,7 +11,7 @@ from imgui_bundle import hello_imgui, imgui
 from views_in_turn import views_in_turn, with_content
 from window_driver import Driver, Key
 
-from app.host import layout
+from app.ui import layout
 
 SIZES, LARGEST = ((1080, 1920), (1024, 768)), 2.0
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")

@@ -13,12 +13,12 @@ from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver, Key
 
 from app.checking.calls import Limits
-from app.host import layout
-from app.host.view import view_of
-from app.outside.view import OutsideView
-from app.storage.paths import stored
-from app.your_code import model, panel
-from app.your_code.view import YOUR_CODE, YourCodeView
+from app.checking.your_code import model, panel
+from app.checking.your_code.view import YOUR_CODE, YourCodeView
+from app.instruments.outside.view import OutsideView
+from app.state.paths import stored
+from app.ui import layout
+from app.ui.view import view_of
 
 WINDOW = f"//###{YOUR_CODE}"
 RIGHT = """\

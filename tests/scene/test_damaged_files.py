@@ -11,9 +11,10 @@ import pytest
 from test_gltf_hostile import IN_CHUNK, TREE, glb
 from test_scene_hostile import BINARY, BINARY_POINTS, FACET, POINTS, TRIANGLE, ply, stl, write
 
-from renderer.errors import LucidaError
-from renderer.scene import flatten, load_scene
+from renderer.files import load_scene
+from renderer.scene import flatten
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
 
 SOUND: dict[str, bytes] = {
     "obj": (TRIANGLE + "vn 0 0 1\nvt 0 0\no a\nf 1/1/1 2/1/1 3/1/1\n").encode(),

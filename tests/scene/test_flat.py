@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from textured import noise
 
-from renderer.errors import LucidaError
 from renderer.scene.flat import flatten, same_meshes, same_places
 from renderer.scene.flat_textures import on_sphere
 from renderer.scene.metal import Metal
@@ -23,6 +22,7 @@ from renderer.scene.model import (
 from renderer.scene.positions import lights_from, near_point, world_corners, world_vertices
 from renderer.scene.shapes import placement
 from renderer.scene.texture import WRAPS, Texture, packed_texels
+from renderer.system.errors import LucidaError
 
 TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 

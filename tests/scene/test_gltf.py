@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from test_models import corners, mesh_of, write
 
 from app.cli import main
-from renderer.errors import LucidaError
-from renderer.scene import Material, flatten, framing, load_scene
+from renderer.files import load_scene
+from renderer.scene import Material, flatten, framing
 from renderer.scene.metal import METAL_DIFFUSE
+from renderer.system.errors import LucidaError
 
 
 def test_gltf_instances_stand_where_their_nodes_put_them(tmp_path: Path) -> None:

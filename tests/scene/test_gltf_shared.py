@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from gltf_files import gltf, load_gltf
 
-from renderer.errors import LucidaError
-from renderer.scene.cancelling import cancelled_by
+from renderer.system.cancelling import cancelled_by
+from renderer.system.errors import LucidaError
 
 
 def shared(
@@ -34,7 +34,7 @@ FACES = [np.array([[0, 1, 2]]), np.array([[1, 3, 2], [0, 1, 4]])]
 
 
 def test_one_buffer_shown_a_thousand_times_is_built_once(tmp_path: Path, monkeypatch) -> None:
-    from renderer.scene import models
+    from renderer.files.models import models
 
     built = []
     build = models.build_mesh
@@ -53,7 +53,7 @@ def test_primitives_of_one_list_of_vertices_have_only_their_own(tmp_path: Path) 
 
 
 def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> None:
-    from renderer.scene import models
+    from renderer.files.models import models
 
     build, built = models.build_mesh, []
     monkeypatch.setattr(models, "build_mesh", lambda part: built.append(part) or build(part))
@@ -70,7 +70,7 @@ def test_reading_is_left_between_two_primitives(tmp_path: Path, monkeypatch) -> 
 def test_what_is_too_much_is_refused_before_it_is_read(tmp_path: Path, monkeypatch) -> None:
     tree = shared(CORNERS, FACES[:1] * 4, instances=3)
     load_gltf(tree, tmp_path)
-    monkeypatch.setattr("renderer.scene.gltf.TRIANGLES", 11)
-    monkeypatch.setattr("renderer.scene.gltf_file.OpenGltf.view", None)
+    monkeypatch.setattr("renderer.files.models.gltf.TRIANGLES", 11)
+    monkeypatch.setattr("renderer.files.models.gltf_file.OpenGltf.view", None)
     with pytest.raises(LucidaError, match="has 12 triangles; stay within 11"):
         load_gltf(tree, tmp_path)

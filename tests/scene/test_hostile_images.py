@@ -11,13 +11,13 @@ import pytest
 from PIL import Image
 from textured import noise
 
-from renderer.errors import LucidaError
+from renderer.files.texture_images import FoundImage, ModelImages, decode_image, inner_path
 from renderer.raster.tables import TABLE_WIDTH
 from renderer.scene.flat import flatten
-from renderer.scene.images import FoundImage, ModelImages, decode_image, inner_path
 from renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE
 from renderer.scene.model import Material, Scene, SceneObject, Sphere
 from renderer.scene.texture import Texture
+from renderer.system.errors import LucidaError
 
 USUAL_SIDE = 16384  # GL_MAX_TEXTURE_SIZE of graphics cards, and of Mesa's software
 
@@ -106,7 +106,7 @@ def test_too_many_texels_for_one_scene(monkeypatch) -> None:
 
 
 def test_the_images_of_a_model_are_counted_together_and_each_once(monkeypatch) -> None:
-    monkeypatch.setattr("renderer.scene.images.TEXELS", 100)
+    monkeypatch.setattr("renderer.files.texture_images.TEXELS", 100)
     images = ModelImages()
 
     def shown(name: str, side: int) -> bool:

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from test_models import TRIANGLE, load_one, write
 
+from renderer.files.models.parts import Part, build_mesh
 from renderer.scene import Mesh, normals, shapes
 from renderer.scene.normals import face_normals, merge_positions
-from renderer.scene.parts import Part, build_mesh
 
 # Normals and repair.
 

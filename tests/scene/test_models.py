@@ -11,13 +11,14 @@ import pytest
 import trimesh
 from numpy.typing import ArrayLike
 
-from renderer.errors import LucidaError
-from renderer.scene import Mesh, SceneObject, framing, load_scene, shapes
-from renderer.scene.models import load_model
+from renderer.files import load_scene
+from renderer.files.models.models import load_model
+from renderer.files.models.parts import Part, build_mesh, linear_colors
+from renderer.files.models.polygons import triangulated
+from renderer.files.models.texts import tidy
+from renderer.scene import Mesh, SceneObject, framing, shapes
 from renderer.scene.normals import merge_positions
-from renderer.scene.parts import Part, build_mesh, linear_colors
-from renderer.scene.polygons import triangulated
-from renderer.scene.texts import tidy
+from renderer.system.errors import LucidaError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 OBJ_TRIANGLE = f"{TRIANGLE}f 1 2 3\n"

@@ -16,14 +16,14 @@ import pytest
 
 from app.window.files import Files
 from app.window.opening import Opened
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
-from renderer.scene import subprocess_reader as apart
+from renderer.files import load_scene
+from renderer.files.models import subprocess_reader as apart
+from renderer.files.models.models import read_by, read_model
+from renderer.files.models.subprocess_reader import CancelledError, ModelReader, is_large
 from renderer.scene.model import Mesh, SceneObject
-from renderer.scene.models import read_by, read_model
-from renderer.scene.packing import read_value, write_value
-from renderer.scene.subprocess_reader import CancelledError, ModelReader, is_large
 from renderer.scene.texture import is_final
+from renderer.system.errors import LucidaError
+from renderer.system.pipe import read_value, write_value
 
 PATIENT_S = 120.0
 ROOT = Path(__file__).parents[2]
@@ -252,7 +252,7 @@ def test_a_killed_parent_takes_the_process_with_it(tmp_path: Path):
     os.mkfifo(alive)
     written(
         tmp_path / "other_reader.py",
-        "import time\nfrom renderer.child import end_with_parent\n"
+        "import time\nfrom renderer.system.child import end_with_parent\n"
         "def main(path):\n"
         "    end_with_parent()\n"
         f"    held = open({str(alive)!r}, 'w')\n"
@@ -264,7 +264,7 @@ def test_a_killed_parent_takes_the_process_with_it(tmp_path: Path):
         [
             sys.executable, "-c",
             "from pathlib import Path\n"
-            "from renderer.scene import subprocess_reader as apart\n"
+            "from renderer.files.models import subprocess_reader as apart\n"
             "start = apart.start_child\n"
             "apart.is_large = lambda path: True\n"
             "apart.start_child = lambda python, module, *a, output: "

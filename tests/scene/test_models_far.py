@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from gltf_files import gltf, load_gltf
 
-from renderer.scene import Mesh, SceneObject, framing, load_scene, save_scene, shapes
-from renderer.scene.apart import MOST, parts_apart
-from renderer.scene.images import ModelImages
-from renderer.scene.models import load_model
-from renderer.scene.parts import Part, build_mesh
+from renderer.files import load_scene, save_scene
+from renderer.files.models.apart import MOST, parts_apart
+from renderer.files.models.models import load_model
+from renderer.files.models.parts import Part, build_mesh
+from renderer.files.texture_images import ModelImages
+from renderer.scene import Mesh, SceneObject, framing, shapes
 
 AT = np.array([4_512_345.671875, 215.25, -5_400_123.53125])  # metres; exact in binary
 TORUS = shapes.torus(0.5, 0.2, 24, 12)

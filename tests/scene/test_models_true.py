@@ -13,10 +13,11 @@ import pytest
 from gltf_files import gltf, load_gltf
 from PIL import Image
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import DirectionalLight, PointLight, Scene, framing, load_scene
-from renderer.scene_export import export_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.files.export import export_scene
+from renderer.scene import DirectionalLight, PointLight, Scene, framing
+from renderer.system.errors import LucidaError
 
 SQUARE = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
 

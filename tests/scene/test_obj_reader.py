@@ -14,10 +14,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from renderer.scene import numerals, polygons
-from renderer.scene.images import ModelImages
-from renderer.scene.obj import read_obj
-from renderer.scene.parts import Part
+from renderer.files.models import numerals, polygons
+from renderer.files.models.obj import read_obj
+from renderer.files.models.parts import Part
+from renderer.files.texture_images import ModelImages
 
 Triangles = list[tuple[Any, ...]]
 
@@ -160,7 +160,7 @@ def test_what_is_no_number_is_refused(wrong: str) -> None:
 def test_an_obj_needs_no_trimesh(tmp_path: Path) -> None:
     (tmp_path / "x.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     code = (
-        "import sys; from renderer.scene import load_scene; load_scene(sys.argv[1]);"
+        "import sys; from renderer.files import load_scene; load_scene(sys.argv[1]);"
         "sys.exit(any(name in sys.modules for name in ('trimesh', 'PIL', 'scipy')))"
     )
     assert subprocess.run([sys.executable, "-c", code, str(tmp_path / "x.obj")]).returncode == 0

@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.files.scene_file import scene_from_toml
+from renderer.files.scene_parts import SceneParts
 from renderer.scene import (
     Checker,
     DirectionalLight,
@@ -19,12 +21,10 @@ from renderer.scene import (
     View,
     flatten,
     framing,
-    load_scene,
 )
-from renderer.scene.cancelling import cancelled_by
-from renderer.scene.files import scene_from_toml
 from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.scene_parts import SceneParts
+from renderer.system.cancelling import cancelled_by
+from renderer.system.errors import LucidaError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 BALL = '[[objects]]\ntype = "sphere"\n'
@@ -241,7 +241,7 @@ def test_hostile_text_is_refused_in_bounded_time(text: str, message: str) -> Non
 
 
 def test_the_triangles_of_a_scene_are_counted_before_all_are_made(monkeypatch) -> None:
-    monkeypatch.setattr("renderer.scene.files.TRIANGLES", 30)
+    monkeypatch.setattr("renderer.files.scene_file.TRIANGLES", 30)
     monkeypatch.setattr(SceneParts, "mesh", None)
     with pytest.raises(LucidaError, match=r"objects: holds 12000 triangles; give at most 30"):
         scene("objects = [" + "{type = 'box'}," * 1000 + "]")
@@ -262,7 +262,7 @@ def test_a_few_lines_that_make_millions_of_triangles_are_refused_unbuilt(
     each = len(scene(f"objects = [{HEAVY[name]}]").objects[0].shape.faces)
     count = TRIANGLES // each + 1
     if count > OBJECTS:
-        monkeypatch.setattr("renderer.scene.files.OBJECTS", count)
+        monkeypatch.setattr("renderer.files.scene_file.OBJECTS", count)
     monkeypatch.setattr(SceneParts, "mesh", None)
     with pytest.raises(LucidaError) as caught:
         scene(f"objects = [{HEAVY[name] * count}]")
@@ -272,7 +272,7 @@ def test_a_few_lines_that_make_millions_of_triangles_are_refused_unbuilt(
 
 def test_copies_of_a_model_are_counted(tmp_path: Path, monkeypatch) -> None:
     (tmp_path / "t.obj").write_text(TRIANGLE)
-    monkeypatch.setattr("renderer.scene.files.TRIANGLES", 10)
+    monkeypatch.setattr("renderer.files.scene_file.TRIANGLES", 10)
     table = "[[objects]]\ntype = 'model'\nfile = 't.obj'\n"
     (tmp_path / "a.toml").write_text(table * 10)
     assert len(load_scene(tmp_path / "a.toml").objects) == 10

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from renderer.errors import LucidaError
-from renderer.scene import Mesh, load_scene, load_view
+from renderer.files import load_scene, load_view
+from renderer.scene import Mesh
+from renderer.system.errors import LucidaError
 
 ENDINGS = ("obj", "ply", "stl", "off", "glb", "gltf", "toml")
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 from random_edits import check_same
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import check_size
+from renderer.camera.camera import Camera
+from renderer.files import BUILTIN_SCENES, load_scene, save_scene
+from renderer.images.frame import check_size
 from renderer.scene import (
-    BUILTIN_SCENES,
     Checker,
     DirectionalLight,
     Material,
@@ -23,10 +22,9 @@ from renderer.scene import (
     SceneObject,
     Sphere,
     View,
-    load_scene,
-    save_scene,
     shapes,
 )
+from renderer.system.errors import LucidaError
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from renderer.errors import LucidaError
 from renderer.scene import Mesh, shapes
 from renderer.scene.normals import face_normals, merge_positions
+from renderer.system.errors import LucidaError
 
 CLOSED = {
     "box": (shapes.box((1, 2, 3)), 6.0, 2),

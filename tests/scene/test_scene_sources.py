@@ -14,17 +14,11 @@ from test_scene_files import BALL, TRIANGLE, scene
 
 from app.checking.task_file import load_tasks
 from app.lecture.reading import load_lecture
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import (
-    BUILTIN_SCENES,
-    Mesh,
-    Sphere,
-    View,
-    flatten,
-    load_scene,
-)
-from renderer.scene.reading import read_file
+from renderer.camera.camera import Camera
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.files.reading import read_file
+from renderer.scene import Mesh, Sphere, View, flatten
+from renderer.system.errors import LucidaError
 
 # Built-in scenes.
 

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import View, load_view, save_view, view_from_toml, view_to_toml
+from renderer.camera.camera import Camera
+from renderer.files import load_view, save_view, view_from_toml, view_to_toml
+from renderer.scene import View
+from renderer.system.errors import LucidaError
 
 numbers = st.floats(-1e12, 1e12, allow_nan=False)
 parts = st.floats(-1.0, 1.0)

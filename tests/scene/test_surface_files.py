@@ -12,20 +12,16 @@ import pytest
 from gltf_files import CORNERS
 from textured import noise, png, saved
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import load_scene, save_scene
+from renderer.camera.camera import Camera
+from renderer.editing.changing import table_of
+from renderer.editing.materials import own_material, set_material, set_single_sided
+from renderer.editing.outline import outline
+from renderer.files import load_scene, save_scene
+from renderer.files.export import export_scene
 from renderer.scene.flat import flatten
 from renderer.scene.metal import METAL_DIFFUSE
 from renderer.scene.model import Scene
-from renderer.scene_editing.changing import table_of
-from renderer.scene_editing.materials import (
-    own_material,
-    set_material,
-    set_single_sided,
-)
-from renderer.scene_editing.outline import outline
-from renderer.scene_export import export_scene
+from renderer.system.errors import LucidaError
 
 PLACES = np.array([[0, 0], [1, 0], [0, 1]], "<f4")
 RGBA = np.concatenate([noise(4, 4), noise(4, 4, 7)[..., :1]], axis=2)

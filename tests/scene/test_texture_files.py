@@ -12,15 +12,15 @@ import pytest
 from gltf_files import CORNERS
 from textured import noise, png, saved, slopes
 
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.editing.changing import set_field
+from renderer.editing.outline import outline
+from renderer.files import load_scene
+from renderer.files.models.repairs import repairs
+from renderer.files.oddities import oddities
+from renderer.files.saving import save_scene
 from renderer.scene.model import Material, Mesh, Scene, SceneObject, Sphere
-from renderer.scene.repairs import repairs
-from renderer.scene.saving import save_scene
 from renderer.scene.texture import Texture
-from renderer.scene_checks import oddities
-from renderer.scene_editing.changing import set_field
-from renderer.scene_editing.outline import outline
+from renderer.system.errors import LucidaError
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
 PLACES = np.array([(0, 0), (1, 0), (0, 0.25)], "<f4")
@@ -268,9 +268,9 @@ def test_the_images_of_a_scene_file_are_counted(tmp_path: Path, monkeypatch) -> 
     for name in "abc":
         saved(tmp_path, f"{name}.png", slopes(2, 2))
     materials = "\n".join(f"[materials.{name}]\ntexture = '{name}.png'" for name in "ab")
-    monkeypatch.setattr("renderer.scene.scene_images.TEXTURES", 3)
+    monkeypatch.setattr("renderer.files.scene_images.TEXTURES", 3)
     assert scene_file(tmp_path, f"texture = 'a.png'\n{materials}\n").objects
-    monkeypatch.setattr("renderer.scene.scene_images.TEXTURES", 2)
+    monkeypatch.setattr("renderer.files.scene_images.TEXTURES", 2)
     with pytest.raises(LucidaError, match=r"\.texture: the scene has more than 2 images"):
         scene_file(tmp_path, f"texture = 'c.png'\n{materials}\n")
 

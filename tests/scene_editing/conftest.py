@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from random_edits import SCENE, TENT
 
-from renderer.scene import Scene, load_scene
+from renderer.files import load_scene
+from renderer.scene import Scene
 
 
 @pytest.fixture

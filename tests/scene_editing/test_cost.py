@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from renderer import Rasterizer
+from renderer.editing import changing, objects
+from renderer.editing.moving import transform
+from renderer.editing.outline import outline
+from renderer.files import load_scene
+from renderer.files.models import models
 from renderer.raster.tables import TABLE_WIDTH, Table
-from renderer.scene import Sphere, flatten, load_scene, models
+from renderer.scene import Sphere, flatten
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, objects
-from renderer.scene_editing.moving import transform
-from renderer.scene_editing.outline import outline
 from renderer.trace.bvh import instances
 from renderer.trace.threads.thread_pool import Team
 

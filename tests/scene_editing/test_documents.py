@@ -9,16 +9,17 @@ from pathlib import Path
 import pytest
 from random_edits import SCENE, TENT
 
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
-from renderer.scene import Scene, SceneObject, load_scene, rewriting, save_scene, shapes
+from renderer.camera.lenses import Lens
+from renderer.editing import changing, documents, objects
+from renderer.editing.changing import set_field
+from renderer.editing.documents import ChangedOnDiskError, is_unsaved, save
+from renderer.editing.moving import transform
+from renderer.editing.outline import outline
+from renderer.files import load_scene, rewriting, save_scene
+from renderer.scene import Scene, SceneObject, shapes
 from renderer.scene.framing import framing_view
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, documents, objects
-from renderer.scene_editing.changing import set_field
-from renderer.scene_editing.documents import ChangedOnDiskError, is_unsaved, save
-from renderer.scene_editing.moving import transform
-from renderer.scene_editing.outline import outline
+from renderer.system.errors import LucidaError
 
 
 @pytest.fixture

@@ -7,13 +7,14 @@ import pytest
 from random_edits import TENT, item, table
 
 from renderer import Rasterizer, Tracer
-from renderer.black import why_nothing_is_hit
-from renderer.errors import LucidaError
-from renderer.scene import flatten, load_scene
+from renderer.compare.why_black import why_nothing_is_hit
+from renderer.editing import changing, materials, moving, objects
+from renderer.editing.outline import outline
+from renderer.files import load_scene
+from renderer.scene import flatten
 from renderer.scene.model import Scene
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, materials, moving, objects
-from renderer.scene_editing.outline import outline
+from renderer.system.errors import LucidaError
 
 
 def names(scene):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from random_edits import item, stretched, table
 
-from renderer.errors import LucidaError
+from renderer.editing import changing, moving
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, moving
+from renderer.system.errors import LucidaError
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -6,11 +6,11 @@ import pytest
 from random_edits import TENT
 from textured import noise, saved
 
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
-from renderer.scene_editing import changing
-from renderer.scene_editing.documents import ChangedOnDiskError, file_of, save
-from renderer.scene_editing.outline import outline
+from renderer.editing import changing
+from renderer.editing.documents import ChangedOnDiskError, file_of, save
+from renderer.editing.outline import outline
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 TEXT = """\
 [materials.tiles]

@@ -8,13 +8,14 @@ import pytest
 from random_edits import EDITS, SCENE, TENT, check_same, edited
 
 from renderer import Rasterizer, Tracer
-from renderer.camera import Camera
-from renderer.compare import CHANNELS, compare_frames
-from renderer.scene import Scene, flatten, load_scene
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from renderer.editing import changing, documents, objects
+from renderer.editing.moving import transform
+from renderer.files import load_scene
+from renderer.scene import Scene, flatten
 from renderer.scene.model import View
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, documents, objects
-from renderer.scene_editing.moving import transform
 
 SIZE = (24, 16)
 SEQUENCES, EDITS_EACH = 200, 4

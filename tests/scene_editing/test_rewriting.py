@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from renderer.scene.rewriting import rewritten
-from renderer.scene.tables import parse_toml
+from renderer.files.rewriting import rewritten
+from renderer.files.tables import parse_toml
 
 
 def attempt(text, change, drop=(), order=None):

@@ -14,12 +14,13 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from renderer.camera import Camera
-from renderer.scene import Scene, flatten, load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.files.export import export_scene
+from renderer.files.export.gltf_scene import glb_of
+from renderer.scene import Scene, flatten
 from renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject
 from renderer.scene.texture import WRAPS, Texture
-from renderer.scene_export import export_scene
-from renderer.scene_export.gltf_scene import glb_of
 
 SIZE = (12, 8)
 CAMERA = Camera.look_at((3, 2, 6), (0, 0, 0), fov_y_deg=40, aspect=1.5)

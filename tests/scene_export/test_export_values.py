@@ -11,6 +11,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from test_company import CAMERA, SIZE, objects, scene_of
 
+from renderer.files.export.gltf_scene import glb_of
 from renderer.scene import Scene, shapes
 from renderer.scene.model import (
     Checker,
@@ -21,7 +22,6 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
-from renderer.scene_export.gltf_scene import glb_of
 
 BLACK = (0.0, 0.0, 0.0)
 SUN = DirectionalLight((-1, -2, -3), (0.5, 0.25, 1.0))

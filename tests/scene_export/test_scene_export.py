@@ -10,16 +10,17 @@ import numpy as np
 import pytest
 from scenes import crowd
 
-from renderer.camera import Camera
-from renderer.camera_formats import read_cameras
-from renderer.errors import LucidaError
-from renderer.scene import BUILTIN_SCENES, Scene, load_scene, shapes
-from renderer.scene.cancelling import cancelled_by
+from renderer.camera.camera import Camera
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.files.cameras import read_cameras
+from renderer.files.export import export_scene
+from renderer.files.export.checkers import with_checker_uv
+from renderer.files.export.meshes import arrays_of, unit_sphere, wound
+from renderer.files.models.subprocess_reader import CancelledError
+from renderer.scene import Scene, shapes
 from renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject
-from renderer.scene.subprocess_reader import CancelledError
-from renderer.scene_export import export_scene
-from renderer.scene_export.checkers import with_checker_uv
-from renderer.scene_export.meshes import arrays_of, unit_sphere, wound
+from renderer.system.cancelling import cancelled_by
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 SIZE = (96, 54)

@@ -9,23 +9,24 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
 
-from app.compare.options import CompareOptions
+from app.images.compare.options import CompareOptions
 from app.images.placement import STEPS
-from app.laboratory.options import LaboratoryOptions
+from app.instruments.laboratory.options import LaboratoryOptions
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.probe.options import ProbeOptions
+from app.instruments.stepper.options import StepperOptions
 from app.lecture.step_options import options_from_table
-from app.outside.options import OutsideOptions
-from app.probe.options import ProbeOptions
 from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
 from app.state.options import Bookmark, ImageOptions, Preferences
-from app.stepper.options import StepperOptions
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.actions import FONT_SCALES
 from app.window.bookmarks import NUMBERS
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import View, load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene import View
+from renderer.system.errors import LucidaError
 
 # part, field, value, where the error is, what it says
 WRONG: list[tuple[str, str, Any, str, str]] = [

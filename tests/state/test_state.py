@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 
 from app.cameras.basis import with_component, with_vector
 from app.cameras.editing import Draft, edit_component, edit_field
-from app.outside.options import OutsideOptions
+from app.instruments.outside.options import OutsideOptions
 from app.state.all_options import KINDS
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from app.state.changes import change
-from renderer.camera import Camera
-from renderer.scene import View, load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene import View
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 SCENE = Scene((SceneObject(Sphere()),), view=View(Camera(eye=(0, 0, 5)), fit=True))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.stepper.loop_parts import Model
-from app.stepper.model import Moment, moment_at
-from app.stepper.recording import Order, Recording
-from renderer.camera import Camera
+from app.instruments.stepper.loop_parts import Model
+from app.instruments.stepper.model import Moment, moment_at
+from app.instruments.stepper.recording import Order, Recording
+from renderer.camera.camera import Camera
 from renderer.scene import shapes
 from renderer.scene.model import Material, PointLight, Scene, SceneObject, Sphere
 

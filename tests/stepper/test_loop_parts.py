@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from recorded_runs import TWO_BALLS
 
-from app.stepper.loop_parts import Model, meets_box
+from app.instruments.stepper.loop_parts import Model, meets_box
 from renderer.scene import shapes
 from renderer.scene.model import Scene, SceneObject
 

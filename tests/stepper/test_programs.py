@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 from recorded_runs import TWO_BALLS, cameras
 
-from app.explaining.languages import julia
-from app.stepper.loop_parts import Model, ViewingRay, color_at, intersect
-from app.stepper.loops import image_order
-from app.stepper.programs import (
+from app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
+from app.instruments.stepper.loops import image_order
+from app.instruments.stepper.programs import (
     IMAGE_ORDER,
     OBJECT_ORDER,
     RAY_TRACING,
@@ -24,10 +23,11 @@ from app.stepper.programs import (
     run_part,
     whole_program,
 )
-from app.stepper.source import shown_lines
-from renderer.camera import Camera
-from renderer.pixels import Indexing
-from renderer.scene import load_scene
+from app.instruments.stepper.source import shown_lines
+from app.ui.explaining.languages import julia
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.images.pixels import Indexing
 from renderer.scene.model import Scene
 
 SIZE = (8, 6)

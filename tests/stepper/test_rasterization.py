@@ -11,11 +11,11 @@ import pytest
 from recorded_runs import TWO_BOXES, last, recorded
 from textured import noise, wall
 
-from app.stepper import model as stepper
-from app.stepper.loop_parts import Model
-from app.stepper.loops import image_order, rasterization
-from app.stepper.model import moment_at
-from app.stepper.raster_parts import (
+from app.instruments.stepper import model as stepper
+from app.instruments.stepper.loop_parts import Model
+from app.instruments.stepper.loops import image_order, rasterization
+from app.instruments.stepper.model import moment_at
+from app.instruments.stepper.raster_parts import (
     WHOLE,
     Corner,
     box_around,
@@ -25,8 +25,8 @@ from app.stepper.raster_parts import (
     triangles,
     whole_within,
 )
-from app.stepper.recording import Order
-from renderer.camera import NEAREST, Camera, Size
+from app.instruments.stepper.recording import Order
+from renderer.camera.camera import NEAREST, Camera, Size
 from renderer.scene import shapes
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
 from renderer.scene.texture import Texture

@@ -10,14 +10,14 @@ from types import SimpleNamespace
 import pytest
 from recorded_runs import SIZE, TWO_BALLS, last, recorded
 
-from app.stepper import loops, recording
-from app.stepper.loop_parts import Model
-from app.stepper.model import moment_at
-from app.stepper.recording import Order, Recording
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from app.instruments.stepper import loops, recording
+from app.instruments.stepper.loop_parts import Model
+from app.instruments.stepper.model import moment_at
+from app.instruments.stepper.recording import Order, Recording
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
 from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
 
 
 def test_a_run_in_the_background_can_be_watched_and_cancelled() -> None:

@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 from waiting import wait_for
 
-from app.explaining.breaking import breakable
-from app.stepper.model import moment_at
-from app.stepper.recording import Order, Recording
-from app.stepper.runs import Made, Prepared, recordings
-from app.widgets.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
-from app.widgets.code import code_words
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.instruments.stepper.model import moment_at
+from app.instruments.stepper.recording import Order, Recording
+from app.instruments.stepper.runs import Made, Prepared, recordings
+from app.ui.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
+from app.ui.code import code_words
+from app.ui.explaining.breaking import breakable
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
 from renderer.images.display import to_srgb8
-from renderer.scene import load_scene
 from renderer.scene.model import Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 
 SIZE = (8, 6)
 CAMERA = Camera.canonical()

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, last, recorded
 
-from app.stepper import model as stepper
-from app.stepper.loop_parts import MISS, Hit, Model, ViewingRay
-from app.stepper.loops import image_order, rasterization
-from app.stepper.model import moment_at
-from app.stepper.raster_parts import Corner, triangles
-from app.stepper.recording import Order
-from renderer.camera import Camera
-from renderer.compare import compare_frames
-from renderer.frame import CHANNELS
-from renderer.scene import BUILTIN_SCENES, load_scene
+from app.instruments.stepper import model as stepper
+from app.instruments.stepper.loop_parts import MISS, Hit, Model, ViewingRay
+from app.instruments.stepper.loops import image_order, rasterization
+from app.instruments.stepper.model import moment_at
+from app.instruments.stepper.raster_parts import Corner, triangles
+from app.instruments.stepper.recording import Order
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import compare_frames
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.images.frame import CHANNELS
 from renderer.scene.model import Material, Scene, SceneObject
 from renderer.trace import Tracer
 

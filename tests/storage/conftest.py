@@ -7,8 +7,9 @@ import pytest
 from app.state.app_state import AppState
 from app.state.options import Bookmark
 from app.window.start import Start, begin_session
-from renderer.camera import Camera
-from renderer.scene import View, load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
+from renderer.scene import View
 
 
 @pytest.fixture(scope="module")

@@ -14,16 +14,17 @@ import pytest
 from PIL import Image
 from waiting import wait_for
 
-from app.storage import capture, clipboard
-from app.storage.capture import Captures, cut, free_path
-from app.storage.recent import LONGEST, MOST, Recent, RecentFiles
-from app.widgets.folders import read_folder, starting_points
-from app.widgets.surface import Target
+from app.ui.folders import read_folder, starting_points
+from app.ui.recent import LONGEST, MOST, Recent, RecentFiles
+from app.ui.surface import Target
+from app.window import capture, clipboard
+from app.window.capture import Captures, cut, free_path
 from app.window.files import Files
 from app.window.opening import open_sources
-from renderer.errors import LucidaError
-from renderer.scene import load_scene, save_view, scene_parts, shapes
-from renderer.scene.scene_parts import BoxTable
+from renderer.files import load_scene, save_view, scene_parts
+from renderer.files.scene_parts import BoxTable
+from renderer.scene import shapes
+from renderer.system.errors import LucidaError
 
 PATIENT_S = 60.0
 
@@ -63,7 +64,7 @@ def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
         asleep.set()
         return not awake.wait(PATIENT_S)
 
-    monkeypatch.setattr("app.storage.recent._exists", exists)
+    monkeypatch.setattr("app.ui.recent._exists", exists)
     recent = RecentFiles(tmp_path if kept else None, lambda: None)
     recent.add("/first.obj")
     assert asleep.wait(PATIENT_S)
@@ -95,7 +96,7 @@ def test_what_was_found_before_a_file_was_added_does_not_take_it_away(tmp_path, 
         asked[path].set()
         return awake[path].wait(PATIENT_S)
 
-    monkeypatch.setattr("app.storage.recent._exists", exists)
+    monkeypatch.setattr("app.ui.recent._exists", exists)
     recent = RecentFiles(tmp_path, lambda: None)
     assert asked["/old.obj"].wait(PATIENT_S)
     recent.add("/new.obj")

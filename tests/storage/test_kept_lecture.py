@@ -11,11 +11,11 @@ import pytest
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureSession
 from app.lecture.view import LectureView
-from app.storage.kept_lecture import KeptLecture
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.state.kept_lecture import KeptLecture
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.start import Start, begin_lecture, begin_session
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 LECTURE = """
 title = "Two"

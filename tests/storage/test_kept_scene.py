@@ -7,13 +7,13 @@ from random_edits import SCENE, TENT
 
 from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
-from app.storage.kept_scene import KeptScene
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from app.storage.session_store import take_place
+from app.state.kept_scene import KeptScene
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window import start
-from renderer.scene import load_scene
-from renderer.scene_editing import changing, documents, objects
-from renderer.scene_editing.outline import outline
+from app.window.session_store import take_place
+from renderer.editing import changing, documents, objects
+from renderer.editing.outline import outline
+from renderer.files import load_scene
 
 
 @pytest.fixture

@@ -15,18 +15,18 @@ from waiting import wait_for
 
 from app.cameras.text import command_line
 from app.state.app_state import AppState
-from app.storage.paths import is_unicode, restored, stored
-from app.storage.recent import RecentFiles
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
-from app.widgets.background import Background
-from app.widgets.dialog import FOLDER, FileDialog, FileQuestion
-from app.widgets.folders import read_folder
-from app.widgets.toasts import Toasts
+from app.state.paths import is_unicode, restored, stored
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from app.ui.background import Background
+from app.ui.dialog import FOLDER, FileDialog, FileQuestion
+from app.ui.folders import read_folder
+from app.ui.recent import RecentFiles
+from app.ui.toasts import Toasts
 from app.window import process
 from app.window.files import Files
 from app.window.opening import open_sources
-from renderer.errors import LucidaError, describe, one_line
-from renderer.scene import load_scene, save_scene
+from renderer.files import load_scene, save_scene
+from renderer.system.errors import LucidaError, describe, one_line
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 NAMES = (b"caf\xe9.obj", b"\xff\xfe\n\x1b[31m.obj", b"a  b.obj", "ü ⟂ 🎥.obj".encode())

@@ -15,9 +15,9 @@ from app.lecture.reading import load_lecture
 from app.window.files import Files, outside_question
 from app.window.opening import open_sources
 from app.window.scene_saving import title
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
-from renderer.scene.outside import OutsideError, kept_inside, outside, outside_files
+from renderer.files import load_scene
+from renderer.files.outside import OutsideError, kept_inside, outside, outside_files
+from renderer.system.errors import LucidaError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 INSIDE = ("m.obj", "models/m.obj", "models/../m.obj", "./m.obj")
@@ -63,7 +63,7 @@ def test_what_is_outside_is_told_and_not_read_for_a_dropped_scene(
     assert os.path.realpath(file) == str(folder.parent.resolve() / "m.obj")
     assert title(scene) == "Lucida: scene (with models from outside its folder)"
     with monkeypatch.context() as patch:
-        patch.setattr("renderer.scene.scene_parts.load_model", None)  # nothing is read
+        patch.setattr("renderer.files.scene_parts.load_model", None)  # nothing is read
         with pytest.raises(OutsideError) as caught:
             open_sources([str(path)], dropped=True)
     assert caught.value.files == (file,)

@@ -13,16 +13,18 @@ import pytest
 from waiting import wait_for
 
 from app.state.app_state import AppState, History
-from app.storage import watching
-from app.storage.watching import LOOK_S, REST_S, SceneWatch
+from app.ui import watching
+from app.ui.watching import LOOK_S, REST_S, SceneWatch
 from app.window import opening
 from app.window.files import Files, outside_question
 from app.window.opening import Opened
 from app.window.taking import take_newer, take_opened
-from renderer.scene import Scene, load_scene, subprocess_reader
-from renderer.scene.models import read_by
-from renderer.scene_editing.changing import set_scene_field
-from renderer.scene_editing.documents import save
+from renderer.editing.changing import set_scene_field
+from renderer.editing.documents import save
+from renderer.files import load_scene
+from renderer.files.models import subprocess_reader
+from renderer.files.models.models import read_by
+from renderer.scene import Scene
 
 BALL = "[[objects]]\ntype = 'sphere'\n"
 MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"

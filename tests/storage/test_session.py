@@ -10,10 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.host.layout import CHOICES
 from app.state.app_state import AppState
 from app.state.options import Bookmark
-from app.storage.session import (
+from app.state.session import (
     LARGEST_BYTES,
     NEAREST,
     VERSION,
@@ -23,10 +22,12 @@ from app.storage.session import (
     session_of,
     to_bytes,
 )
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
-from renderer.scene import BUILTIN_SCENES, View, load_scene
+from app.ui.layout import CHOICES
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.scene import View
+from renderer.system.errors import LucidaError
 
 ARRANGEMENT = Arrangement(
     "Compare",

@@ -17,16 +17,11 @@ from test_session import ARRANGEMENT
 from waiting import PATIENT_S, wait_for
 
 from app.state.app_state import AppState
-from app.storage.session import (
-    Arrangement,
-    from_bytes,
-    session_of,
-    to_bytes,
-)
-from app.storage.session_store import Keeper, take_place
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from app.window.session_store import Keeper, take_place
 from app.window.start import Start
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 ROOT = Path(__file__).parents[2]
 
@@ -147,7 +142,7 @@ def test_a_save_that_is_stuck_does_not_replace_the_last_one(tmp_path, state, mon
         sync(descriptor)
 
     monkeypatch.setattr(os, "fsync", slow)
-    monkeypatch.setattr("app.storage.session_store.LAST_S", 0.01)
+    monkeypatch.setattr("app.window.session_store.LAST_S", 0.01)
     keeper.save(session_of(state, ARRANGEMENT))
     assert stuck.wait(PATIENT_S)
     last = session_of(state.with_options(images={"exposure_ev": 1.0}), ARRANGEMENT)
@@ -163,7 +158,7 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     saved = threading.Semaphore(0)
     keeper = Keeper(place, saved.release)
     now_s = [100.0]
-    monkeypatch.setattr("app.storage.session_store.time.monotonic", lambda: now_s[0])
+    monkeypatch.setattr("app.window.session_store.time.monotonic", lambda: now_s[0])
     assert not keeper.due()
     keeper.mark()
     assert not keeper.due()
@@ -196,10 +191,10 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
 WRITER = """
 import sys
 from pathlib import Path
-from app.storage.session import Arrangement, session_of, to_bytes
-from app.storage.session_store import take_place
+from app.state.session import Arrangement, session_of, to_bytes
+from app.window.session_store import take_place
 from app.state.app_state import AppState
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 state = AppState.for_scene(load_scene("spheres"))
 place = take_place(Path(sys.argv[1]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import platformdirs
 import pytest
 
-from app.storage.settings import kept_whole, settings_file
+from app.state.settings import kept_whole, settings_file
 
 GOOD = "[AppWindow]\nWindowSize=1280,720\n"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from renderer import Camera, Rasterizer, Tracer
-from renderer.compare import CHANNELS, compare_frames
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 

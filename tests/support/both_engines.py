@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera import Camera
-from renderer.compare import CHANNELS, compare_frames
-from renderer.frame import Frame
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from renderer.images.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace.arguments.image import new_image, to_frame
-from renderer.trace.jobs.engine import Engine
-from renderer.trace.packets.engine import PacketEngine
+from renderer.trace.engine import Engine
 from renderer.trace.threads.thread_pool import Team, new_control
+from renderer.trace.tiles.engine import PacketEngine
 
 
 class Both:

@@ -7,7 +7,7 @@ from typing import Generic
 
 from window_driver import Driver
 
-from app.host.view import AView
+from app.ui.view import AView
 
 
 @dataclass(frozen=True)

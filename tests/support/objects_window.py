@@ -11,11 +11,11 @@ from imgui_bundle import hello_imgui
 from outside_window import place
 from window_driver import IMAGES, Driver, Key
 
-from app.objects.choosing import chosen, rows_of
-from app.objects.handles import frame_of, length_px
-from app.outside.view import OUTSIDE
+from app.instruments.objects.choosing import chosen, rows_of
+from app.instruments.objects.handles import frame_of, length_px
+from app.instruments.outside.view import OUTSIDE
+from renderer.editing.changing import ids_of
 from renderer.scene.model import Sphere
-from renderer.scene_editing.changing import ids_of
 
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 SCENE = """# A ball that is kept as it is written.

@@ -6,10 +6,10 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver
 
-from app.outside.mouse import Scope
-from app.outside.projected import Strokes
-from app.outside.screen import OutsideScreen
-from app.outside.view import OUTSIDE, OutsideView
+from app.instruments.outside.mouse import Scope
+from app.instruments.outside.projected import Strokes
+from app.instruments.outside.screen import OutsideScreen
+from app.instruments.outside.view import OUTSIDE, OutsideView
 
 IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
 

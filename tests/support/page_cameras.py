@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera import Camera, Vector
-from renderer.errors import LucidaError
-from renderer.lenses import Lens
+from renderer.camera.camera import Camera, Vector
+from renderer.camera.lenses import Lens
+from renderer.files.views import view_table
 from renderer.scene.model import View
-from renderer.scene.views import view_table
+from renderer.system.errors import LucidaError
 from tests.support.browser import Page
 
 LENSES = (

@@ -1,4 +1,4 @@
-"""Random edits of scenes: every kind that renderer/scene_editing knows, with random values."""
+"""Random edits of scenes: every kind that renderer/editing knows, with random values."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from renderer.errors import LucidaError
+from renderer.editing import changing, materials, moving, objects
+from renderer.editing.outline import Item, outline
 from renderer.scene import Scene, flatten
 from renderer.scene.shapes import placement
-from renderer.scene_editing import changing, materials, moving, objects
-from renderer.scene_editing.outline import Item, outline
+from renderer.system.errors import LucidaError
 
 Random = np.random.Generator
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from renderer.camera import Camera
-from renderer.frame import Frame
+from renderer.camera.camera import Camera
+from renderer.images.frame import Frame
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import (
     Checker,
@@ -27,8 +27,8 @@ from renderer.scene.model import (
 )
 from renderer.scene.positions import world_vertices
 from renderer.trace.bvh.binary import tree_of_scene
-from renderer.trace.scalar.kernel import viewing_ray
-from renderer.trace.scalar.traverse import Tree, closest_hit
+from renderer.trace.reference.kernel import viewing_ray
+from renderer.trace.reference.traverse import Tree, closest_hit
 from renderer.trace.threads.thread_pool import Team
 
 LIGHTS = (PointLight((4, 5, 3), (0.8, 0.7, 0.6)), DirectionalLight((-1, -2, -1), (0.3, 0.3, 0.5)))

@@ -7,12 +7,12 @@ from typing import get_args, get_type_hints
 
 from window_driver import Driver
 
-from app.laboratory.options import LaboratoryOptions
-from app.laboratory.view import LABORATORY
-from app.mistakes.options import Mode
-from app.mistakes.view import MISTAKES
+from app.instruments.laboratory.options import LaboratoryOptions
+from app.instruments.laboratory.view import LABORATORY
+from app.instruments.mistakes.options import Mode
+from app.instruments.mistakes.view import MISTAKES
 from app.state.app_state import AppState
-from app.storage.paths import stored
+from app.state.paths import stored
 
 PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
 MODES = get_args(Mode)

@@ -29,18 +29,18 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.outside import mouse as outside_mouse
-from app.pair import view as pair
-from app.pair.view import RASTER, RAY
+from app.images.pair import view as pair
+from app.images.pair.view import RASTER, RAY
+from app.instruments.outside import mouse as outside_mouse
 from app.state.app_state import AppState, History
-from app.widgets import toasts
-from app.widgets.surface import Target
-from app.widgets.theme import framebuffer_scale
+from app.ui import toasts
+from app.ui.surface import Target
+from app.ui.theme import framebuffer_scale
 from app.window import main_window, viewer
 from app.window.canvas import WindowCanvas
 from app.window.platform import start_platform
 from app.window.viewer import WindowRun
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 SIZE = (1100, 720)
 # On a slow or busy machine a turn of the wheel takes long: no picture may depend on that.

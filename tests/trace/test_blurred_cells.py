@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from renderer import Camera
-from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.files import BUILTIN_SCENES, load_scene
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject
-from renderer.trace.packets.cells import are_blurred, cells_of
+from renderer.trace.tiles.cells import are_blurred, cells_of
 
 
 def is_coarse_for_cells(scene: Scene, camera: Camera) -> bool:

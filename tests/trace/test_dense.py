@@ -15,7 +15,7 @@ import pytest
 from both_engines import Both
 from trace_reference import ball, random_basis
 
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 from renderer.trace.arguments.image import new_image
 from renderer.trace.threads.thread_pool import new_control

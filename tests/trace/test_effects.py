@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from renderer.camera.camera import Camera
 from renderer.scene.model import (
     DirectionalLight,
     Material,
@@ -16,6 +15,7 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 FLOOR = Mesh([[-9, 0, -9], [9, 0, -9], [9, 0, 9], [-9, 0, 9]], [[0, 2, 1], [0, 3, 2]])

@@ -10,7 +10,7 @@ import pytest
 from numba.core.errors import TypingError
 
 from renderer.trace.compile.emit import choose, emitted, f32, i64
-from renderer.trace.simd.memory import pointer
+from renderer.trace.vector.memory import pointer
 
 
 class Pair(NamedTuple):

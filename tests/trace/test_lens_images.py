@@ -16,17 +16,17 @@ from scenes import crowd
 from textured import noise, on_wall
 from trace_reference import ball, closest, random_basis, random_scene, scene_of
 
-from renderer.camera import Camera
-from renderer.frame import Frame
-from renderer.lenses import MODELS, Lens
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import MODELS, Lens
+from renderer.images.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.scene.texture import Texture
 from renderer.trace import Tracer
 from renderer.trace.arguments.image import Rows, new_image
-from renderer.trace.packets.engine import PacketEngine
-from renderer.trace.packets.lens_table import lens_table
 from renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control
+from renderer.trace.tiles.engine import PacketEngine
+from renderer.trace.tiles.lens_table import lens_table
 
 COEFFICIENTS = {
     "brown": {"k1": -0.2, "k2": 0.05, "p1": 0.01, "p2": -0.01, "s1": 0.002},

@@ -2,7 +2,7 @@
 
 The reference is float64. Packets are float32: a pixel's centre nearer to an outline than that can
 tell may see either side, a depth is rounded at most a few times (DEPTH), and what the product
-promises of its two renderers (renderer/compare.py) holds between these two as well.
+promises of its two renderers (renderer/compare/raster_and_ray.py) holds between these two as well.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from both_engines import Both
 from scenes import crowd
 from trace_reference import ball
 
-from renderer.camera import Camera
-from renderer.compare import CHANNELS
-from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.camera.camera import Camera
+from renderer.compare.raster_and_ray import CHANNELS
+from renderer.compare.seen_surfaces import TOLERANCE_PX, Surfaces, View, slope_of
+from renderer.files import BUILTIN_SCENES, load_scene
 from renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
-from renderer.seen_surfaces import TOLERANCE_PX, Surfaces, View, slope_of
 from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
-from renderer.trace.packets.cells import cells_of
-from renderer.trace.packets.engine import PacketEngine
-from renderer.trace.packets.view import packet_view
 from renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control
+from renderer.trace.tiles.cells import cells_of
+from renderer.trace.tiles.engine import PacketEngine
+from renderer.trace.tiles.view import packet_view
 from tests.attack.random_scenes import random_camera
 
 # The corners' coordinates, the plane through them, the key and its inverse are rounded about a

@@ -15,16 +15,15 @@ import pytest
 from numba.core import event
 from textured import noise, on_ball
 
-from renderer.camera import Camera
-from renderer.frame import CHANNELS
-from renderer.lenses import Lens
-from renderer.scene import BUILTIN_SCENES, load_scene
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.images.frame import CHANNELS
 from renderer.scene.model import Scene
 from renderer.scene.texture import Texture
-from renderer.trace import Tracer
+from renderer.trace import Tracer, compile_child, precompile
 from renderer.trace.compile import compiled
-from renderer.trace.jobs import compile_child, precompile
-from renderer.trace.jobs.compile_child import is_copied
+from renderer.trace.compile_child import is_copied
 
 PATIENT_S = 60.0
 
@@ -157,8 +156,8 @@ def test_a_child_reports_a_cache_that_could_not_be_written(
 
 COPIED = """
 import os, time
-from renderer.child import interpreter, start_child
-child = start_child(interpreter(), "renderer.trace.jobs.compile_child", "walk", "trees", "write")
+from renderer.system.child import interpreter, start_child
+child = start_child(interpreter(), "renderer.trace.compile_child", "walk", "trees", "write")
 def copies():
     with open(f"/proc/{child.pid}/task/{child.pid}/children") as file:
         return len(file.read().split())

@@ -7,9 +7,9 @@ import pytest
 from scenes import crowd
 from trace_reference import ball, cast, tree_of
 
-from renderer.errors import LucidaError
 from renderer.scene.flat import flatten
 from renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 from renderer.trace.bvh.instances import Instances
 from renderer.trace.rays.query import closest_hits

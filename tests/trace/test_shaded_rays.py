@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scenes import crowd, moved
 
-from renderer.camera import Camera
-from renderer.scene import load_scene
+from renderer.camera.camera import Camera
+from renderer.files import load_scene
 from renderer.scene.model import Scene, View
 from renderer.trace import Tracer
 

@@ -12,11 +12,11 @@ import pytest
 from numba.core import types
 
 from renderer.trace.compile.compiled import kernel
-from renderer.trace.simd import gather as simd_gather
-from renderer.trace.simd import lanes as simd
-from renderer.trace.simd import math as simd_math
-from renderer.trace.simd import memory as simd_memory
-from renderer.trace.simd.memory import load, pointer, store
+from renderer.trace.vector import gather as simd_gather
+from renderer.trace.vector import lanes as simd
+from renderer.trace.vector import math as simd_math
+from renderer.trace.vector import memory as simd_memory
+from renderer.trace.vector.memory import load, pointer, store
 
 random = np.random.default_rng(1)
 

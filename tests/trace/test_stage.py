@@ -11,7 +11,7 @@ from numba.core.errors import TypingError
 
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.stage import ROOM_BYTES, call_stage, new_room, prepared
-from renderer.trace.simd.memory import pointer
+from renderer.trace.vector.memory import pointer
 
 
 class Always(NamedTuple):

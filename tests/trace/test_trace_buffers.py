@@ -7,7 +7,7 @@ import threading
 import numpy as np
 import pytest
 
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.trace import Tracer
 from renderer.trace.arguments import buffers

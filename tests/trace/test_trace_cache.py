@@ -15,7 +15,7 @@ import pytest
 from numba.core import caching
 
 import renderer
-from renderer import compile_note
+from renderer.system import compile_note
 from renderer.trace.compile import compiled
 from renderer.trace.compile.cache_folder import prune
 
@@ -90,8 +90,8 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     shown = "from renderer.trace.compile import cache_folder; print(cache_folder.cache_folder())"
     folders = {folder, finish(start(installation, cache, shown))}
     assert len(folders) == 1
-    edits = "trace/scalar/intersect.py", "trace/scalar/vectors.py", "scene/flat.py"
-    for edited in (*edits, "shared_numbers.py"):
+    edits = "trace/reference/intersect.py", "trace/reference/vectors.py", "scene/flat.py"
+    for edited in (*edits, "images/shared_numbers.py"):
         with (installation / edited).open("a") as text:
             text.write("\n")
         folders.add(finish(start(installation, cache, shown)))

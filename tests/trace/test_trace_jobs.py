@@ -18,10 +18,10 @@ import pytest
 from import_path import import_path
 from trace_reference import scene_of
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import Frame
+from renderer.camera.camera import Camera
+from renderer.images.frame import Frame
 from renderer.scene.model import Mesh, Scene, Sphere
+from renderer.system.errors import LucidaError
 from renderer.trace import TraceJob, Tracer
 from renderer.trace.arguments.image import BLOCK
 from renderer.trace.bvh import instances

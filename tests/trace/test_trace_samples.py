@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import Frame
-from renderer.samples import check_samples, offsets, supersampled
+from renderer.camera.camera import Camera
+from renderer.images.frame import Frame
+from renderer.images.samples import check_samples, offsets, supersampled
 from renderer.scene.model import Material, Mesh, Scene, SceneObject
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
 
 SIZE = (12, 9)

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from trace_reference import cast, scene_of, tree_of
 
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.frame import Frame
+from renderer.camera.camera import Camera
+from renderer.images.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from renderer.system.errors import LucidaError
 from renderer.trace import Tracer
-from renderer.trace.jobs.tracer import METHODS
+from renderer.trace.tracer import METHODS
 
 ALL = ("color", "depth", "normal", "id", "primitive")
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from trace_reference import ball, cast, random_basis, scene_of, tree_of
 
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Mesh
 from renderer.scene.positions import world_vertices

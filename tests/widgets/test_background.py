@@ -6,7 +6,7 @@ import threading
 
 from waiting import PATIENT_S, wait_for
 
-from app.widgets.background import Background
+from app.ui.background import Background
 
 
 def test_every_work_is_done_in_its_turn_and_told() -> None:

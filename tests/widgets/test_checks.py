@@ -3,7 +3,7 @@
 import pytest
 from imgui_bundle import ImVec4
 
-from app.widgets import contrast, theme
+from app.ui import contrast, theme
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from imgui_bundle import imgui
 
-from app.widgets import theme
-from app.widgets.coded_text import coded_text, is_coded, placed
+from app.ui import theme
+from app.ui.coded_text import coded_text, is_coded, placed
 
 
 def measure(text: str, is_code: bool) -> float:

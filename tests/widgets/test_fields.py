@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from app.explaining.notation import number, results
-from app.widgets.fields import WIDTH, Scale, fitting_format, short_number
+from app.ui.explaining.notation import number, results
+from app.ui.fields import WIDTH, Scale, fitting_format, short_number
 
 SCALE = Scale(-1.0, 1.0)
 

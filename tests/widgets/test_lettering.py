@@ -7,12 +7,12 @@ import itertools
 import pytest
 from imgui_bundle import imgui
 
-from app.explaining.breaking import broken, narrowed
-from app.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, text_size
+from app.images.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, text_size
 from app.state.bounds import range_of
 from app.state.options import Preferences
-from app.widgets.sliders import part_of
-from app.widgets.theme import CAPITAL, LARGEST, TEXT_PX, look_of
+from app.ui.explaining.breaking import broken, narrowed
+from app.ui.sliders import part_of
+from app.ui.theme import CAPITAL, LARGEST, TEXT_PX, look_of
 
 
 @pytest.mark.parametrize("height_px", [600.0, 720.0, 748.0, 1060.0, 1080.0, 2160.0])

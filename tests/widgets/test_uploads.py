@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from app.widgets.uploads import Uploads
+from app.ui.uploads import Uploads
 
 
 def test_small_pictures_get_larger_pixels():

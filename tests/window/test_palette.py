@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from app.host.action import ALT, CTRL, SHIFT, Key
 from app.state.app_state import AppState
+from app.ui.action import ALT, CTRL, SHIFT, Key
 from app.window.action_table import ACTIONS, MENUS
 from app.window.instruments import INSTRUMENTS, make_views
 from app.window.palette_entries import SYNONYMS, pages
 from app.window.palette_search import Entry, found
 from app.window.shortcut_sheet import in_columns, sections
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 ENTRIES = [
     Entry("Parallel projection", "Camera", lambda: None, "P"),

@@ -9,15 +9,15 @@ import numpy as np
 from PIL import Image
 from test_window import drives_take_long, run
 
-from renderer.camera import Camera
-from renderer.camera_formats import PosedCamera, written
+from renderer.camera.camera import Camera
+from renderer.files.cameras import PosedCamera, written
 
 SCRIPT = """
 import sys
 from pathlib import Path
-from app.poses.reading import open_cameras
-from app.poses.view import POSES
-from app.storage.paths import stored
+from app.instruments.poses.reading import open_cameras
+from app.instruments.poses.view import POSES
+from app.state.paths import stored
 from stepped import session_window, stepped
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]

@@ -133,7 +133,7 @@ time.sleep(600)
 PARENT = """\
 import signal, sys, time
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
-from renderer.child import start_child
+from renderer.system.child import start_child
 child = start_child(sys.executable, "long_import")
 time.sleep(600)
 """

@@ -13,10 +13,10 @@ from waiting import PATIENT_S, wait_for
 from app.state.app_state import AppState
 from app.window import scene_saving
 from app.window.scene_saving import SceneSaving
-from renderer.scene import load_scene
-from renderer.scene.noting import stamp
-from renderer.scene_editing.changing import set_scene_field
-from renderer.scene_editing.documents import save
+from renderer.editing.changing import set_scene_field
+from renderer.editing.documents import save
+from renderer.files import load_scene
+from renderer.system.file_dependencies import stamp
 
 
 class Host:

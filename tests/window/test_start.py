@@ -9,12 +9,12 @@ import pytest
 
 from app.cli import main
 from app.state.all_options import AllOptions
-from app.storage.session import Arrangement, session_of
-from app.storage.session_store import Keeper, take_place
+from app.state.session import Arrangement, session_of
 from app.window import start
+from app.window.session_store import Keeper, take_place
 from app.window.start import UNKEPT, begin_scene, begin_session, kept
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
+from renderer.files import load_scene
+from renderer.system.errors import LucidaError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

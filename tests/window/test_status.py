@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.widgets.fields import Scale, fitting_format, number_format, short_number
+from app.ui.fields import Scale, fitting_format, number_format, short_number
 from app.window.status import (
     Status,
     agreement_text,
@@ -14,7 +14,7 @@ from app.window.status import (
     right_texts,
     time_texts,
 )
-from renderer.pixels import Indexing
+from renderer.images.pixels import Indexing
 
 STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spheres")
 

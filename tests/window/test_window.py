@@ -140,7 +140,7 @@ def test_mistakes_are_one_line(tmp_path: Path) -> None:
 
 def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
     from app.window import platform
-    from renderer.errors import LucidaError
+    from renderer.system.errors import LucidaError
 
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
@@ -179,7 +179,7 @@ from pathlib import Path
 from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun, save_png
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
@@ -207,7 +207,7 @@ import numpy as np
 from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun, save_png
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
@@ -255,7 +255,7 @@ import sys, threading, time
 from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
@@ -291,7 +291,7 @@ import os, signal, sys, threading, time
 from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 number = getattr(signal, sys.argv[1])
 usual = signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL

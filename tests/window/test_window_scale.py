@@ -11,11 +11,11 @@ from test_window import run
 SCRIPT = """
 from pathlib import Path
 from imgui_bundle import imgui
-from app.widgets import theme
+from app.ui import theme
 from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun, save_png
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 state = AppState.for_scene(load_scene("spheres"))
 state = state.with_options(preferences={"font_scale": 1.25})

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from test_window import run
 
-from app.storage.session import from_bytes
+from app.state.session import from_bytes
 
 LIMIT_S = 500
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
@@ -20,7 +20,7 @@ WINDOW = """
 import os, signal, sys
 from pathlib import Path
 from stepped import session_window, stepped
-from app.host import layout
+from app.ui import layout
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
 run = session_window(folder)

@@ -10,10 +10,10 @@ import pytest
 from PIL import Image
 from test_window import LIMIT_S, run
 
-from app.storage.session import Arrangement, session_of, to_bytes
-from app.storage.session_store import take_place
+from app.state.session import Arrangement, session_of, to_bytes
+from app.window.session_store import take_place
 from app.window.start import begin_scene
-from renderer.scene.subprocess_reader import is_large
+from renderer.files.models.subprocess_reader import is_large
 
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 
@@ -27,7 +27,7 @@ from app.window.platform import start_platform
 from app.state.app_state import AppState
 from app.window.viewer import WindowRun
 from renderer.raster import sources
-from renderer.scene import load_scene
+from renderer.files import load_scene
 
 broken, view = sys.argv[1], sys.argv[2]
 good = sources.read_shader

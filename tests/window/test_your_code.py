@@ -12,9 +12,9 @@ from test_window import drives_take_long, run
 SCRIPT = """
 import os, sys
 from pathlib import Path
-from app.storage.paths import stored
+from app.state.paths import stored
 from stepped import session_window, stepped
-from app.your_code.view import YOUR_CODE
+from app.checking.your_code.view import YOUR_CODE
 
 folder, mode = Path(sys.argv[1]), sys.argv[2]
 code = str(folder / "rays.py") if mode == "named" else ""

@@ -11,7 +11,7 @@ from right_code import right_ray
 from app.checking.builtin import BUILTIN
 from app.checking.calls import Call, Run
 from app.checking.kinds import KINDS
-from app.your_code.model import (
+from app.checking.your_code.model import (
     BASIS,
     RAY,
     CodeRays,
@@ -21,7 +21,7 @@ from app.your_code.model import (
     is_of_camera,
     rays_of,
 )
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 
 SIZE = (6, 4)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), (0.1, 1.0, 0.0), aspect=1.5)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.checking.reports.picture import MARK
-from app.your_code.pictures import SAME, SAME_COLOR, compared, image_pair
+from app.checking.your_code.pictures import SAME, SAME_COLOR, compared, image_pair
 
 YES = np.ones((2, 3), bool)
 NO = np.zeros((2, 3), bool)

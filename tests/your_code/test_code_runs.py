@@ -14,11 +14,11 @@ from waiting import wait_for
 
 from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.file import NotRunnableError
-from app.your_code import runs as runs_module
-from app.your_code.report import CodeQuestion
-from app.your_code.runs import CodeRuns
-from renderer.camera import Camera
-from renderer.errors import LucidaError
+from app.checking.your_code import runs as runs_module
+from app.checking.your_code.report import CodeQuestion
+from app.checking.your_code.runs import CodeRuns
+from renderer.camera.camera import Camera
+from renderer.system.errors import LucidaError
 
 QUESTION = CodeQuestion("rays.py", 1, "", Camera.canonical(), (4, 3))
 OTHER = replace(QUESTION, camera=replace(QUESTION.camera, distance=2.0))

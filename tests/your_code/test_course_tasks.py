@@ -15,7 +15,7 @@ from app.checking.checked import TaskResult
 from app.checking.courses import course_names, task_path
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
-from app.your_code.model import (
+from app.checking.your_code.model import (
     LIMITS,
     RAY,
     asked_of,
@@ -28,11 +28,11 @@ from app.your_code.model import (
     tasks_of,
     why_not_asked,
 )
-from app.your_code.report import CodeQuestion, CodeReport
-from app.your_code.words import told_of, verdict_of
-from renderer.camera import Camera
-from renderer.errors import LucidaError
-from renderer.pixels import Indexing
+from app.checking.your_code.report import CodeQuestion, CodeReport
+from app.checking.your_code.words import told_of, verdict_of
+from renderer.camera.camera import Camera
+from renderer.images.pixels import Indexing
+from renderer.system.errors import LucidaError
 
 SIZE = (8, 6)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from waiting import wait_for
 
-from app.your_code import following
-from app.your_code.following import FileFollower
+from app.checking.your_code import following
+from app.checking.your_code.following import FileFollower
 
 
 def save(file: Path, text: str) -> None:

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
+from app.checking.your_code.options import YourCodeOptions
+from app.checking.your_code.view import source_text
 from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
-from app.storage.paths import restored, stored
-from app.storage.session import Arrangement, from_bytes, session_of, to_bytes
+from app.state.paths import restored, stored
+from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
-from app.your_code.options import YourCodeOptions
-from app.your_code.view import source_text
-from renderer.errors import LucidaError
-from renderer.scene import load_scene
-from renderer.scene.outside import OutsideError
+from renderer.files import load_scene
+from renderer.files.outside import OutsideError
+from renderer.system.errors import LucidaError
 
 STEP = """
 title = "Code"

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from renderer.errors import LucidaError
-from renderer.scene.reading import suggestion
+from renderer.files.reading import suggestion
+from renderer.system.errors import LucidaError
 
 FOLDER = Path(__file__).parent
 

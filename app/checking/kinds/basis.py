@@ -19,7 +19,7 @@ from app.checking.cases import generator, look
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, named, tolerances
 from app.checking.kinds.values import text_of
 from app.checking.tasks import CheckCase, CheckTask
-from renderer.camera import Camera, Vector
+from renderer.camera.camera import Camera, Vector
 
 Floats = NDArray[np.float64]
 

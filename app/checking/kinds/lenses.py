@@ -18,7 +18,7 @@ from app.checking.cases import generator, rounded
 from app.checking.kinds.kind import Cases, CheckKind, Flags, named, tolerances
 from app.checking.kinds.values import in_order, number, text_of
 from app.checking.tasks import CheckCase, CheckTask
-from renderer.lenses import Lens
+from renderer.camera.lenses import Lens
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

@@ -35,7 +35,7 @@ from app.checking.kinds.basis import conditioning
 from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
 from app.checking.kinds.values import in_order, shown, text_of
 from app.checking.tasks import CheckCase, CheckTask
-from renderer.camera import Camera
+from renderer.camera.camera import Camera
 
 Floats = NDArray[np.float64]
 

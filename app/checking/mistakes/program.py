@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from app.checking.mistakes.vectors import FUNCTIONS
-from app.explaining.symbols import program, words
 from app.state.options import Notation
+from app.ui.explaining.symbols import program, words
 
 Swaps = tuple[tuple[str, str], ...]
 

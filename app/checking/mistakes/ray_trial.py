@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from app.checking.kinds.viewing_ray import largest_number
 from app.checking.mistakes.program import Mistakes, Program
 from app.checking.mistakes.rays import RayTask, ray_values, run_rays
-from renderer.camera import Camera, Size
+from renderer.camera.camera import Camera, Size
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

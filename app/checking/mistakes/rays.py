@@ -22,8 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from app.checking.conventions import camera_words, pixel_words
 from app.checking.mistakes.catalogue import Part, part, part_from_angles
 from app.checking.mistakes.program import Mistake, Program
-from renderer.camera import Camera, Size
-from renderer.pixels import Indexing
+from renderer.camera.camera import Camera, Size
+from renderer.images.pixels import Indexing
 
 Floats = NDArray[np.float64]
 

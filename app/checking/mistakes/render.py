@@ -12,7 +12,7 @@ from app.checking.mistakes.catalogue import part
 from app.checking.mistakes.hits import SHAPES
 from app.checking.mistakes.program import Program
 from app.checking.mistakes.rays import RayTask, ray_program, ray_values
-from renderer.camera import Camera, Size
+from renderer.camera.camera import Camera, Size
 
 
 @functools.lru_cache(32)

@@ -12,8 +12,8 @@ from app.checking.mistakes.catalogue import part
 from app.checking.mistakes.hits import SHAPES
 from app.checking.mistakes.program import Program
 from app.checking.mistakes.value_diagnosis import ValueCase
-from renderer.camera import Vector
-from renderer.shared_numbers import LUMINANCE
+from renderer.camera.camera import Vector
+from renderer.images.shared_numbers import LUMINANCE
 
 
 @functools.cache

@@ -19,8 +19,8 @@ from app.checking.reports.pictured import Pictured
 from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
-from renderer.errors import visible
 from renderer.images import encode_array
+from renderer.system.errors import visible
 
 STYLE = """
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1b1f24; --dim: #59636e;

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.checking.kinds.shapes import hits
-from renderer.camera import Camera, Size
+from renderer.camera.camera import Camera, Size
 from renderer.images import to_srgb8
 
 Floats = NDArray[np.float64]

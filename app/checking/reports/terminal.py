@@ -7,7 +7,7 @@ from typing import TextIO
 
 from app.checking.checked import TaskResult
 from app.checking.reports.told import VERDICTS, of_points, told
-from renderer.errors import one_line, visible
+from renderer.system.errors import one_line, visible
 
 MOST = 8  # printed lines to show
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}

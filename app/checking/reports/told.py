@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from app.checking.calls import Failure
 from app.checking.checked import Status, TaskResult, WrongCase
 from app.checking.tasks import FEEDBACK, CheckTask
-from app.explaining.symbols import arguments
-from renderer.errors import one_line, visible
+from app.ui.explaining.symbols import arguments
+from renderer.system.errors import one_line, visible
 
 if TYPE_CHECKING:
     from app.checking.mistakes.diagnosis import Diagnosis

@@ -15,7 +15,7 @@ from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.account import Account
 from app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
 from app.checking.running.told import told_call, told_over, whole_number
-from renderer.errors import LucidaError, one_line, shortened
+from renderer.system.errors import LucidaError, one_line, shortened
 
 
 class CommandStudent(ProgramStudent):

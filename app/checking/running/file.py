@@ -14,9 +14,9 @@ from app.checking.calls import Call, Failure, Limits, Run
 from app.checking.running.account import Account
 from app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
 from app.checking.running.told import told_call, told_over, whole_number
-from renderer.child import interpreter
-from renderer.errors import LucidaError, one_line, shortened
-from renderer.scene.reading import read_file
+from renderer.files.reading import read_file
+from renderer.system.child import interpreter
+from renderer.system.errors import LucidaError, one_line, shortened
 
 _LONGEST_FILE = 4 << 20  # bytes
 _LONGEST_TEXT = 300  # of a message

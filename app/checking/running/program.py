@@ -18,7 +18,7 @@ from typing import Literal
 
 from app.checking.calls import Limits
 from app.checking.running.account import Account
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too

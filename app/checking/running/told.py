@@ -7,8 +7,8 @@ import signal
 from app.checking.calls import Call, Kind, Limits
 from app.checking.kinds.values import text_of
 from app.checking.running.program import ProgramOverError
-from app.explaining.symbols import arguments
-from renderer.errors import one_line, shortened
+from app.ui.explaining.symbols import arguments
+from renderer.system.errors import one_line, shortened
 
 _LONGEST_VALUE = 80
 

@@ -1,4 +1,4 @@
-"""The camera for a kernel: plain numbers. The formulas are in renderer/camera.py."""
+"""The camera for a kernel: plain numbers. The formulas are in renderer/camera/camera.py."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, Size, Vector
+from renderer.camera.camera import Camera, Size, Vector
 
 
 class KernelView(NamedTuple):

@@ -27,12 +27,12 @@ from renderer.trace.bvh.sah_split import (
 )
 from renderer.trace.compile.compiled import inlined, kernel
 from renderer.trace.compile.emit import greater, lesser
-from renderer.trace.scalar.traverse import Tree
-from renderer.trace.scalar.vectors import row
-from renderer.trace.simd.lanes import LANES
-from renderer.trace.simd.memory import load, pointer, stack_room, store
+from renderer.trace.reference.traverse import Tree
+from renderer.trace.reference.vectors import row
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.thread_pool import Team, new_control
+from renderer.trace.vector.lanes import LANES
+from renderer.trace.vector.memory import load, pointer, stack_room, store
 
 F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]

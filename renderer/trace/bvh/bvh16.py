@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
 from renderer.trace.compile.compiled import kernel
 from renderer.trace.compile.emit import emitted, greater, i64, lesser
-from renderer.trace.scalar.vectors import cross, dot, minus, times
-from renderer.trace.simd.gather import gather
-from renderer.trace.simd.lanes import (
+from renderer.trace.reference.vectors import cross, dot, minus, times
+from renderer.trace.threads.atomic import take_next
+from renderer.trace.threads.thread_pool import Team, new_control
+from renderer.trace.vector.gather import gather
+from renderer.trace.vector.lanes import (
     LANES,
     i32_of,
     lane_column,
@@ -35,10 +37,8 @@ from renderer.trace.simd.lanes import (
     vmin,
     vsqrt,
 )
-from renderer.trace.simd.math import select_lanes, store3
-from renderer.trace.simd.memory import load, pointer, stack_room, store
-from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.thread_pool import Team, new_control
+from renderer.trace.vector.math import select_lanes, store3
+from renderer.trace.vector.memory import load, pointer, stack_room, store
 
 WIDTH = 16  # children per node, triangles per leaf: the lanes of a vector
 NO_CHILD = -1
@@ -47,7 +47,7 @@ BOX = 6 * WIDTH  # floats in a node's boxes
 CORNERS = 9 * WIDTH  # floats in a leaf's corners
 _FAR = np.float32(3.4e38)
 # The corner of an unused place in a leaf: every comparison with NaN is false. Coincident corners
-# would look like a triangle that needs float64 (packets/triangle.py), and more than half of all
+# would look like a triangle that needs float64 (tiles/triangle.py), and more than half of all
 # leaves are not full.
 _NO_CORNER = np.float32(np.nan)
 _NO_SPHERES = np.zeros((0, 4), np.float32)

@@ -19,7 +19,7 @@ import numpy as np
 
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
-from renderer.trace.simd.lanes import (
+from renderer.trace.vector.lanes import (
     LANES,
     bits,
     f64_of,
@@ -39,7 +39,7 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load, load_half, store_half
+from renderer.trace.vector.memory import load, load_half, store_half
 
 BINS = 16
 SAMPLE = 2048  # records sampled to find a split, if there are many more

@@ -29,9 +29,9 @@ import llvmlite.binding as llvm
 import platformdirs
 
 import renderer.scene.flat
-from renderer import shared_numbers
-from renderer.errors import LucidaError
-from renderer.private import private_folder
+from renderer.images import shared_numbers
+from renderer.system.errors import LucidaError
+from renderer.system.private_folder import private_folder
 
 KEPT = 4  # folders of other sources or versions to keep
 KEPT_FOR_S = 3600.0  # younger ones are kept, too: another process may be writing them

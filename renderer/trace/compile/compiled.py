@@ -15,7 +15,7 @@ from numba.core.compiler import CompilerBase, Flags, compile_extra
 from numba.core.compiler_machinery import PassManager
 from numba.core.registry import cpu_target
 
-from renderer import compile_note
+from renderer.system import compile_note
 from renderer.trace.compile.cache_folder import cache_folder
 from renderer.trace.compile.emit import defined
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from renderer.trace.compile.compiled import inlined
-from renderer.trace.scalar.texture import opacity_at_place
-from renderer.trace.simd.lanes import lowest_bit
+from renderer.trace.reference.texture import opacity_at_place
+from renderer.trace.vector.lanes import lowest_bit
 
 
 @inlined

@@ -9,11 +9,11 @@ from renderer.trace.bvh.bvh16 import FIRST_LEAF
 from renderer.trace.bvh.instances import Instances
 from renderer.trace.compile.compiled import kernel
 from renderer.trace.rays.traverse import closest_hit
-from renderer.trace.scalar.vectors import triple
-from renderer.trace.simd.lanes import LANES
-from renderer.trace.simd.memory import pointer, pointers
+from renderer.trace.reference.vectors import triple
 from renderer.trace.threads.atomic import take_next
 from renderer.trace.threads.thread_pool import Team, new_control
+from renderer.trace.vector.lanes import LANES
+from renderer.trace.vector.memory import pointer, pointers
 
 _CHUNK = 256  # rays that a thread takes at a time
 

@@ -22,8 +22,8 @@ from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from renderer.trace.compile.compiled import inlined
 from renderer.trace.compile.emit import emitted
 from renderer.trace.rays.holes import without_holes
-from renderer.trace.scalar.vectors import dot, minus, plus, rotated, times, transformed, triple
-from renderer.trace.simd.lanes import (
+from renderer.trace.reference.vectors import dot, minus, plus, rotated, times, transformed, triple
+from renderer.trace.vector.lanes import (
     LANES,
     bits,
     fma,
@@ -35,7 +35,7 @@ from renderer.trace.simd.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.simd.memory import load, store
+from renderer.trace.vector.memory import load, store
 
 _ROUNDING = np.float32(5e-7)  # relative: more than the total rounding error of a box test
 _STEEP = np.float32(1e-9)  # least size of a direction's component, relative to the largest

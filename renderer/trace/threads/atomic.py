@@ -12,8 +12,8 @@ from llvmlite import ir
 from numba.core import types
 
 from renderer.trace.compile.emit import emitted, instruction
-from renderer.trace.simd.types import INT64, first_address
 from renderer.trace.threads.thread_pool import CANCELLED, DONE, NEXT
+from renderer.trace.vector.types import INT64, first_address
 
 
 def _address(builder, control, index):

@@ -17,7 +17,7 @@ from app.checking.courses import course_names, task_path
 from app.checking.reports.told import told
 from app.checking.running.file import FileStudent
 from app.checking.task_file import load_tasks
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 WRITTEN = Path(__file__).parent / "written"
 COURSES = (

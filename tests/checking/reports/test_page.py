@@ -22,8 +22,8 @@ from app.checking.reports.pictured import Pictured, pictured
 from app.checking.running.file import FileStudent
 from app.checking.tasks import FEEDBACK
 from app.cli import main
-from app.explaining import symbols
-from renderer.camera import Camera
+from app.ui.explaining import symbols
+from renderer.camera.camera import Camera
 from renderer.images import to_srgb8
 
 TASK = next(task for task in BUILTIN if task.name == "viewing-ray")

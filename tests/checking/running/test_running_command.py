@@ -12,7 +12,7 @@ from waiting import wait_for
 
 from app.checking.calls import Limits
 from app.checking.running.command import CommandStudent
-from renderer.errors import LucidaError
+from renderer.system.errors import LucidaError
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="shells and C as POSIX has them")
 CALLS = [called("viewing_ray", i=i, j=j, camera=CAMERA) for i in range(48) for j in range(64)]

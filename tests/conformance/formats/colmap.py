@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera_formats import read_cameras, written
-from renderer.camera_formats.colmap_lenses import LENSES, MODELS
+from renderer.files.cameras import read_cameras, written
+from renderer.files.cameras.colmap_lenses import LENSES, MODELS
 from tests.conformance.cameras import Case, any_size, cases, lens_cases, pixels, points_ahead
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
 from tests.support.format_cameras import straight_camera

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera_checks import Floats
-from renderer.camera_formats import Options, read_cameras, written
+from renderer.camera.checks import Floats
+from renderer.files.cameras import Options, read_cameras, written
 from tests.conformance.cameras import POINTS, any_pose, any_size, cases, from_clip, pixels
 from tests.conformance.measured import Checked, Job, Measured, measured, needed
 from tests.support.format_cameras import centred_camera

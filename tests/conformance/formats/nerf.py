@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera_checks import Floats
-from renderer.camera_formats import written
+from renderer.camera.checks import Floats
+from renderer.files.cameras import written
 from tests.conformance.cameras import (
     POINTS,
     any_pose,

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera_checks import Floats
-from renderer.camera_formats import Options, read_cameras
-from renderer.camera_formats.distortion import COUNTS
+from renderer.camera.checks import Floats
+from renderer.files.cameras import Options, read_cameras
+from renderer.files.cameras.distortion import COUNTS
 from tests.conformance.cameras import (
     Case,
     any_size,

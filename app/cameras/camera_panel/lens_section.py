@@ -1,0 +1,136 @@
+"""The camera panel's section Lens: the model, its formula, its coefficients, presets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import partial
+
+from imgui_bundle import imgui
+
+from app.cameras.camera_panel.actions import go_to_lens, take_lens_off
+from app.cameras.camera_panel.projection import PanelContext
+from app.cameras.camera_panel.sections import Wish
+from app.cameras.editing import Draft, edit_field
+from app.cameras.lens_choices import (
+    KINDS,
+    LENS_PRESETS,
+    NO_LENS,
+    PANORAMA,
+    RADIUS,
+    of_model,
+    with_lens,
+)
+from app.state.app_state import AppState
+from app.ui import rows
+from app.ui.explaining.symbols import spoken
+from app.ui.fields import Scale
+from app.ui.formula import Formula, formula
+from renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
+from renderer.system.errors import LucidaError
+
+MODEL = "How the lens maps directions to the image plane."
+OFF = "Take the lens off: the distance and the viewport that the scene came with."
+
+
+def lens_section(
+    state: AppState, draft: Draft, around: PanelContext
+) -> tuple[AppState, Draft, Wish | None]:
+    """Draw the section into the current window."""
+    state = _model(state, around)
+    draft = draft.following(state.camera)
+    if state.camera.lens is not None:
+        state, draft = _numbers(state, draft, around, state.camera.lens)
+    return state, draft, _presets()
+
+
+def _numbers(
+    state: AppState, draft: Draft, around: PanelContext, lens: Lens
+) -> tuple[AppState, Draft]:
+    """Draw the formula and the coefficients."""
+    kind, size_px = KINDS[lens.model], imgui.get_font_size()
+    pairs = zip(kind.latex.split(r",\quad "), kind.text.split(", "), strict=True)
+    formula([Formula(*pair) for pair in pairs], size_px, f"lens {lens.model}")
+    is_panorama = lens.model in ("equirectangular", "cylindrical")
+    rows.tip(spoken(PANORAMA if is_panorama else RADIUS, state.options.notation))
+    # Only files hold the prism's terms (s1, sx1, ...).
+    names = [name for name in MODELS[lens.model] if not name.startswith("s")]
+    return _coefficients(state, draft, around, names)
+
+
+def _presets() -> Wish | None:
+    """Draw the presets' buttons, three in a row."""
+    wish = None
+    columns = 2 if rows.is_narrow() else 3
+    spacing = imgui.get_style().item_spacing.x
+    width = (imgui.get_content_region_avail().x - (columns - 1) * spacing) / columns
+    for number, preset in enumerate(LENS_PRESETS):
+        if number % columns:
+            imgui.same_line()
+        if imgui.button(preset.name, (width, 0)):
+            wish = Wish(partial(go_to_lens, preset=preset))
+        rows.tip(preset.note)
+    if imgui.button("No lens", (-1, 0)):
+        wish = Wish(take_lens_off)
+    rows.tip(OFF)
+    return wish
+
+
+def _model(state: AppState, around: PanelContext) -> AppState:
+    """Draw the choice of the model."""
+    lens = state.camera.lens
+    width = rows.row("model", "", MODEL, around.fonts)
+    imgui.set_next_item_width(width)
+    chosen = lens
+    opened = imgui.begin_combo("##lens model", KINDS[lens.model].name if lens else NO_LENS)
+    if not opened and lens is not None:
+        rows.tip(KINDS[lens.model].note)
+    if opened:
+        if imgui.selectable(NO_LENS, lens is None)[0]:
+            chosen = None
+        for model, kind in KINDS.items():
+            selected = lens is not None and lens.model == model
+            if imgui.selectable(kind.name, selected)[0] and not selected:
+                chosen = of_model(model)
+            imgui.set_item_tooltip(kind.note)
+        imgui.end_combo()
+    if chosen == lens:
+        return state
+    return state.with_camera(with_lens(state.camera, chosen, around.focus.center))
+
+
+def _coefficients(
+    state: AppState, draft: Draft, around: PanelContext, names: Iterable[str]
+) -> tuple[AppState, Draft]:
+    """Draw the fields of coefficients, two in a line."""
+    halves = rows.Halves()
+    own = state.scene.view.camera.lens
+    for column, name in enumerate(names):
+        draft, lens = draft.following(state.camera), state.camera.lens
+        if lens is None:
+            break
+        tooltip = f"The lens's coefficient {name}."
+        width = halves.label(column % 2, name, tooltip)
+        low, high = coefficient_range(lens.model, name)
+        usual = own if own is not None and own.model == lens.model else of_model(lens.model)
+        changed, value = around.field(
+            f"lens.{name}",
+            lens.coefficient(name),
+            width,
+            Scale(low, high, least=low, most=high),
+            tooltip,
+            wrong=draft.is_wrong(f"lens.{name}"),
+            reset=usual.coefficient(name),
+        )
+        if changed:
+            state, draft = _edited(state, draft, lens, name, value)
+    return state, draft
+
+
+def _edited(
+    state: AppState, draft: Draft, lens: Lens, name: str, value: float
+) -> tuple[AppState, Draft]:
+    try:
+        return edit_field(state, draft, "lens", with_coefficient(lens, name, value))
+    except LucidaError as error:
+        return state, replace(draft, error=error)

@@ -1,0 +1,236 @@
+"""The camera panel's sections below its numbers: K, R and t, presets, look at, copy and paste.
+
+Draws the widgets and returns the effects of clicks, which camera_panel/view.py runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, NamedTuple
+
+from imgui_bundle import imgui
+
+from app.cameras.camera_panel.actions import copy, form_name, go_to_preset, go_to_view, paste
+from app.cameras.camera_panel.projection import PanelContext
+from app.cameras.other_words import TOLD, other_words
+from app.cameras.presets import PRESETS, look_at
+from app.cameras.text import FORMATS_OF, FORMS, Form
+from app.state.app_state import AppState
+from app.ui import pending, rows, theme
+from app.ui.checks import checkbox, radio_button
+from app.ui.explaining.symbols import vector
+from app.ui.fields import Scale
+from app.ui.view import Host
+from renderer.camera.camera import Size, Vector
+from renderer.camera.intrinsics import PixelOrigin
+from renderer.system.errors import LucidaError
+
+FORM_NOTES: dict[Form, str] = {
+    "view file": "VIEW.toml, for --view, for scene files, and to open.",
+    "command line": "lucida render ..., for a terminal.",
+    "Python": "Runs as it is.",
+    "OpenGL matrices": "camera_from_world and clip_from_camera as drawn, column by column.",
+    "OpenCV": "A calibration file (.yml) with K, R and t, for images of the size that is shown.",
+    "NeRF": "A transforms.json with this one frame.",
+    "glTF": "A .gltf file with the camera alone, for Blender, three.js and engines.",
+}
+PASTE_NOTE = """\
+Read a camera from the clipboard (Ctrl+V), in any of these forms. A message names the form and the
+conventions."""
+ORIGINS: tuple[tuple[str, PixelOrigin], ...] = (("centres", "center"), ("corners", "corner"))
+ORIGIN_NOTES: dict[PixelOrigin, str] = {
+    "center": "The first pixel's centre is (0, 0), as in OpenCV.",
+    "corner": "The image's corner is (0, 0), the first pixel's centre (0.5, 0.5), as in COLMAP.",
+}
+LOOK_FIELDS = (
+    ("eye", "Where the camera is."),
+    ("target", "What it looks at: in the middle of an on-axis image."),
+    ("up", "Which direction is up in the image; not along the view direction."),
+)
+ORDER = (
+    ("Front", "Left", "Top"),
+    ("Back", "Right", "Bottom"),
+    ("Isometric", "Dimetric"),
+    ("Cavalier", "Cabinet"),
+)
+
+
+@dataclass(frozen=True)
+class LookAt:
+    """The form's contents. eye: None for the camera's own. target: None for the scene's centre."""
+
+    eye: Vector | None = None
+    target: Vector | None = None
+    up: Vector = (0.0, 1.0, 0.0)
+    error: LucidaError | None = None
+
+
+@dataclass(frozen=True)
+class Sections:
+    """The contents of the sections, entered but not yet applied.
+
+    frames: the number of frames drawn so far.
+    chosen: the open sections, once the user has opened or closed one; None for those that fit.
+    """
+
+    look: LookAt = LookAt()
+    frames: int = 0
+    chosen: tuple[str, ...] | None = None
+
+
+class Wish(NamedTuple):
+    """A click's effect. leaves: it moves the camera, so that invalid numbers are dropped."""
+
+    run: Callable[[Host], None]
+    leaves: bool = True
+
+
+def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
+    """Draw a section's header. Return (whether it is open, whether it was toggled now).
+
+    It starts as the user left it; otherwise it is open if the panel's window is higher than
+    room_em.
+    """
+    if sections.frames < 8:  # until the window has its size
+        high = imgui.get_window_height() > room_em * imgui.get_font_size()
+        opened = high if sections.chosen is None else name in sections.chosen
+        imgui.set_next_item_open(opened, imgui.Cond_.always)
+    opened = imgui.collapsing_header(name)
+    toggled = imgui.is_item_toggled_open()
+    if toggled:
+        imgui.internal.mark_ini_settings_dirty()  # it belongs to what a session keeps
+    return opened, toggled
+
+
+def presets_section(state: AppState) -> tuple[AppState, Wish | None]:
+    """Draw the presets' buttons, and the switch for perspective where both are possible."""
+    wish = None
+    spacing = imgui.get_style().item_spacing.x
+    width = (imgui.get_content_region_avail().x - 2 * spacing) / 3
+    named = {preset.name: preset for preset in PRESETS}
+    for row in ORDER:
+        for column, name in enumerate(row):
+            if column:
+                imgui.same_line()
+            if imgui.button(name, (width, 0)):
+                wish = Wish(partial(go_to_preset, preset=named[name]))
+            rows.tip(named[name].note)
+    perspective = state.options.presets_in_perspective
+    changed, perspective = checkbox("in perspective", perspective)
+    rows.tip(
+        "Off: parallel rays, as on an engineer's drawing.\n"
+        "On: the same directions from an eye (cavalier and cabinet are parallel always)."
+    )
+    if changed:
+        state = state.with_options(presets_in_perspective=perspective)
+    return state, wish
+
+
+def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:
+    """Draw the form for eye, target and up."""
+    thirds = rows.Thirds()
+    now = {
+        "eye": look.eye or state.camera.eye,
+        "target": look.target or around.focus.center,
+        "up": look.up,
+    }
+    for name, note in LOOK_FIELDS:
+        imgui.align_text_to_frame_padding()
+        shown = vector("e", state.options.notation) if name == "eye" else name
+        imgui.text_colored(theme.TEXT, shown)
+        rows.tip(note)
+        reach = 1.0 if name == "up" else around.focus.reach
+        for axis, letter in enumerate("xyz"):
+            thirds.go(axis)
+            changed, value = around.field(
+                f"look.{name}.{letter}",
+                now[name][axis],
+                thirds.field_px,
+                Scale(-reach, reach),
+                note,
+                wrong=look.error is not None and look.error.field == name,
+                reset=(0.0, 1.0, 0.0)[axis] if name == "up" else None,
+            )
+            if changed:
+                entered: dict[str, Any] = {name: (*now[name][:axis], value, *now[name][axis + 1 :])}
+                look = replace(look, error=None, **entered)
+    wish = None
+    spacing = imgui.get_style().item_spacing.x
+    width = (imgui.get_content_region_avail().x - spacing) / 2
+    if imgui.button("Look there", (width, 0)):
+        try:
+            view = look_at(state.view, now["eye"], now["target"], now["up"])
+            wish = Wish(partial(go_to_view, view=view))
+            look = replace(look, error=None)
+        except LucidaError as error:
+            look = replace(look, error=error)
+    rows.tip(
+        "w = from target to eye, of length 1;  u = up x w, of length 1;  v = w x u.\n"
+        "Distance, viewport and projection stay."
+    )
+    imgui.same_line()
+    if imgui.button("From the camera", (width, 0)):
+        look = LookAt()
+    rows.tip("Back to the camera's own eye, the scene's middle and y upwards.")
+    if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
+        look = LookAt()
+    return look, wish
+
+
+def copy_section() -> Wish | None:
+    """Draw all forms, and paste."""
+    wish = None
+    own = [form for form in FORMS if form not in FORMATS_OF]
+    room, spacing = imgui.get_content_region_avail().x, imgui.get_style().item_spacing.x
+    for forms, columns in ((own, 2), (list(FORMATS_OF), 3)):
+        width = (room - (columns - 1) * spacing) / columns
+        for number, form in enumerate(forms):
+            if number % columns:
+                imgui.same_line()
+            if imgui.button(form_name(form), (width, 0)):
+                wish = Wish(partial(copy, form=form), leaves=False)
+            rows.tip(f"Copy the camera. {FORM_NOTES[form]}")
+    imgui.same_line()
+    if imgui.button("Paste", (-1, 0)):
+        wish = Wish(paste, leaves=False)
+    rows.tip(PASTE_NOTE)
+    return wish
+
+
+def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppState, Wish | None]:
+    """Draw K, R and t of the current image."""
+    origin = state.options.pixel_origin
+    try:
+        words = other_words(state.view, size, origin)
+    except LucidaError as error:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
+        imgui.pop_text_wrap_pos()
+        return state, None
+    imgui.push_font(fonts.mono, 0.0)
+    imgui.text("\n".join(words.read))
+    imgui.pop_font()
+    rows.tip(
+        f"{TOLD},\nin images of {size[0]} x {size[1]} pixels; x to the right, y down, z forward."
+    )
+    if state.camera.lens is not None:
+        imgui.text_colored(theme.DIM, "of the pinhole, without the lens")
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(theme.DIM, "whole numbers at pixels'")
+    for name, wanted in ORIGINS:
+        if radio_button(name, origin == wanted):
+            state = state.with_options(pixel_origin=wanted)
+        rows.tip(ORIGIN_NOTES[wanted])
+        imgui.same_line()
+    wish = None
+    if imgui.button("Copy K, R, t", (-1, 0)):
+        wish = Wish(partial(_copy_words, words=words.copied), leaves=False)
+    rows.tip("All digits, as Python reads them and as Paste does.")
+    return state, wish
+
+
+def _copy_words(host: Host, words: str) -> None:
+    imgui.set_clipboard_text(words)
+    host.files.say("K, R and t are in the clipboard.")

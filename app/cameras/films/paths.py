@@ -1,0 +1,76 @@
+"""The cameras of a film's frames: around a point, through key cameras, to another projection."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from app.cameras.animation import Passage
+from renderer.camera.camera import Camera, Size
+from renderer.camera.navigation import dollied, orbited, switched_projection
+from renderer.scene.focus import Focus
+from renderer.scene.model import View
+from renderer.system.errors import LucidaError
+
+Timing = Literal["eased", "constant", "cut"]
+ZOOM = 4.0  # the dolly zoom's change of distance
+
+
+@dataclass(frozen=True)
+class Key:
+    """A camera on the way. seconds, timing: from here to the next key."""
+
+    view: View
+    seconds: float = 2.0
+    timing: Timing = "eased"
+
+
+def around(view: View, focus: Focus, size: Size, count: int) -> list[Camera]:
+    """Return cameras all around the focus, the eye moving to the right. The last frame is followed
+    by the first.
+    """
+    camera = view.for_size(size)
+    angles = np.linspace(0, -2 * math.pi, count, endpoint=False).tolist()
+    return [orbited(camera, focus.center, angle, 0.0) if angle else camera for angle in angles]
+
+
+def dolly_zoom(view: View, focus: Focus, size: Size, count: int) -> list[Camera]:
+    """Return cameras that move back from the focus, and zoom so that it keeps its size."""
+    camera = view.for_size(size)
+    if camera.is_parallel:
+        raise LucidaError("--dolly-zoom", "parallel rays have no distance", "give --to-parallel")
+    distances = camera.distance * np.geomspace(1, ZOOM, count)
+    return [dollied(camera, focus.center, distance) for distance in distances.tolist()]
+
+
+def to_parallel(view: View, focus: Focus, size: Size, count: int) -> list[Camera]:
+    """Return cameras from perspective to the parallel projection that shows the focus alike."""
+    if view.camera.is_parallel:
+        problem = "the camera is parallel already"
+        raise LucidaError("--to-parallel", problem, "give a perspective one")
+    end = replace(view, camera=switched_projection(view.camera, focus.center))
+    return through([Key(view), Key(end)], focus, size, count)
+
+
+def through(keys: Sequence[Key], focus: Focus, size: Size, count: int) -> list[Camera]:
+    """Return cameras from the first key to the last one, in time with their seconds."""
+    if len(keys) == 1:
+        return [keys[0].view.for_size(size)] * count
+    ends = np.cumsum([key.seconds for key in keys[:-1]])
+    passages = [
+        Passage(one.view, two.view, focus.center, focus.bounds, size) for one, two in pairwise(keys)
+    ]
+    cameras = []
+    for moment in np.linspace(0, ends[-1], count).tolist():
+        number = min(int(np.searchsorted(ends, moment, "right")), len(passages) - 1)
+        key, passage = keys[number], passages[number]
+        part = 1 - (float(ends[number]) - moment) / key.seconds
+        if key.timing == "cut" and part < 1:
+            part = 0.0
+        cameras.append(passage.at(part, eased=key.timing == "eased").for_size(size))
+    return cameras

@@ -1,0 +1,121 @@
+"""Pictures drawn by this process, by several on this machine, or on many machines (Dask).
+
+Each worker is sent the scene once. A picture's result is its encoded file. A worker that dies loses
+its pictures in progress; others draw them again.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+from app import __version__
+from app.cameras.films.frames import Look, Shot, close_kept, draw_shot
+from renderer.scene.model import Scene
+from renderer.system.errors import LucidaError
+
+PACKAGE = "pip install 'camera-lucida[film]'"
+AHEAD = 4  # pictures that each worker has been given
+PATIENCE_S = 10
+
+Pictures = Iterator[tuple[int, bytes]]
+
+
+def drawn_here(scene: Scene, look: Look, shots: Mapping[int, Shot]) -> Pictures:
+    """Yield each shot's number and picture, in order."""
+    try:
+        for number, shot in shots.items():
+            yield number, draw_shot(scene, look, shot)
+    finally:
+        close_kept()
+
+
+def drawn_by_workers(
+    scene: Scene, look: Look, shots: Mapping[int, Shot], workers: int, scheduler: str = ""
+) -> Pictures:
+    """Yield each shot's number and picture, as they are finished.
+
+    workers: the number of processes on this machine; with a scheduler's address, its workers are
+    used instead. Raises LucidaError.
+    """
+    try:
+        from dask.distributed import (
+            CancelledError,
+            Client,
+            KilledWorker,
+            LocalCluster,
+            as_completed,
+        )
+    except ImportError:
+        raise LucidaError("--workers", "needs the package distributed", PACKAGE) from None
+    for name in ("distributed", "distributed.client"):  # what they log is raised, too
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    with ExitStack() as opened:
+        if scheduler:
+            try:
+                client = opened.enter_context(Client(scheduler, timeout=PATIENCE_S))
+            except (OSError, ValueError) as error:
+                problem = f"{scheduler!r} does not answer ({type(error).__name__})"
+                raise LucidaError("--scheduler", problem, "start `dask scheduler` there") from None
+            check_versions(client)
+        else:
+            threads = max(1, (os.cpu_count() or 1) // workers)
+            look = replace(look, threads=look.threads or threads)
+            cluster = LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                memory_limit=0,  # Dask's own, a share of the memory, pauses workers for good
+                dashboard_address=None,
+                silence_logs=50,
+            )
+            client = opened.enter_context(Client(opened.enter_context(cluster)))
+        sent = client.scatter(scene, broadcast=True, hash=False)
+        waiting = iter(shots.items())
+        numbers: dict[str, int] = {}
+        running = as_completed(with_results=True, raise_errors=True)
+
+        def give(count: int) -> None:
+            for number, shot in islice(waiting, count):
+                future = client.submit(draw_shot, sent, look, shot, pure=False, retries=3)
+                numbers[future.key] = number
+                running.add(future)
+
+        give(AHEAD * max(1, len(client.scheduler_info()["workers"])))
+        try:
+            for future, content in running:
+                if isinstance(content, CancelledError):
+                    raise content
+                give(1)
+                yield numbers.pop(future.key), content
+        except (CancelledError, KilledWorker, OSError) as error:
+            field = "--scheduler" if scheduler else "--workers"
+            problem = f"the workers were lost ({type(error).__name__})"
+            remedy = "run the command again: it goes on where it stopped"
+            raise LucidaError(field, problem, remedy) from None
+
+
+def check_versions(client: Any) -> None:
+    """Raise LucidaError if there is no worker, or one has another version of this program.
+
+    client: Dask's.
+    """
+    remedy = f"install {__version__} there"
+    try:
+        versions = client.run(_version)
+    except ImportError as error:
+        raise LucidaError("--scheduler", f"a worker has no Lucida: {error}", remedy) from None
+    if not versions:
+        raise LucidaError("--scheduler", "has no workers", "start `dask worker` on a machine")
+    for address, version in versions.items():
+        if version != __version__:
+            problem = f"the worker {address} has version {version} of Lucida, not {__version__}"
+            raise LucidaError("--scheduler", problem, remedy)
+
+
+def _version() -> str:
+    return __version__

@@ -1,0 +1,189 @@
+"""A class's results as one self-contained HTML file: no network, no script, no other files.
+
+The files that were read may hold anything: all their text is escaped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+
+from app.checking.reports.page import STYLE
+from app.checking.results.model import ClassResults, MistakeCount, StepCount, Timeline, shown, told
+from app.lecture.text import Code, DisplayedFormula, Heading, ItemList, Math, Words, parse
+from renderer.system.errors import LucidaError
+
+TITLE = "What the class answered"
+TALK = "To talk about tomorrow"
+BY_STEP, OVER_TIME, UNREAD = "By step", "Over time", "Not read"
+KEY = ("correct at once", "correct later", "not correct yet")
+KINDS = ("right", "later", "wrong")
+LATEX = (  # what the replies of lectures hold, as signs
+    (r"^\mathsf{T}", "ᵀ"), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
+    (r"\,", " "), ("{", ""), ("}", ""), ("-", "\u2212"),
+)  # fmt: skip
+MOST_LABELS, COLUMN_REM = 4, 4.5  # of columns: labels that have room; their height
+MORE = """
+section h2 { display: block; } h2.part { margin: 2rem 0 .5rem; }
+.legend i { display: inline-block; width: .8rem; height: .8rem; margin-right: .3rem;
+  border-radius: .15rem; } .legend span { margin-right: .8rem; white-space: nowrap; }
+.step, .made { display: grid; grid-template-columns: 2fr 3fr; gap: 0 1rem; margin: .4rem 0; }
+.made { margin: 0 0 .2rem; font-size: .9rem; } .made > :first-child { padding-left: 1.2rem; }
+.made .dim { padding: 0; }
+@media (max-width: 40rem) { .step, .made { grid-template-columns: 1fr; } .step { margin-top: 1rem; }
+  .made .dim { padding-left: 1.2rem; } }
+.bar { display: flex; height: 1.6rem; color: var(--paper); font-size: .85rem; font-weight: 600; }
+.bar span { min-width: 1.4rem; text-align: center; line-height: 1.6rem; }
+.right { --of: var(--right); } .wrong { --of: var(--wrong); }
+.later { --of: color-mix(in srgb, var(--right) 45%, var(--paper)); color: var(--ink); }
+.bar span, .columns i, .legend i { background: var(--of); }
+.over { margin: .8rem 0 0; overflow-wrap: anywhere; }
+.columns { display: flex; gap: 2px; font-size: .8rem; line-height: 1.2; }
+.columns div { flex: 1 1 0; min-width: 0; height: 7rem; display: flex; flex-direction: column;
+  justify-content: flex-end; }
+.columns i { max-width: 4rem; } .columns small { height: 1.2em; white-space: nowrap;
+  border-top: 1px solid var(--line); color: var(--dim); font-size: inherit; }
+@media print { .step, .made, .columns { break-inside: avoid; } }
+"""
+
+
+def page(results: ClassResults) -> str:
+    """Return the page."""
+    parts = [f'<h1>{TITLE}</h1>\n<p class="dim">{_text(results.summary)}</p>\n']
+    if results.to_talk_about:
+        parts.append(_part(TALK))
+        parts += [_talk(results, count) for count in results.to_talk_about]
+    parts += [_part(BY_STEP), _key(KINDS, KEY)]
+    parts += [_step(results, step) for step in results.steps]
+    if results.timeline is not None:
+        parts += [_part(OVER_TIME), *_over_time(results.timeline)]
+    if results.problems:
+        parts.append(_part(UNREAD))
+        parts += [f"<p>{_text(problem)}</p>\n" for problem in results.problems]
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{TITLE}</title>\n<style>{STYLE}{MORE}</style>\n</head>\n<body>\n"
+        f"{''.join(parts)}</body>\n</html>\n"
+    )
+
+
+def _talk(results: ClassResults, count: MistakeCount) -> str:
+    mistake = count.mistake
+    reply = f"<p>{_marked(mistake.reply)}</p>\n" if mistake.reply not in ("", mistake.name) else ""
+    read = ""
+    if mistake.read:
+        read = f"<p>Explained by {_text(results.step_name(mistake.read))}.</p>\n"
+    return (
+        f'<section class="wrong">\n<h2>{_marked(mistake.name)}</h2>\n{reply}'
+        f'<p class="dim">{_text(results.told(count))}</p>\n{read}</section>\n'
+    )
+
+
+def _step(results: ClassResults, step: StepCount) -> str:
+    counts = step.at_once, step.later, step.not_yet
+    name = _text(results.step_name(step.title))
+    rows = [f'<div class="step"><div>{name}</div>{_bar(counts)}</div>\n']
+    rows += [
+        f'<div class="made"><div>{_marked(one.mistake.name)}</div>'
+        f'<div class="dim">{_text(told(one, step.students))}</div></div>\n'
+        for one in step.mistakes
+    ]
+    return "".join(rows)
+
+
+def _bar(counts: Sequence[int]) -> str:
+    """Return the numbers of students as one bar, each with its number in it."""
+    drawn = [
+        f'<span class="{kind}" style="flex: {count}">{count}</span>'
+        for kind, count in zip(KINDS, counts, strict=True)
+        if count
+    ]
+    return _picture("bar", ", ".join(map("{}: {}".format, KEY, counts)), drawn)
+
+
+def _over_time(timeline: Timeline) -> list[str]:
+    answers = [("wrong", timeline.wrong), ("right", timeline.right)]
+    parts = [
+        _key(("right", "wrong"), ("correct answers", "wrong answers")),
+        '<p class="over">All answers</p>\n',
+        _columns(timeline, answers),
+    ]
+    for mistake, counts in timeline.mistakes:
+        parts.append(f'<p class="over">{_marked(mistake.name)}</p>\n')
+        parts.append(_columns(timeline, [("wrong", counts)]))
+    return parts
+
+
+def _columns(timeline: Timeline, rows: Sequence[tuple[str, Sequence[int]]]) -> str:
+    """Return a column per bin, its rows on one another, with the sum above and the time below."""
+    sums = [sum(counts) for counts in zip(*(counts for _, counts in rows), strict=True)]
+    most, every = max(*sums, 1), -(-len(sums) // MOST_LABELS)
+    drawn = []
+    for n, (label, total) in enumerate(zip(timeline.labels, sums, strict=True)):
+        parts = "".join(
+            f'<i class="{kind}" style="height: {COLUMN_REM * counts[n] / most:.2f}rem"></i>'
+            for kind, counts in reversed(rows)
+        )
+        shown = escape(label) if n % every == 0 else ""
+        drawn.append(f"<div>{total or ''}{parts}<small>{shown}</small></div>")
+    said = ", ".join(map("{}: {}".format, timeline.labels, sums))
+    return _picture("columns", said, drawn)
+
+
+def _picture(kind: str, said: str, drawn: Sequence[str]) -> str:
+    said = escape(said)
+    head = f'<div class="{kind}" role="img" aria-label="{said}" title="{said}">'
+    return f"{head}{''.join(drawn)}</div>\n"
+
+
+def _key(kinds: Sequence[str], words: Sequence[str]) -> str:
+    shown = "".join(
+        f'<span><i class="{kind}"></i>{word}</span> '
+        for kind, word in zip(kinds, words, strict=True)
+    )
+    return f'<p class="legend">{shown}</p>\n'
+
+
+def _part(title: str) -> str:
+    return f'<h2 class="part">{title}</h2>\n'
+
+
+def _marked(text: str) -> str:
+    """Return a lecture's text for the page: bold, italic, code and formulas in signs."""
+    return "".join(
+        f"<{tag}>{escape(words)}</{tag}>" if tag else escape(words) for words, tag in _words(text)
+    )
+
+
+def _words(text: str) -> list[tuple[str, str]]:
+    """Return the parts of a lecture's text, each with its tag in HTML; as it is if it is none."""
+    text = shown(text)
+    try:
+        blocks = parse(text)
+    except LucidaError:
+        return [(text, "")]
+    found: list[tuple[str, str]] = []
+    for block in blocks:
+        if isinstance(block, Code | DisplayedFormula | Heading | ItemList):
+            return [(text, "")]
+        for span in block.line:
+            if isinstance(span, Math):
+                found.append((_signs(span.latex), "i"))
+            else:
+                found.append((span.text, _tag(span)))
+    return found
+
+
+def _tag(words: Words) -> str:
+    return "code" if words.code else "b" if words.bold else "i" if words.italic else ""
+
+
+def _signs(latex: str) -> str:
+    for old, new in LATEX:
+        latex = latex.replace(old, new)
+    return latex
+
+
+def _text(text: str) -> str:
+    return escape(shown(text))

@@ -1,0 +1,38 @@
+"""The actions of the view "Your code"."""
+
+from __future__ import annotations
+
+from app.checking.your_code.options import YourCodeOptions
+from app.checking.your_code.panel import CodeWish
+from app.checking.your_code.view import YOUR_CODE, YourCodeView
+from app.ui import layout
+from app.ui.action import Action, Window
+
+MENU = "File/Your code"
+
+
+def _ask(wish: CodeWish, window: Window) -> None:
+    window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+    window.view(YourCodeView).ask(wish)
+
+
+def _has_file(window: Window) -> bool:
+    return bool(window.state.of(YourCodeOptions).file)
+
+
+YOURS = (
+    Action(MENU, "Open Python code...", lambda window: _ask("open", window)),
+    Action(MENU, "Write code to begin with...", lambda window: _ask("starter", window)),
+    Action(MENU, "Open a course's tasks...", lambda window: _ask("tasks", window)),
+    Action(
+        MENU,
+        "Built-in tasks",
+        lambda window: _ask("built-in", window),
+        can=lambda window: bool(window.state.of(YourCodeOptions).tasks),
+    ),
+    Action(
+        MENU, "Run your code", lambda window: _ask("run", window), can=_has_file, separated=True
+    ),
+    Action(MENU, "Stop your code", lambda window: _ask("stop", window), can=_has_file),
+    Action(MENU, "Edit your code", lambda window: _ask("edit", window), can=_has_file),
+)

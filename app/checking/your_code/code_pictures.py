@@ -1,0 +1,184 @@
+"""The pictures of an answer on the screen: the given one, the correct one, their difference.
+
+Includes the thread that makes them, their textures, and the clicked pixel. The arrays are made by
+pictures.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.checking.checked import WrongCase
+from app.checking.your_code.model import CodeRays, canvas_pixel
+from app.checking.your_code.pictures import IMAGES, CodePictures, compared, image_pair
+from app.checking.your_code.report import CodeReport
+from app.images.ray_pictures import RayPainter, RayPictures
+from app.instruments.outside.paint import role_color
+from app.state.options import Pixel
+from app.ui import theme
+from app.ui.picture_grid import GridPicture, picture_grid
+from app.ui.uploads import Uploads
+from app.ui.view import Host
+from renderer.camera.camera import Camera
+from renderer.system.errors import LucidaError, describe
+from renderer.system.memo import Memo
+
+
+@dataclass(frozen=True, eq=False)
+class _Painted:
+    """Linear light (H, W, 3) along the rays of an answer."""
+
+    rays: CodeRays
+    given: NDArray[np.float32]
+    right: NDArray[np.float32]
+
+
+class PicturesShown:
+    """The pictures of a report; call follow() once a frame. pictures: the ones on screen; None for
+    none.
+    """
+
+    def __init__(self, host: Host, context: moderngl.Context) -> None:
+        self._painter: RayPictures[_Painted] = RayPictures("lucida-your-pictures", host.animate)
+        self._uploads = Uploads(context)
+        self._answered = Memo(_answered)
+        self._compared = Memo(_compared)
+        self._upload = Memo(_upload)
+        self._painting = False
+        self.pictures: CodePictures | None = None
+
+    @property
+    def busy(self) -> bool:
+        return self._painting and self._painter.busy
+
+    @property
+    def expected(self) -> bool:
+        """True if there are pictures, or will be: their space is reserved."""
+        return self.pictures is not None or (self._painting and self._painter.error is None)
+
+    def begin_frame(self) -> None:
+        self._uploads.begin_frame()
+
+    def rest(self) -> None:
+        """Show nothing."""
+        self._painting = False
+        self.pictures = None
+
+    def forget(self) -> None:
+        """Drop pictures in progress, because the view is hidden."""
+        self._painter.forget()
+        self.pictures = None
+
+    def close(self) -> None:
+        self._painter.close()
+        self._uploads.release()
+
+    def follow(self, host: Host, report: CodeReport) -> None:
+        """Update the pictures for the report. The previous ones of the same task and scene stay
+        until the new ones are ready.
+        """
+        rays, state = report.rays, host.state
+        self._painting = rays is not None and bool(rays.came.any())
+        if rays is None:
+            result = report.results.get(report.chosen.name) if report.chosen is not None else None
+            first = result.first if result is not None else None
+            is_image = report.chosen is not None and report.chosen.kind in IMAGES
+            self.pictures = self._answered(first) if first is not None and is_image else None
+            self._upload(self._uploads, self.pictures)
+            return
+        if not self._painting:
+            self.pictures = None
+            return
+        t_range = rays.camera.t_range
+
+        def make(painter: RayPainter) -> _Painted:
+            given = painter.picture(rays.origins, rays.directions, t_range)
+            right = painter.picture(rays.right_origins, rays.right_directions, t_range)
+            return _Painted(rays, given, right)
+
+        made = self._painter.follow(rays, state.scene, host.renderers.live, make)
+        if made is None or made.rays.task != rays.task:
+            self.pictures = None
+            return
+        self.pictures = self._compared(made, state.images.exposure_ev)
+        self._upload(self._uploads, self.pictures)
+
+    def tell_waiting(self, host: Host, room: ImVec2) -> None:
+        """Explain in the pictures' space why there are none yet, if any are expected."""
+        if not self._painting:
+            return
+        error = self._painter.error
+        text = describe(error) if error is not None else host.renderers.preparing()
+        if self.expected:
+            imgui.begin_child("waiting", room)
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
+        imgui.pop_text_wrap_pos()
+        if self.expected:
+            imgui.end_child()
+
+    def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
+        """Draw the pictures. A click marks a pixel in all views. marked: see marked_pixel()."""
+        pictures, rays = self.pictures, report.rays
+        assert pictures is not None
+        are_of_rays = rays is not None and pictures.size == rays.size
+        titles = {
+            "given": ("yours", "", role_color("other")),
+            "right": ("correct", "", None),
+            "difference": ("difference", pictures.told, None),
+        }
+        grid = [
+            GridPicture(
+                name,
+                title,
+                self._uploads.get(name),
+                caption,
+                frame,
+                marked if are_of_rays else None,
+            )
+            for name, (title, caption, frame) in titles.items()
+        ]
+        try:
+            answer = picture_grid(grid, pictures.size, room, host.fonts)
+        except LucidaError as error:
+            imgui.text_colored(theme.ERROR, describe(error))
+            return
+        if answer is not None and rays is not None and are_of_rays:
+            again = host.state.marked is not None and answer.pixel == marked
+            found = canvas_pixel(answer.pixel, rays.camera, rays.size, *_images(host))
+            host.change(host.state.with_options(marked=None if again else found))
+
+
+def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:
+    """Return the marked pixel, in the pictures; without a mark, the first wrong one."""
+    rays, marked = report.rays, host.state.marked
+    if rays is None:
+        return None
+    if marked is not None:
+        return canvas_pixel(marked, *_images(host), rays.camera, rays.size)
+    wrong = np.argwhere(rays.wrong)
+    return (int(wrong[0, 0]), int(wrong[0, 1])) if len(wrong) else None
+
+
+def _images(host: Host) -> tuple[Camera, tuple[int, int]]:
+    return host.renderers.camera(host.state), host.renderers.size
+
+
+def _answered(first: WrongCase) -> CodePictures | None:
+    return image_pair(first.case.right, first.answer)
+
+
+def _compared(made: _Painted, exposure_ev: float) -> CodePictures:
+    rays = made.rays
+    return compared(made.given, made.right, rays.came, rays.wrong, exposure_ev)
+
+
+def _upload(uploads: Uploads, pictures: CodePictures | None) -> None:
+    if pictures is not None:
+        for name in ("given", "right", "difference"):
+            uploads.put_pixels(name, getattr(pictures, name))

@@ -1,0 +1,218 @@
+"""The questions to a file about the window's camera, and the rays in its answers.
+
+Turns a task and a camera into cases, and answers into the rays of a small image. Pure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.builtin import BUILTIN, builtin_tasks
+from app.checking.calls import Failure, Limits, Run
+from app.checking.cases import check_views, shot_of
+from app.checking.checked import TaskResult, judged
+from app.checking.diagnosed import diagnosis
+from app.checking.kinds import KINDS
+from app.checking.kinds.basis import case_of
+from app.checking.kinds.viewing_ray import cases_of
+from app.checking.mistakes.diagnosis import Diagnosis
+from app.checking.task_file import TaskSet, load_tasks
+from app.checking.tasks import CheckCase, CheckTask
+from app.state.options import Notation
+from renderer.camera.camera import Camera, Size
+from renderer.scene.model import View
+from renderer.system.errors import LucidaError
+
+Floats = NDArray[np.float64]
+
+RAY, BASIS = "viewing-ray", "basis"  # the kinds of functions that make pictures of a camera
+EXACT = 1e-9
+LIMITS = Limits(seconds=10.0)  # of the built-in tasks
+
+
+@dataclass(frozen=True, eq=False)
+class CodeRays:
+    """The rays of an image, as a function computes them and as they should be.
+
+    size: (width, height).
+    origins, directions: (H, W, 3), NaN where missing; right_origins, right_directions likewise.
+    wrong: the wrong rays among those returned, bool (H, W).
+    result: that of a check, without diagnosis.
+    camera: the window's, mirrored if the course's coordinates are left-handed.
+    seconds: the duration of the calls.
+    cases, given: the cases, and the answers in the kind's own form.
+    """
+
+    task: CheckTask
+    camera: Camera
+    size: Size
+    origins: Floats
+    directions: Floats
+    right_origins: Floats
+    right_directions: Floats
+    wrong: NDArray[np.bool_]
+    result: TaskResult
+    seconds: float
+    cases: Sequence[CheckCase]
+    given: Floats
+
+    @property
+    def came(self) -> NDArray[np.bool_]:
+        """The pixels that have a ray, bool (H, W)."""
+        numbers = np.isfinite(self.origins) & np.isfinite(self.directions)
+        came: NDArray[np.bool_] = np.logical_and.reduce(numbers, axis=2)
+        return came
+
+
+def asked_of(path: str, notation: Notation = "book") -> TaskSet:
+    """Return the tasks in a course's file, "" for the built-in ones, in the window's notation.
+    Raises LucidaError.
+    """
+    if not path:
+        return TaskSet("", builtin_tasks(notation), LIMITS)
+    asked = load_tasks(path)
+    return replace(asked, tasks=tuple(replace(one, notation=notation) for one in asked.tasks))
+
+
+def tasks_of(
+    functions: frozenset[str] | None, asked: Sequence[CheckTask] = BUILTIN
+) -> list[CheckTask]:
+    """Return the tasks whose functions a file has, in order."""
+    return [task for task in asked if functions is None or task.function in functions]
+
+
+def is_of_camera(task: CheckTask) -> bool:
+    """Return True if the answers make a picture of the window's camera that may be shown.
+
+    The course must allow it, because the picture shows what is wrong and where.
+    """
+    return task.kind in (RAY, BASIS) and task.feedback in ("first-wrong", "diagnosis")
+
+
+def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
+    """Return the task with that name; without a name, the first that makes a picture of the camera,
+    or else the first.
+    """
+    wished = (task for task in tasks if task.name == name)
+    pictured = (task for task in tasks if is_of_camera(task))
+    return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
+
+
+def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUILTIN) -> CheckTask:
+    """Return the task of the same function for this camera's projection, if there is one."""
+    fitting = (
+        one
+        for one in asked
+        if one.kind == task.kind == RAY
+        and one.function == task.function
+        and camera.projection in one.projections
+    )
+    return next(fitting, task)
+
+
+def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
+    """Explain why a task cannot be asked for a camera; empty if it can."""
+    if task.kind != RAY:
+        return ""
+    if camera.projection not in task.projections:
+        other = "parallel" if "parallel" in task.projections else "perspective"
+        return f"{task.name} is for {other} projection: P switches to it."
+    view = View(camera, fit=False)
+    try:
+        check_views(replace(task, views=(view,), size=size))
+    except LucidaError as error:
+        return (
+            f"{task.name} is not asked of this camera: it {error.problem}. Make it orthonormal, "
+            "with a symmetric viewport, pixels square."
+        )
+    conventions = task.conventions
+    if (conventions.needs_rigid or conventions.vision) and camera.determinant < 0:
+        return f"{task.name} is not asked of this camera: it is left-handed. Turn u round."
+    return ""
+
+
+def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
+    """Return the cases: the ray of each pixel, or the basis, once. camera: for that size."""
+    shot = shot_of(View(camera, fit=False), size, task.conventions)
+    if task.kind == RAY:
+        return cases_of(task, shot)
+    return [case_of(task, camera.eye, shot.target, shot.up)]
+
+
+def rays_of(
+    task: CheckTask,
+    camera: Camera,
+    size: Size,
+    cases: Sequence[CheckCase],
+    run: Run,
+    seconds: float = 0.0,
+) -> CodeRays:
+    """Return the rays of a run that answers all of the cases, or the first of them."""
+    kind = KINDS[task.kind]
+    values = [None if isinstance(value, Failure) else value for value in run.values]
+    given, _ = kind.given(task, cases, values)
+    result = judged(replace(task, feedback="first-wrong"), cases, run)
+    if task.kind == RAY:
+        right, rays = kind.right(cases), given
+        wrong = kind.wrong(task, cases, given) & np.isfinite(given).all(axis=(1, 2))
+    else:
+        right, rays = _turned(camera, size, kind.right(cases)[0]), _turned(camera, size, given[0])
+        wrong = np.full(len(rays), bool(kind.wrong(task, cases, given)[0]))
+        wrong &= np.isfinite(rays).all(axis=(1, 2))
+    width, height = size
+    shape = (height, width, 3)
+    return CodeRays(
+        task,
+        cases[0].camera or camera,
+        size,
+        rays[:, 0].reshape(shape),
+        rays[:, 1].reshape(shape),
+        right[:, 0].reshape(shape),
+        right[:, 1].reshape(shape),
+        wrong.reshape(height, width),
+        result,
+        seconds,
+        cases,
+        given,
+    )
+
+
+def diagnosis_of(rays: CodeRays) -> Diagnosis | None:
+    """Return the diagnosis of the rays, if there is one. Takes a while."""
+    wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
+    return diagnosis(rays.task, rays.cases, rays.given, wrong)
+
+
+def _turned(camera: Camera, size: Size, basis: Floats) -> Floats:
+    """Return the camera's rays with another basis, u, v, w in its rows: (N, 2, 3)."""
+    width, height = size
+    i, j = np.indices((height, width)).reshape(2, -1)
+    rays = camera.ray(i, j, size)
+    count = width * height
+    eye = np.asarray(camera.eye)
+    change = np.linalg.inv(camera.basis).T @ basis
+    origins = eye + (np.broadcast_to(rays.origin, (count, 3)) - eye) @ change
+    directions = np.broadcast_to(rays.direction, (count, 3)) @ change
+    return np.stack([origins, directions], axis=1)
+
+
+def canvas_pixel(
+    pixel: tuple[int, int], of: Camera, size: Size, to: Camera, to_size: Size
+) -> tuple[int, int]:
+    """Return the pixel of another image of the same view that is nearest to a pixel's centre.
+
+    The cameras differ in their viewports, or one is the mirror image of the other. Both pixels are
+    (row, column), from 0.
+    """
+    left, right, bottom, top = of.viewport
+    x = left + (pixel[1] + 0.5) / size[0] * (right - left)
+    y = top - (pixel[0] + 0.5) / size[1] * (top - bottom)
+    x = -x if np.dot(of.u, to.u) < 0 else x
+    left, right, bottom, top = to.viewport
+    row = int((top - y) / (top - bottom) * to_size[1] - EXACT)
+    column = int((x - left) / (right - left) * to_size[0] - EXACT)
+    return min(max(row, 0), to_size[1] - 1), min(max(column, 0), to_size[0] - 1)

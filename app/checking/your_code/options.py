@@ -1,0 +1,28 @@
+"""The options of the view "Your code": the file, the tasks, and the size of the pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from app.state.bounds import AtMost, Beside, Range
+
+
+@dataclass(frozen=True)
+class YourCodeOptions:
+    """The options of the view "Your code".
+
+    file: an absolute path, as app.state.paths.stored() writes it, "" for none; in a lecture, a
+    file next to the lecture's own.
+    tasks: the path of a course's tasks in the same form, "" for the built-in ones.
+    task: the name of the visible one; "" for the first whose function the file has.
+    canvas: (width, height) of the pictures.
+    """
+
+    file: Annotated[str, Beside((".py",))] = ""
+    tasks: Annotated[str, Beside((".toml",))] = ""
+    task: Annotated[str, AtMost(64)] = ""
+    canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (32, 24)
+
+
+OPTIONS = YourCodeOptions

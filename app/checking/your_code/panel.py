@@ -1,0 +1,257 @@
+"""The panel of the view "Your code": its controls, the tasks, the pictures, the findings.
+
+Functions take values and return wishes.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.checking.builtin import builtin_tasks
+from app.checking.starter import returned, signature
+from app.checking.tasks import CheckTask
+from app.checking.your_code.report import CodeReport
+from app.checking.your_code.words import ToldLine, ToldRole, verdict_of
+from app.instruments.stepper.controls import CANVASES
+from app.state.options import Notation
+from app.ui import theme
+from app.ui.coded_text import coded_text
+from app.ui.explaining.symbols import arguments
+from app.ui.lettering import lettering
+from app.ui.rows import follow, tip
+from app.ui.theme import Fonts
+from renderer.camera.camera import Size
+from renderer.system.errors import one_line
+
+CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
+RUNNING_S = 0.3  # a run that takes longer shows how far it is
+BESIDE = 2.0  # width / height from which words are next to the pictures
+WORDS_EM = 24.0  # the least width of the words there
+TEXT_PART = 0.42  # of the height, for the words below the pictures
+VERDICT = 1.25  # its size, in that of the other words
+VERDICT_LONGEST = 70  # characters; longer text explains why there is none
+
+INVITATION = (
+    "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
+    " here, again whenever you save it, and shows your picture beside the correct one."
+)
+SIGNATURE = "def {}:\n    ...\n    return {}"
+AWAY = "moved or deleted"
+TRUST = (
+    "It has not been run: you have not opened it yourself. It would run in a process of its own,"
+    " on some systems with your rights. Read it first."
+)
+
+
+@dataclass(frozen=True)
+class CodeHead:
+    """The contents of the panel's head.
+
+    name, folder: of the file.
+    running_s: how long it has been running; 0 if it is not.
+    progress: the finished part of the picture, 0 to 1.
+    may_run: True if the user has opened it.
+    tasks: the name of the file of tasks, "" for the built-in ones.
+    is_away: True if one of the two files has gone.
+    """
+
+    name: str
+    folder: str
+    canvas: Size
+    running_s: float = 0.0
+    progress: float = 0.0
+    may_run: bool = True
+    tasks: str = ""
+    is_away: bool = False
+
+
+def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
+    """Draw the panel when no file is open. tasks: see CodeHead."""
+    task = next(task for task in builtin_tasks(notation) if task.kind == "viewing-ray")
+    code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(INVITATION)
+    imgui.pop_text_wrap_pos()
+    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
+    with lettering(fonts.mono):
+        imgui.text_colored(theme.DIM, code)
+    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
+    wish: CodeWish = ""
+    if imgui.button("Write a file to begin with..."):
+        wish = "starter"
+    tip("a Python file with empty functions, and what each is to return")
+    follow(imgui.calc_text_size("Open a Python file...").x + 2 * imgui.get_style().frame_padding.x)
+    if imgui.button("Open a Python file..."):
+        wish = "open"
+    wish = _tasks(tasks) or wish
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.DIM, "Or drop one on the window, or: lucida rays.py")
+    imgui.pop_text_wrap_pos()
+    return wish
+
+
+def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeWish, Size]:
+    """Draw the file and its buttons. Return the wish and the selected canvas size."""
+    wish: CodeWish = ""
+    with lettering(fonts.bold):
+        imgui.align_text_to_frame_padding()
+        imgui.text(one_line(told.name))
+    tip(one_line(told.folder))
+    running = told.running_s > RUNNING_S
+    label, said = ("Stop", "end its process") if running else ("Run", "as when the file is saved")
+    for name, shown, tooltip in (
+        ("stop" if running else "run", label, said),
+        ("edit", "Edit", "open it in your editor; it runs again when you save it"),
+        ("open", "Open...", "another Python file"),
+    ):
+        if name == "run" and not told.may_run:
+            continue
+        follow(_button_width(shown))
+        if imgui.button(f"{shown}###{name}"):
+            wish = name  # type: ignore[assignment]
+        tip(tooltip)
+    wish = _tasks(told.tasks) or wish
+    canvas = _canvas(told.canvas) if told.may_run else told.canvas
+    if running:
+        width = 9 * imgui.get_font_size()
+        follow(width)
+        part = told.progress if told.progress > 0 else -0.5 * told.running_s
+        imgui.progress_bar(part, ImVec2(width, 0), f"{told.running_s:.0f} s")
+    elif told.is_away:
+        follow(imgui.calc_text_size(AWAY).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.ERROR, AWAY)
+    elif report is not None and report.at:
+        at = time.strftime("%H:%M:%S", time.localtime(report.at))
+        text = f"ran at {at}, {report.seconds:.2g} s" if report.seconds else f"ran at {at}"
+        follow(imgui.calc_text_size(text).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
+    return wish, canvas
+
+
+def _tasks(name: str) -> CodeWish:
+    """Draw the source of the tasks. Return the wish to use others."""
+    wish: CodeWish = ""
+    shown = f"Tasks: {one_line(name)}" if name else "Tasks"
+    follow(_button_width(shown))
+    if imgui.button(f"{shown}###tasks"):
+        imgui.open_popup("tasks")
+    tip("what is asked for: the built-in tasks, or those of a course")
+    if imgui.begin_popup("tasks"):
+        if imgui.menu_item("built-in tasks", "", not name)[0] and name:
+            wish = "built-in"
+        if imgui.menu_item("a course's file (TOML)...", "", bool(name))[0]:
+            wish = "tasks"
+        imgui.end_popup()
+    return wish
+
+
+def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
+    """Draw a button for each task whose function the file has, with its verdict. Return the clicked
+    one.
+    """
+    clicked = None
+    for number, task in enumerate(report.tasks):
+        verdict = verdict_of(report, task)
+        shown = "correct" if verdict == "right" else verdict
+        label = f"{task.name}: {shown or '...'}"
+        if number:
+            follow(_button_width(label))
+        on = task == chosen
+        color = {"right": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
+        imgui.push_style_color(imgui.Col_.text, color or theme.DIM)
+        imgui.push_style_color(imgui.Col_.border, theme.TEXT if on else theme.LINE)
+        imgui.push_style_var(imgui.StyleVar_.frame_border_size, theme.px(2 if on else 1))
+        if imgui.button(f"{label}###{task.name}"):
+            clicked = task
+        imgui.pop_style_var()
+        imgui.pop_style_color(2)
+        tip(task.text)
+    return clicked
+
+
+def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
+    """Return the space for the pictures and for the words, and True if they are side by side."""
+    gap = imgui.get_style().item_spacing
+    if not has_pictures:
+        return ImVec2(0, 0), room, False
+    em = imgui.get_font_size()
+    if room.x > BESIDE * room.y and room.x > 2 * WORDS_EM * em:
+        words = max(WORDS_EM * em, 0.34 * room.x)
+        return ImVec2(room.x - words - gap.x, room.y), ImVec2(words, room.y), True
+    height = max(TEXT_PART * room.y, min(8 * em, 0.6 * room.y))
+    return ImVec2(room.x, room.y - height - gap.y), ImVec2(room.x, height), False
+
+
+def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
+    """Draw the findings, the verdict above all. Scroll them if they do not fit."""
+    if imgui.begin_child("told", room):
+        left = imgui.get_content_region_avail()
+        for number, line in enumerate(lines):
+            with lettering(*_lettering(line, number, fonts)):
+                if line.role == "code":
+                    imgui.push_text_wrap_pos(0.0)
+                    imgui.text_colored(_color(line.role), line.text)
+                    imgui.pop_text_wrap_pos()
+                else:
+                    coded_text(line.text, left.x, _color(line.role), fonts)
+    imgui.end_child()
+
+
+def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont | None, float]:
+    """Return the font of a line, and its type's size in parts of the usual one."""
+    if line.role == "code":
+        return fonts.mono, 1.0
+    is_verdict = number == 0 and line.role in ("good", "bad")
+    if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
+        return fonts.bold, VERDICT
+    return fonts.text, 1.0
+
+
+def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
+    """Draw the text of a file that the user has not opened. Return True if it should be run."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(TRUST)
+    imgui.pop_text_wrap_pos()
+    run = bool(imgui.button("Run it"))
+    left = imgui.get_content_region_avail()
+    if imgui.begin_child(
+        "source",
+        ImVec2(left.x, left.y),
+        imgui.ChildFlags_.borders,
+        imgui.WindowFlags_.horizontal_scrollbar,
+    ):
+        with lettering(fonts.mono):
+            imgui.text_unformatted(text)
+    imgui.end_child()
+    return run
+
+
+def _color(role: ToldRole) -> ImVec4:
+    return {"good": theme.GOOD, "bad": theme.ERROR, "dim": theme.DIM}.get(role, theme.TEXT)
+
+
+def _canvas(chosen: Size) -> Size:
+    def name(size: Size) -> str:
+        return f"{size[0]} x {size[1]} pixels"
+
+    width = imgui.calc_text_size("64 x 48 pixels").x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
+    if imgui.begin_combo("##canvas", name(chosen)):
+        for size in CANVASES:
+            if imgui.selectable(name(size), size == chosen)[0]:
+                chosen = size
+        imgui.end_combo()
+    tip("the pictures' size: one call a pixel")
+    return chosen
+
+
+def _button_width(name: str) -> float:
+    return imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x

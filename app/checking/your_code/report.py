@@ -1,0 +1,85 @@
+"""The findings on a file, as one immutable value: a thread makes it, the view reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from app.checking.builtin import BUILTIN
+from app.checking.calls import Failure
+from app.checking.checked import TaskResult
+from app.checking.mistakes.diagnosis import Diagnosis
+from app.checking.tasks import CheckTask
+from app.checking.your_code.model import CodeRays
+from app.state.options import Notation
+from renderer.camera.camera import Camera, Size
+
+ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
+
+
+@dataclass(frozen=True)
+class CodeQuestion:
+    """A question to a file.
+
+    path: of the file.
+    version: changes with the content of this file or of the tasks' file.
+    task: the name of the selected one.
+    camera, size: for the canvas.
+    tasks: the file of tasks, "" for the built-in ones.
+    notation: the window's.
+    """
+
+    path: str
+    version: int
+    task: str
+    camera: Camera
+    size: Size
+    tasks: str = ""
+    notation: Notation = "book"
+
+    @property
+    def of(self) -> tuple[str, str, int, Notation]:
+        """The content that it is about."""
+        return self.path, self.tasks, self.version, self.notation
+
+    def differs_in_camera(self, other: CodeQuestion) -> bool:
+        """Return True if it is the same as the other one, except for the camera."""
+        return (self.of, self.task, self.size) == (other.of, other.task, other.size)
+
+
+@dataclass(frozen=True, eq=False)
+class CodeReport:
+    """The findings on a file.
+
+    tasks: those whose functions the file has.
+    chosen: the selected one.
+    rays: for the window's camera, None if the selected task makes none.
+    results: of the tasks that have been tried, by name.
+    diagnosis: the reason why the rays are wrong; None while unknown.
+    failure: the reason why the file answers nothing at all.
+    output: the text that it printed.
+    seconds, at: the duration of the newest run, and its end in seconds since 1970.
+    asked: all tasks.
+    not_asked: the reason why there are no rays, if it is the camera.
+    """
+
+    question: CodeQuestion
+    tasks: tuple[CheckTask, ...] = ()
+    chosen: CheckTask | None = None
+    rays: CodeRays | None = None
+    results: Mapping[str, TaskResult] = field(default_factory=dict)
+    diagnosis: Diagnosis | None = None
+    failure: Failure | None = None
+    output: str = ""
+    seconds: float = 0.0
+    at: float = 0.0
+    asked: tuple[CheckTask, ...] = BUILTIN
+    not_asked: str = ""
+
+    @property
+    def halted(self) -> bool:
+        """True if the file should not run again by itself: it would only take as long again."""
+        failure = self.failure
+        if failure is None and self.rays is not None:
+            failure = self.rays.result.failure
+        return failure is not None and failure.kind in ENDLESS

@@ -1,0 +1,334 @@
+"""The view "Your code": a student's file, run for the window's camera while it is being edited.
+
+It decides which files may run, what they are asked, and what the outside view shows. See model.py
+for the questions, panel.py for the layout, code_pictures.py for the pictures.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import moderngl
+from imgui_bundle import imgui
+
+from app.checking.starter import starter
+from app.checking.task_file import load_tasks
+from app.checking.your_code import panel
+from app.checking.your_code.code_pictures import PicturesShown, marked_pixel
+from app.checking.your_code.following import FileFollower, open_in_editor
+from app.checking.your_code.model import RAY, asked_of
+from app.checking.your_code.options import YourCodeOptions
+from app.checking.your_code.outside_items import outside_items
+from app.checking.your_code.panel import CodeHead, CodeWish
+from app.checking.your_code.pictures import CodePictures
+from app.checking.your_code.report import CodeQuestion, CodeReport
+from app.checking.your_code.runs import CodeRuns
+from app.checking.your_code.words import ToldLine, told_of
+from app.instruments.outside.extent import end_parameter
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.view import OutsideView
+from app.state.options import Notation, Pixel
+from app.state.paths import restored, stored
+from app.ui import layout, theme
+from app.ui.action import Window
+from app.ui.view import DockedView, Host
+from renderer.files.reading import first_bytes
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError, one_line
+from renderer.system.memo import Memo
+
+YOUR_CODE = "Your-code"
+STARTER = "rays.py"
+READ_BYTES = 100_000  # to show of a file that is not run
+
+
+class YourCodeView(DockedView):
+    """The view "Your code". runs: None before there is a context."""
+
+    name = YOUR_CODE
+    title = "Your code"
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self.runs: CodeRuns | None = None
+        self._follower: FileFollower | None = None
+        self._pictures: PicturesShown | None = None
+        self._agreed: set[str] = set()  # files that the user has opened in this window
+        self._written: list[str] = []  # files to begin with that have been written
+        self._source = Memo(source_text)  # of a file that is not run
+        self._items = Memo(outside_items)
+        self._seen = False
+        self._counted: str | None = None  # the file of tasks whose count the window has taken
+        self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
+        self._asked: CodeWish = ""
+        self.told: list[ToldLine] = []
+        self._words = Memo(told_of)
+
+    @property
+    def report(self) -> CodeReport | None:
+        """The report on the open file; None before the first."""
+        return self.runs.report if self.runs is not None else None
+
+    @property
+    def pictures(self) -> CodePictures | None:
+        """The pictures on screen; None for none."""
+        return self._pictures.pictures if self._pictures is not None else None
+
+    def open(self, window: Window, path: str) -> None:
+        """Open a file for the user. It is run now, and whenever it is saved."""
+        self._agreed.add(path)
+        self._source.forget()
+        options = {"file": stored(path), "task": ""}
+        if window.state.of(YourCodeOptions).file != options["file"]:
+            window.change(window.state.with_options(your_code=options))
+        elif self._follower is not None:
+            self._follower.again()
+        window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+
+    def open_tasks(self, window: Window, path: str) -> None:
+        """Open a course's file of tasks for the user; "" for the built-in ones."""
+        asked = {"tasks": stored(path), "task": ""}
+        window.change(window.state.with_options(your_code=asked, **_notation_of(path)))
+        window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+
+    def ask(self, wish: CodeWish) -> None:
+        """Ask for what a button would do, in the next frame."""
+        self._asked = wish
+
+    @property
+    def settled(self) -> bool:
+        if not self._seen or self.runs is None or self._pictures is None:
+            return True
+        return not (self.runs.busy or self._pictures.busy)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        runs = self.runs = CodeRuns(host.animate)
+        self._follower = FileFollower(host.animate, lambda: runs.busy, runs.tick)
+        self._pictures = PicturesShown(host, context)
+
+    def end(self) -> None:
+        if self._follower is not None:
+            self._follower.close()
+        if self.runs is not None:
+            self.runs.close()
+        if self._pictures is not None:
+            self._pictures.close()
+
+    def unseen(self, host: Host) -> None:
+        if not self._seen:
+            return
+        assert self._follower is not None and self._pictures is not None
+        self._seen = False
+        self._follower.rest()
+        if self.runs is not None and self.runs.busy:
+            self.runs.forget()  # nothing runs while hidden
+        self._pictures.forget()
+        self._outside.show(YOUR_CODE, ())
+
+    def draw(self, host: Host) -> None:
+        assert self._pictures is not None
+        self._pictures.begin_frame()
+        self._seen = True
+        host.renderers.need_size(host.state.images)
+        assert self.runs is not None and self._follower is not None
+        path = restored(host.state.of(YourCodeOptions).file)
+        if self._written:
+            self._open_written(host)
+        wish: CodeWish
+        if not path:
+            self._rest()
+            tasks = restored(host.state.of(YourCodeOptions).tasks)
+            wish = panel.invitation(Path(tasks).name, host.state.options.notation, host.fonts)
+        elif not self._may_run(host, path):
+            self._rest()
+            wish = self._untrusted(host, path)
+        else:
+            wish = self._of_file(host, path)
+        self._grant(host, self._asked or wish, path)
+        self._asked = ""
+
+    def _rest(self) -> None:
+        """Run nothing, and show nothing of earlier runs."""
+        assert self.runs is not None and self._follower is not None
+        assert self._pictures is not None
+        self._follower.forget()
+        self._pictures.rest()
+        self.runs.poll()
+        if self.runs.report is not None:
+            self.runs.forget()
+        self.told = []
+        self._outside.show(YOUR_CODE, ())
+
+    def _may_run(self, host: Host, path: str) -> bool:
+        """Return True if the user has opened the file, in this window or earlier: it is a recent
+        file then.
+        """
+        if path in self._agreed:
+            return True
+        return any(entry.path == path for entry in host.files.recent.entries)
+
+    def _of_file(self, host: Host, path: str) -> CodeWish:
+        assert self.runs is not None and self._follower is not None
+        assert self._pictures is not None
+        runs, options = self.runs, host.state.of(YourCodeOptions)
+        tasks = restored(options.tasks)
+        self._follower.follow(*(one for one in (path, tasks) if one))
+        self._follower.follow_too(runs.files, runs.read_s)
+        runs.poll()
+        camera = host.state.view.for_size(options.canvas)
+        question = CodeQuestion(
+            path, self._follower.version, options.task, camera, options.canvas, tasks,
+            host.state.options.notation,
+        )  # fmt: skip
+        runs.follow(question)
+        report = runs.report
+        if report is not None and (report.question.path, report.question.tasks) != (path, tasks):
+            report = None
+        file = Path(path)
+        told = CodeHead(
+            file.name,
+            str(file.parent),
+            options.canvas,
+            runs.running_s,
+            runs.progress,
+            tasks=Path(tasks).name,
+            is_away=self._follower.is_away,
+        )
+        wish, canvas = panel.head(told, report, host.fonts)
+        if canvas != options.canvas:
+            host.apply(host.state.with_options(your_code={"canvas": canvas}))
+        if report is None:
+            imgui.text_colored(theme.DIM, "running ...")
+            return wish
+        self._count_as(host, report)
+        clicked = panel.tasks(report, report.chosen)
+        if clicked is not None:
+            host.apply(host.state.with_options(your_code={"task": clicked.name}))
+        self._pictures.follow(host, report)
+        marked = marked_pixel(host, report)
+        room = imgui.get_content_region_avail()
+        for_pictures, for_words, beside = panel.rooms(room, self._pictures.expected)
+        if self.pictures is not None:
+            self._pictures.draw(host, report, for_pictures, marked)
+        else:
+            self._pictures.tell_waiting(host, for_pictures)
+        if beside:
+            imgui.same_line()
+        self.told = self._words(report, marked, host.state.options.indexing)
+        left = imgui.get_content_region_avail()  # pictures may need less than they may have
+        panel.words(self.told, for_words if beside else left, host.fonts)
+        self._show_outside(host, report, marked)
+        return wish
+
+    def _count_as(self, host: Host, report: CodeReport) -> None:
+        """Count pixels as the tasks do, once for each file of tasks. A lecture's count holds."""
+        tasks, state = report.question.tasks, host.state
+        if report.chosen is not None and tasks != self._counted and state.step is None:
+            self._counted = tasks
+            one_based = report.chosen.conventions.base == 1
+            if one_based != state.options.one_based:
+                host.amend(state.with_options(one_based=one_based))
+
+    # In the outside view.
+
+    def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
+        """Show the student's camera if it is wrong, and the marked pixel's rays."""
+        rays = report.rays
+        if rays is None:
+            self._outside.show(YOUR_CODE, ())
+            return
+        end = end_parameter(rays.camera, host.focus.framed)
+        first = f"pixel {host.state.options.indexing.text((0, 0))}"
+        items = self._items(rays, marked, end, first, host.state.options.notation)
+        if not rays.wrong.any():
+            self._outside.show(YOUR_CODE, items)
+            return
+        place = report.question.path, rays.task.name
+        if place != self._opened_for:  # once: the user may close it again
+            self._opened_for = place
+            host.show(self._outside.name)
+        if host.state.of(OutsideOptions).answers:
+            self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
+        else:
+            self._outside.show(YOUR_CODE)
+
+    # Requests of the user.
+
+    def _untrusted(self, host: Host, path: str) -> CodeWish:
+        """A file that a lecture has named: what is in it."""
+        file = Path(path)
+        told = CodeHead(
+            file.name, str(file.parent), host.state.of(YourCodeOptions).canvas, may_run=False
+        )
+        wish, _ = panel.head(told, None, host.fonts)
+        if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
+            self._agree(host, path)
+        return wish
+
+    def _agree(self, host: Host, path: str) -> None:
+        self._agreed.add(path)
+        host.files.recent.add(path)
+        host.animate()
+
+    def _grant(self, host: Host, wish: CodeWish, path: str) -> None:
+        assert self.runs is not None and self._follower is not None
+        if wish == "open":
+            host.files.open_code_dialog()
+        elif wish == "starter":
+            tasks, notation = host.state.of(YourCodeOptions).tasks, host.state.options.notation
+            host.files.save_as_dialog(
+                "Write a file to begin with",
+                STARTER,
+                ("Python files", ".py"),
+                lambda path: self.write_starter(path, tasks, notation),
+            )
+        elif wish == "edit" and path and not open_in_editor(path):
+            host.files.message = f"No editor was found. The file is {one_line(path)}."
+        elif wish == "run" and path and self._may_run(host, path):
+            self.runs.forget()
+            self._follower.again()
+            host.animate()
+        elif wish == "stop":
+            self.runs.stop()
+        elif wish == "tasks":
+            host.files.open_tasks_dialog()
+        elif wish == "built-in":
+            host.change(host.state.with_options(your_code={"tasks": "", "task": ""}))
+
+    def write_starter(self, path: str, tasks: str = "", notation: Notation = "book") -> str:
+        """Write a starter file, on a thread. Raises LucidaError.
+
+        tasks: those whose functions it should have, as in the options.
+        """
+        asked = asked_of(restored(tasks), notation).tasks
+        wanted = asked if tasks else [task for task in asked if task.kind == RAY]
+        with atomic_write(Path(path)) as file:
+            file.write(starter(wanted).encode())
+        self._written.append(path)
+        return one_line(f"Wrote {path}.")
+
+    def _open_written(self, host: Host) -> None:
+        path = str(Path(self._written.pop()).absolute())
+        self._agree(host, path)
+        host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
+
+
+def _notation_of(path: str) -> dict[str, Any]:
+    """Return the window's option that a file of tasks sets; none if it cannot be read, which is
+    reported where it is used.
+    """
+    try:
+        return {"notation": load_tasks(path).notation} if path else {}
+    except LucidaError:
+        return {}
+
+
+def source_text(path: str) -> str:
+    """Return the text of a file, or the reason why it cannot be shown."""
+    try:
+        data = first_bytes(Path(path), READ_BYTES + 1)
+    except OSError as error:
+        return f"{one_line(path)} cannot be read: {error.strerror}"
+    text = data[:READ_BYTES].decode("utf-8", "replace").replace("\0", " ")
+    return text + ("\n..." if len(data) > READ_BYTES else "")

@@ -1,0 +1,173 @@
+"""The findings on a file as words next to its pictures, line by line. Pure."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from app.checking.checked import TaskResult
+from app.checking.kinds.values import text_of
+from app.checking.reports.told import told
+from app.checking.tasks import CheckTask
+from app.checking.your_code.model import BASIS, CodeRays
+from app.checking.your_code.report import CodeReport
+from app.state.options import Pixel
+from renderer.images.pixels import Indexing
+from renderer.system.errors import visible
+
+ToldRole = Literal["good", "bad", "text", "code", "dim"]
+HALTED = "It is not run again by itself"
+OUTPUT_LINES = 40  # last lines of the printed output
+
+
+@dataclass(frozen=True)
+class ToldLine:
+    """A line of words.
+
+    role: its meaning, which determines its look.
+    code: in a fixed-width font.
+    """
+
+    role: ToldRole
+    text: str
+
+
+def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
+    """Return all findings, the most helpful first. pixel: the marked one, in the pictures."""
+    lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
+    lines = [line for line in lines if not _is_marks(line)]
+    return [*lines, *_of_output(report)]
+
+
+def _is_marks(line: ToldLine) -> bool:
+    """Return True for a traceback's line of ^^^ alone: wrapped text would separate it from its
+    code.
+    """
+    return line.role == "code" and re.fullmatch(r" *[~^][ ~^]*", line.text) is not None
+
+
+def verdict_of(report: CodeReport, task: CheckTask) -> str:
+    """Return right, wrong or failed; "empty" if the function is still a starter, "tried" if the
+    course withholds the verdict, or "" while it is unknown.
+    """
+    result = report.results.get(task.name)
+    if result is None:
+        return ""
+    return "empty" if _is_empty(result) else told(result).verdict or "tried"
+
+
+def _is_empty(result: TaskResult) -> bool:
+    """Return True if the function returns what a starter file does."""
+    failure = result.failure
+    return failure is not None and failure.kind == "answer" and "returned None" in failure.text
+
+
+def _of_file(report: CodeReport) -> Iterator[ToldLine]:
+    """Yield the reason why the file answers nothing; no lines if it answers."""
+    if report.failure is not None:
+        yield ToldLine("bad", report.failure.text)
+        yield from (ToldLine("code", line) for line in report.failure.traceback)
+        if report.halted:
+            yield ToldLine("dim", f"{HALTED}: save the file, or press Run.")
+    elif report.chosen is None:
+        names = ", ".join(dict.fromkeys(task.function for task in report.asked))
+        yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
+
+
+def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Iterator[ToldLine]:
+    chosen, rays = report.chosen, report.rays
+    assert chosen is not None
+    if report.not_asked:
+        yield ToldLine("dim", report.not_asked)
+    if rays is not None:
+        yield from _of_rays(report, rays)
+        if rays.task != chosen:
+            other = "parallel" if "parallel" in chosen.projections else "perspective"
+            yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
+        if pixel is not None and bool(rays.came[pixel]):
+            yield from _of_pixel(rays, pixel, indexing)
+        if rays.result.failure is not None:
+            return
+    result = report.results.get(chosen.name)
+    if result is None:
+        yield ToldLine("dim", f"{chosen.name} is being tried with other cases ...")
+    elif rays is None or rays.result.status == "right":
+        if rays is not None and result.status != "right":
+            yield ToldLine("bad", "But not for every camera:")
+        yield from _of_result(result)
+
+
+def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
+    """Yield what the pictures show, and why."""
+    result, is_basis = rays.result, rays.task.kind == BASIS
+    if result.failure is not None:
+        yield from _of_failure(result)
+        if report.halted:
+            yield ToldLine("dim", f"{HALTED}: choose fewer pixels, save the file, or press Run.")
+    elif result.status == "right":
+        yield ToldLine("good", "The basis is correct." if is_basis else "Every ray is correct.")
+    else:
+        count = f"{int(rays.wrong.sum())} of {rays.wrong.size} rays are wrong."
+        yield ToldLine("bad", "The basis is wrong." if is_basis else count)
+        assert report.chosen is not None
+        tried = report.results.get(report.chosen.name)
+        found, others = report.diagnosis, tried.diagnosis if tried else None
+        if found is None or (others is not None and not found.candidates):
+            found = others  # of the task's many cameras
+        if found is None and tried is None:
+            yield ToldLine("dim", "looking for the reason ...")
+        for sentence in found.sentences if found else ():
+            yield ToldLine("text", sentence)
+        if is_basis and result.first is not None:
+            yield ToldLine("code", f"yours    {result.first.given}")
+            yield ToldLine("code", f"correct  {result.first.right}")
+
+
+def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
+    if _is_empty(result):
+        yield ToldLine("text", f"{result.task.function} returns nothing yet. {result.task.text}")
+        return
+    for number, line in enumerate(told(result).lines):
+        yield ToldLine("code" if number else "bad", line)
+
+
+def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[ToldLine]:
+    yield ToldLine("dim", f"pixel {indexing.text(pixel)}, {indexing.told}, of the pictures:")
+    for name, origins, directions in (
+        ("yours  ", rays.origins, rays.directions),
+        ("correct", rays.right_origins, rays.right_directions),
+    ):
+        origin, direction = (
+            text_of(np.round(part[pixel], 12).tolist()) for part in (origins, directions)
+        )
+        yield ToldLine("code", f"{name}  {origin} + t {direction}")
+
+
+def _of_result(result: TaskResult) -> Iterator[ToldLine]:
+    say, name = told(result), result.task.name
+    if say.verdict is None:
+        yield ToldLine("text", f"{name} was tried. The course tells no more of it.")
+    elif result.failure is not None:
+        yield from _of_failure(result)
+    elif result.status == "right":
+        yield ToldLine("good", f"{name}: correct in all of {result.cases} cases.")
+    else:
+        yield ToldLine("bad", f"{result.task.function} is wrong.")
+        yield from (ToldLine("text", line) for line in say.lines)
+
+
+def _of_output(report: CodeReport) -> Iterator[ToldLine]:
+    output = report.output
+    if not output and report.chosen is not None and report.rays is None:
+        result = report.results.get(report.chosen.name)
+        output = result.output if result is not None else ""
+    printed = output.rstrip().splitlines()
+    if printed:
+        cut = f", the last {OUTPUT_LINES} of {len(printed)} lines"
+        yield ToldLine("dim", f"printed{cut if len(printed) > OUTPUT_LINES else ''}:")
+        for line in printed[-OUTPUT_LINES:]:
+            yield ToldLine("code", visible(line).expandtabs(4))

@@ -1,1 +1,0 @@
-"""The contract between the window and its instruments: views, actions, docking."""

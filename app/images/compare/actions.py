@@ -1,0 +1,106 @@
+"""The actions of the compare view: its modes, its gain, its divider, steps from pixel to pixel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.images.compare import comparing
+from app.images.compare.options import CompareMode, CompareOptions
+from app.state.app_state import AppState
+from app.ui.action import SHIFT, Action, Key, Window, changing
+from renderer.compare.raster_and_ray import Comparison
+
+MENU, STEP = "View/Compare", comparing.DIVIDER_STEP
+FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
+
+
+def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
+    """Return a change that depends on where the images differ; it does nothing until that is
+    known.
+    """
+
+    def run(window: Window) -> None:
+        verdict = window.renderers.verdict(window.state)
+        if verdict is not None:
+            window.change(change(window.state, verdict.comparison))
+
+    return run
+
+
+def _differ(window: Window) -> bool:
+    verdict = window.renderers.verdict(window.state)
+    return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
+
+
+def _shown(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+    """Return a change that also brings the view to the front."""
+
+    def run(window: Window) -> None:
+        window.change(change(window.state))
+        window.shell.stage.show("Compare")
+
+    return run
+
+
+def _comparing(number: int, mode: CompareMode, name: str) -> Action:
+    return Action(
+        MENU,
+        name,
+        _shown(lambda state: comparing.with_mode(state, mode)),
+        f"F{5 + number}",
+        (int(Key.f5) + number,),
+        is_on=lambda state: state.of(CompareOptions).mode == mode,
+    )
+
+
+def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Action:
+    """Return an action that toggles an option."""
+
+    def is_on(state: AppState) -> bool:
+        return bool(getattr(state.of(CompareOptions), field))
+
+    def toggled(state: AppState) -> AppState:
+        return state.with_options(compare={field: not is_on(state)})
+
+    return Action(MENU, name, changing(toggled), shown, keys, is_on=is_on)
+
+
+def _keyed(
+    name: str,
+    run: Callable[[Window], None],
+    shown: str,
+    key: Key,
+    can: Callable[[Window], bool] | None = None,
+) -> Action:
+    keys = int(key) | (SHIFT if shown.startswith("Shift+") else 0)
+    return Action(MENU, name, run, shown, (keys,), can=can)
+
+
+def _gain(factor: float) -> Callable[[Window], None]:
+    return changing(
+        lambda state: comparing.with_gain(state, state.of(CompareOptions).gain * factor)
+    )
+
+
+def _divider(step: float) -> Callable[[Window], None]:
+    return changing(
+        lambda state: comparing.with_divider(state, state.of(CompareOptions).divider + step)
+    )
+
+
+def _previous(state: AppState, comparison: Comparison) -> AppState:
+    return comparing.stepped(state, comparison, forward=False)
+
+
+COMPARING = (
+    *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
+    _switch("The other image (hold the key)", "flipped", "X"),
+    _switch("Mark the causes", "causes", "K", (int(Key.k),)),
+    _keyed("More gain", _gain(2.0), "]", Key.right_bracket),
+    _keyed("Less gain", _gain(0.5), "[", Key.left_bracket),
+    _keyed("Divider to the right", _divider(STEP), "Shift+]", Key.right_bracket),
+    _keyed("Divider to the left", _divider(-STEP), "Shift+[", Key.left_bracket),
+    _keyed("Next differing pixel", _differing(comparing.stepped), "N", Key.n, _differ),
+    _keyed("Previous differing pixel", _differing(_previous), "Shift+N", Key.n, _differ),
+    _keyed("Worst pixel", _differing(comparing.at_worst), "Shift+M", Key.m, _differ),
+)

@@ -1,0 +1,34 @@
+"""The options of the compare view."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from app.state.bounds import Range
+from app.state.options import Part
+from renderer.images.difference import LARGEST_GAIN
+
+CompareMode = Literal["absolute", "signed", "wipe", "flip"]
+
+
+@dataclass(frozen=True)
+class CompareOptions:
+    """The compare view.
+
+    gain: what the difference is multiplied with before it gets a colour.
+    divider: the wipe's, in parts of the image's width.
+    rise: how far the ray image has come up on its side of the wipe, over the raster image.
+    flipped: flip shows the ray image.
+    causes: differing pixels are marked in the colours of their causes.
+    """
+
+    mode: CompareMode = "wipe"
+    gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
+    divider: Part = 0.5
+    rise: Part = 1.0
+    flipped: bool = False
+    causes: bool = False
+
+
+OPTIONS = CompareOptions

@@ -1,0 +1,146 @@
+"""The actions of the menu "Image": what both images show, how large, how magnified.
+
+Their keys are Alt and a letter or digit, as far as they have any.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from app.images.imaging import with_magnification
+from app.images.pair import choices
+from app.images.pair.choices import Choice, alt, has, toggling
+from app.images.pair.options import PairOptions
+from app.images.placement import step_from
+from app.state.app_state import AppState
+from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
+
+CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
+COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"
+
+
+def _step(steps: int) -> Callable[[Window], None]:
+    def run(window: Window) -> None:
+        state = window.state
+        placement = window.renderers.placement(state)
+        if placement is not None:
+            factor = step_from(placement, state.images, steps)
+            window.change(with_magnification(state, factor))
+
+    return run
+
+
+def _exposure(stops: float) -> Callable[[AppState], AppState]:
+    return lambda state: state.with_options(
+        images={"exposure_ev": state.images.exposure_ev + stops if stops else 0.0}
+    )
+
+
+def _with_lines(state: AppState) -> AppState:
+    on = not state.of(PairOptions).straight_lines
+    return state.with_options(pair={"straight_lines": on})
+
+
+def _counting(name: str, one_based: bool) -> Action:
+    return Action(
+        COUNTING,
+        name,
+        changing(lambda state: state.with_options(one_based=one_based)),
+        is_on=lambda state: state.options.one_based == one_based,
+        can=lambda window: window.state.step is None,  # a lecture's text counts in its own way
+    )
+
+
+def _lens(choice: Choice) -> Action:
+    return replace(choice.action(LENS), can=has_lens)
+
+
+def has_lens(window: Window) -> bool:
+    return window.state.camera.lens is not None
+
+
+IMAGE = (
+    *(choice.action(CHANNEL) for choice in choices.CHANNEL),
+    *(choice.action(CHANNEL, k == 0) for k, choice in enumerate(choices.COMPONENT)),
+    choices.TINT.action(CHANNEL),
+    *(choice.action(RESOLUTION) for choice in choices.PIXEL_SIZE),
+    *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.RESOLUTION)),
+    Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), *alt("S"), separated=True),
+    *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.SAMPLE)),
+    *map(_lens, choices.LENS),
+    choices.FIT.action(MAGNIFY),
+    Action(
+        MAGNIFY,
+        "Magnify",
+        _step(1),
+        "Alt++",
+        (ALT | int(Key.equal), ALT | SHIFT | int(Key.equal), ALT | int(Key.keypad_add)),
+    ),
+    Action(
+        MAGNIFY,
+        "Reduce",
+        _step(-1),
+        "Alt+-",
+        (ALT | int(Key.minus), ALT | int(Key.keypad_subtract)),
+    ),
+    *(choice.action(MAGNIFY, k == 0) for k, choice in enumerate(choices.MAGNIFICATION)),
+    choices.GRID.action(MAGNIFY, separated=True),
+    choices.VALUES.action(MAGNIFY),
+    Action(
+        "Image",
+        "Brighter",
+        changing(_exposure(0.5)),
+        "+",
+        (int(Key.equal), SHIFT | int(Key.equal), int(Key.keypad_add)),
+        separated=True,
+    ),
+    Action(
+        "Image",
+        "Darker",
+        changing(_exposure(-0.5)),
+        "-",
+        (int(Key.minus), int(Key.keypad_subtract)),
+    ),
+    Action("Image", "Exposure 0", changing(_exposure(0.0)), "0", (int(Key._0),)),
+    Action(
+        "Image",
+        "Linear light without sRGB's curve",
+        changing(toggling("transfer", ("srgb", "linear"))),
+        *alt("L"),
+        is_on=has("transfer", "linear"),
+    ),
+    Action(
+        "Image",
+        "Straight lines",
+        changing(_with_lines),
+        is_on=lambda state: state.of(PairOptions).straight_lines,
+        can=lambda window: not window.state.camera.is_parallel,
+    ),
+    Action(
+        "Image",
+        "Go to pixel...",
+        lambda w: w.ask_pixel(),
+        "Ctrl+G",
+        (CTRL | int(Key.g),),
+        separated=True,
+    ),
+    _counting("Pixels from 1 (lecture)", one_based=True),
+    _counting("Pixels from 0 (arrays)", one_based=False),
+    Action(
+        "Image",
+        "Clear mark",
+        changing(lambda state: state.with_options(marked=None)),
+        "Esc",  # which ends other things first: the shell's
+        can=lambda w: w.state.marked is not None,
+    ),
+)
+MOUSE = (
+    ("drag an image", "turn the camera about the point under the pointer"),
+    ("Shift+drag, right or middle drag", "move the camera; the point follows the pointer"),
+    ("wheel", "closer and farther (parallel: a smaller or larger viewport)"),
+    ("click an image", "mark the pixel; again, or Esc: clear the mark"),
+    ("arrow keys, mouse over an image", "move the mark; Shift: by ten"),
+    ("Ctrl+wheel over an image", "magnify its pixels at the pointer"),
+    ("Ctrl+drag an image", "move the magnified image"),
+)

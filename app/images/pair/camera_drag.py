@@ -1,0 +1,60 @@
+"""The mouse moves a camera: by a drag or the wheel, over the images and over the outside view."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, imgui
+
+from app.ui.fly import held
+from renderer.camera import navigation
+from renderer.camera.camera import Camera, Vector
+from renderer.system.errors import LucidaError
+
+HALF_TURN = math.pi  # a drag over the view's whole height
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class CameraDrag:
+    """The start of a drag, and what it has done.
+
+    kind: "orbit", "pan", "look", or another one that moves no camera. start: the mouse, in screen
+    coordinates. point: on the image plane under it. pivot, parameter: the world point that it
+    turns about or drags. latest: the camera that the drag has made; if the current one differs,
+    something else has changed it.
+    """
+
+    kind: str
+    camera: Camera
+    start: Point
+    point: Point
+    pivot: Vector
+    parameter: float
+    latest: Camera
+
+    def moved(self, camera: Camera, mouse: ImVec2, point: Point, angle: float) -> Camera:
+        """Return the camera after the drag so far; the current one if it would be too far out.
+
+        point: on the image plane under the mouse. angle: of one unit of dragging.
+        """
+        try:
+            if self.kind == "look":  # by steps: flying moves the camera in between
+                delta = imgui.get_io().mouse_delta
+                return navigation.looked(camera, delta.x * angle, -delta.y * angle)
+            if self.kind == "pan":
+                return navigation.panned(self.camera, self.point, point, self.parameter)
+            right, up = mouse.x - self.start[0], self.start[1] - mouse.y
+            return navigation.orbited(self.camera, self.pivot, right * angle, up * angle)
+        except LucidaError:
+            return camera
+
+
+def drag_kind() -> str:
+    """Return what the buttons and keys ask for at the beginning of a drag."""
+    io = imgui.get_io()
+    if not imgui.is_mouse_down(imgui.MouseButton_.left) or io.key_shift:
+        return "pan"
+    return "look" if io.key_alt or any(held()) else "orbit"

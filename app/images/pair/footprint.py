@@ -1,0 +1,148 @@
+"""The square of one pixel, enlarged: what the camera sees in it, and the samples taken there.
+
+Also the colour at the pointer, as a function of its place.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.images.request import ImageRequest
+from app.images.screen import Screen
+from app.images.window_rasterizer import WindowRasterizer
+from app.state.options import Pixel
+from app.ui import theme
+from app.ui.theme import Fonts
+from renderer.camera.camera import Camera
+from renderer.images.display import to_srgb8
+from renderer.images.samples import offsets
+
+CELLS = 32  # of the enlarged square, a side
+AROUND = 0.25  # of the pixel's neighbours, in pixels
+PART = 0.46  # of the image's height, for the inset
+DRAWN = "footprint"
+
+Colors = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, eq=False)
+class Footprint:
+    """A pixel's square. fine: with a margin, (CELLS, CELLS, 3). samples: (k, k, 3), those in the
+    cells of a k x k grid. mean: their mean in linear light. All but their places in sRGB.
+    """
+
+    fine: Colors
+    samples: Colors
+    mean: Colors
+
+
+def square(camera: Camera, size: tuple[int, int], pixel: Pixel, margin: float = 0.0) -> Camera:
+    """Return the camera that sees only one pixel of an image, with a margin in pixels."""
+    left, _, _, top = camera.viewport
+    wide, high = (
+        (camera.viewport[1] - left) / size[0],
+        (top - camera.viewport[2]) / size[1],
+    )
+    x, y = left + pixel[1] * wide, top - pixel[0] * high
+    ends = (x - margin * wide, x + (1 + margin) * wide)
+    return replace(camera, viewport=(*ends, y - (1 + margin) * high, y + margin * high))
+
+
+def footprint(
+    rasterizer: WindowRasterizer, request: ImageRequest, pixel: Pixel, samples: int
+) -> Footprint:
+    """Draw the square of a pixel."""
+    side = math.isqrt(samples)
+    fine = _drawn(rasterizer, request, square(request.camera, request.size, pixel, AROUND), CELLS)
+    taken = _drawn(rasterizer, request, square(request.camera, request.size, pixel), side)
+    return Footprint(to_srgb8(fine), to_srgb8(taken), to_srgb8(taken.mean(axis=(0, 1))))
+
+
+def _drawn(
+    rasterizer: WindowRasterizer, request: ImageRequest, camera: Camera, side: int
+) -> NDArray[np.float32]:
+    part = ImageRequest(request.scene, camera, (side, side))
+    texture = rasterizer.draw(part, DRAWN).color
+    return np.frombuffer(texture.read(), np.float32).reshape(side, side, 4)[..., :3]
+
+
+def draw_footprint(screen: Screen, pixel: Pixel, seen: Footprint) -> None:
+    """Draw the inset in the image's corner, and lines to it from the pixel."""
+    draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
+    low, far = screen.visible
+    side = min(PART * (far.y - low.y), 0.4 * (far.x - low.x))
+    count = len(seen.samples)
+    pixel_at = screen.point(pixel[0] + 0.5, pixel[1] + 0.5)
+    left = low.x + em if pixel_at.x > (low.x + far.x) / 2 else far.x - em - side - 5 * em
+    corner = ImVec2(left, low.y + em)
+    end = ImVec2(corner.x + side, corner.y + side)
+    draw.push_clip_rect(low, far, True)
+    for x, y in ((corner.x, end.y), (end.x, end.y)):
+        draw.add_line(pixel_at, ImVec2(x, y), theme.u32(theme.MARK, 0.8), theme.line_px(1.5))
+    cell = side / CELLS
+    for i, row in enumerate(seen.fine):
+        for j, color in enumerate(row):
+            at = ImVec2(corner.x + j * cell, corner.y + i * cell)
+            draw.add_rect_filled(at, ImVec2(at.x + cell + 0.5, at.y + cell + 0.5), _ink(color))
+    whole = side / (1 + 2 * AROUND)
+    inner = ImVec2(corner.x + AROUND * whole, corner.y + AROUND * whole)
+    edge = ImVec2(inner.x + whole, inner.y + whole)
+    draw.add_rect(corner, end, theme.u32(theme.TEXT), 0.0, theme.line_px(1.5))
+    draw.add_rect(inner, edge, theme.u32(theme.MARK), 0.0, theme.line_px(2.5))
+    radius = max(2.0, min(theme.px(7), 0.24 * whole / count))
+    for (down, right), color in zip(offsets(count**2), seen.samples.reshape(-1, 3), strict=True):
+        at = ImVec2(inner.x + (right + 0.5) * whole, inner.y + (down + 0.5) * whole)
+        draw.add_circle_filled(at, radius + theme.px(2), theme.u32(theme.rgb("#000000")))
+        draw.add_circle_filled(at, radius + theme.px(1), theme.u32(theme.MARK))
+        draw.add_circle_filled(at, radius, _ink(color))
+    swatch = ImVec2(end.x, corner.y)
+    swatch_end = ImVec2(end.x + 5 * em, corner.y + max(side, 4.4 * em))
+    draw.add_rect_filled(swatch, swatch_end, theme.u32(theme.PANEL, 0.92))
+    text = "1 sample" if count == 1 else f"mean of {count**2}"
+    wide = imgui.calc_text_size(text).x
+    draw.add_text(
+        ImVec2(swatch.x + (5 * em - wide) / 2, swatch.y + 0.4 * em), theme.u32(theme.TEXT), text
+    )
+    box = (
+        ImVec2(swatch.x + 1.2 * em, swatch.y + 2 * em),
+        ImVec2(swatch.x + 3.8 * em, swatch_end.y - 0.6 * em),
+    )
+    draw.add_rect_filled(*box, _ink(seen.mean))
+    draw.add_rect(*box, theme.u32(theme.MARK), 0.0, theme.line_px(2))
+    draw.pop_clip_rect()
+
+
+def _ink(color: Colors) -> int:
+    red, green, blue = (int(value) for value in color)
+    return 0xFF000000 | blue << 16 | green << 8 | red
+
+
+def draw_value(screen: Screen, color: NDArray[np.float32], fonts: Fonts) -> None:
+    """Draw the value of the image, a function of a place in its plane, next to the pointer.
+
+    The place is on a viewport of width and height 1: u to the right and v up, from the middle.
+    """
+    low, far = screen.visible
+    mouse, em = imgui.get_io().mouse_pos, imgui.get_font_size()
+    u = min(max((mouse.x - low.x) / (far.x - low.x), 0.0), 1.0) - 0.5
+    v = min(max((far.y - mouse.y) / (far.y - low.y), 0.0), 1.0) - 0.5
+    red, green, blue = (float(value) for value in color)
+    text = f"I({u:.2f}, {v:.2f}) = ({red:.2f}, {green:.2f}, {blue:.2f})"
+    pad, large = 0.4 * em, 1.3 * em
+    imgui.push_font(fonts.mono, large)
+    fitting = (far.x - low.x - 2 * pad) / imgui.calc_text_size(text).x
+    imgui.pop_font()
+    imgui.push_font(fonts.mono, large * min(1.0, fitting))
+    size, draw = imgui.calc_text_size(text), imgui.get_window_draw_list()
+    left = max(low.x, min(mouse.x + em, far.x - size.x - 2 * pad))
+    top = mouse.y - size.y - 2 * em if mouse.y - size.y - 2 * em > low.y else mouse.y + 1.5 * em
+    corner = ImVec2(left, top)
+    end = ImVec2(left + size.x + 2 * pad, top + size.y + 2 * pad)
+    draw.add_rect_filled(corner, end, theme.u32(theme.PANEL, 0.94), pad)
+    draw.add_text(ImVec2(left + pad, top + pad), theme.u32(theme.TEXT), text)
+    imgui.pop_font()

@@ -1,0 +1,101 @@
+"""Parallel lines of the world, drawn over an image as far as they reach."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from imgui_bundle import ImVec2, imgui
+from numpy.typing import NDArray
+
+from app.images.pair.options import PairOptions
+from app.images.pair.straight_lines import SAMPLES, curves, draw_curves, placed
+from app.images.screen import Screen
+from app.ui import theme
+from renderer.camera.camera import Camera
+
+NEAREST = 0.05  # the parameter at which a line begins in perspective
+LENGTH = 1e4  # of a line that has no end in the image, in lengths of its direction
+LABEL = "vanishing point"
+
+Floats = NDArray[np.float64]
+
+
+def ends(camera: Camera, points: Sequence[Sequence[float]], along: Sequence[float]) -> Floats:
+    """Return the visible part of each line, its two ends in the world, (n, 2, 3).
+
+    In perspective a line begins before the eye. Its other end is so far away that it is in the
+    vanishing point, unless the line is parallel to the image plane.
+    """
+    through, direction = np.asarray(points, float).reshape(-1, 3), np.asarray(along, float)
+    first = np.full(len(through), -LENGTH)
+    if not camera.is_parallel:
+        into = camera.camera_from_world[2, :3] @ direction / -camera.distance
+        if abs(into) > 1e-9:
+            direction = direction * np.sign(into)
+            here = camera.project(through, (1, 1)).parameter
+            first = (NEAREST - here) / abs(into)
+    reach = np.stack([first, np.full(len(through), LENGTH)], axis=1)
+    return through[:, None, :] + reach[..., None] * direction
+
+
+def vanishing_point(camera: Camera, along: Sequence[float]) -> Floats | None:
+    """Return a point of the world in the direction in which parallel lines meet; None if their
+    images are parallel.
+    """
+    into = camera.camera_from_world[2, :3] @ np.asarray(along, float)
+    if camera.is_parallel or abs(into) < 1e-9:
+        return None
+    return np.asarray(camera.eye) - np.sign(into) * np.asarray(along, float)
+
+
+def _between(camera: Camera, segment: Floats) -> Floats:
+    """Return points (n, 3) that are seen evenly spaced along a segment, however long it is."""
+    ways = segment - np.asarray(camera.eye)
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    share = np.linspace(0, 1, SAMPLES)[:, None]
+    points: Floats = np.asarray(camera.eye) + (1 - share) * ways[0] + share * ways[1]
+    return points
+
+
+def draw_parallels(
+    draw: imgui.ImDrawList,
+    screen: Screen,
+    camera: Camera,
+    size: tuple[int, int],
+    options: PairOptions,
+) -> None:
+    """Draw the lines, and the point in which they meet."""
+
+    def place(points: Floats) -> list[ImVec2]:
+        row, column, _ = camera.project(points, size)
+        pairs = zip(np.atleast_1d(row), np.atleast_1d(column), strict=True)
+        return [screen.point(float(r) + 0.5, float(c) + 0.5) for r, c in pairs]
+
+    color, dark = theme.u32(theme.MARK), theme.u32(theme.rgb("#000000", 0.6))
+    draw.push_clip_rect(*screen.visible, True)
+    for segment in ends(camera.pinhole, options.parallels, options.along):
+        if camera.lens is not None:
+            bent = curves(camera, _between(camera, segment)[None], size)
+            draw_curves(draw, screen, placed(bent, screen), color, 2.0)
+            continue
+        start, end = place(segment)
+        way = options.extended
+        end = ImVec2(start.x + way * (end.x - start.x), start.y + way * (end.y - start.y))
+        for ink, width in ((dark, 4.0), (color, 2.0)):
+            draw.add_line(start, end, ink, theme.line_px(width))
+    meets = vanishing_point(camera, options.along) if options.extended == 1 else None
+    at = place(meets)[0] if meets is not None else ImVec2(math.nan, math.nan)
+    if math.isfinite(at.x):  # the lens sees it
+        for ink, width in ((dark, 6.0), (color, 3.0)):
+            draw.add_circle(at, theme.px(9), ink, 0, theme.line_px(width))
+        wide = imgui.calc_text_size(LABEL)
+        low = ImVec2(at.x - wide.x / 2, at.y - theme.px(18) - wide.y)
+        pad = theme.px(4)
+        draw.add_rect_filled(
+            ImVec2(low.x - pad, low.y - pad), ImVec2(low.x + wide.x + pad, low.y + wide.y + pad),
+            theme.u32(theme.PANEL, 0.9), pad,
+        )  # fmt: skip
+        draw.add_text(low, theme.u32(theme.TEXT), LABEL)
+    draw.pop_clip_rect()

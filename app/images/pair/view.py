@@ -1,0 +1,391 @@
+"""The raster and the ray image, side by side and linked: one class, made twice."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import ClassVar
+
+import moderngl
+from imgui_bundle import ImVec2, imgui
+
+from app.cameras.remedies import helped, remedy_for
+from app.images.marking import Anchor, followed
+from app.images.pair.dark_note import DarkNote, note_button
+from app.images.pair.footprint import draw_footprint, draw_value, footprint
+from app.images.pair.image_mouse import Seen
+from app.images.pair.marks import walked
+from app.images.pair.options import PairOptions
+from app.images.pair.overlay import draw_told
+from app.images.pair.pane import Drawn, MouseState, Pane, image_pane
+from app.images.pair.pixelgrid import Values
+from app.images.pair.rulers import ruler_sizes
+from app.images.pair.straight_lines import draw_grid
+from app.images.pair.toolbar import Strip, image_strip
+from app.images.pair.vanishing import draw_parallels
+from app.images.photograph.layer import PhotographLayer
+from app.images.photograph.model import path_of
+from app.images.photograph.options import PhotographOptions
+from app.images.placement import Placement, shown_pixel
+from app.images.screen import Screen, available_px
+from app.images.shown import Picture
+from app.state.app_state import AppState
+from app.state.options import Pixel
+from app.ui.guest import Click, Guest, ShownIn
+from app.ui.view import DockedView, Host
+from renderer.camera.camera import Camera
+from renderer.system.errors import LucidaError, describe
+from renderer.system.memo import Memo
+
+RASTER, RAY = "Raster", "Ray"
+PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
+STEADY = 6  # frames of one size, two panes each
+NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too
+
+
+@dataclass
+class Linked:
+    """The state that the two images share.
+
+    photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
+    steady_frames: of the images, and how often they were drawn at that size. pins: returns the
+    pixels that are pinned in a state; set by their owner. guest: see app/ui/guest.py; set by
+    itself.
+    """
+
+    photograph: PhotographLayer = field(default_factory=PhotographLayer)
+    mouse: MouseState = field(default_factory=MouseState)
+    anchor: Anchor | None = None
+    gesture_number: int = 0
+    gesture_s: float = 0.0
+    walked_frame: int = -1
+    size: tuple[int, int] = (0, 0)
+    steady_frames: int = 0
+    pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
+    guest: Guest | None = None
+
+
+class ImageView(DockedView):
+    """One of the two images."""
+
+    padding = ImVec2(1, 1)
+    flags = int(
+        imgui.WindowFlags_.no_scrollbar
+        | imgui.WindowFlags_.no_scroll_with_mouse
+        | imgui.WindowFlags_.no_background
+    )
+
+    def __init__(self, linked: Linked) -> None:
+        self.linked = linked
+
+    @property
+    def settled(self) -> bool:
+        return not self.linked.photograph.busy
+
+    def unseen(self, host: Host) -> None:
+        host.renderers.forget_pane(self.name)
+
+    def cancel(self) -> None:
+        self.linked.mouse.grab = None
+
+    def begin_anew(self) -> None:
+        """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
+        shared = self.linked
+        shared.mouse, shared.anchor = MouseState(), None
+        shared.steady_frames = 0
+
+    def flown(self, host: Host) -> Camera | None:
+        return host.state.camera
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        return state.with_camera(camera)
+
+    def object_under(self, host: Host) -> int | None:
+        if host.hovered is None or host.hovered[0] != self.name:
+            return None
+        return host.renderers.object_at(host.state, host.hovered[1])
+
+    def _pane(
+        self,
+        host: Host,
+        picture: Drawn,
+        values: Values | None,
+        error: Exception | None,
+        note: str = "",
+        progress: float = 1.0,
+        legend: bool = True,
+    ) -> None:
+        """Draw an image into the rest of the window.
+
+        values: of its channel's pixels; None if it shows no channel, and then has no legend
+        either.
+        """
+        both, shared = host.renderers, self.linked
+        self._strip(host)
+        room_px, options = available_px(), host.state.images
+        both.fit_pane(self.name, room_px, options, ruler_sizes(options))
+        room_px = both.common_room(room_px)
+
+        def placed(state: AppState) -> Placement:
+            return both.placed(state.images, room_px)
+
+        self._keep_mark(host)
+        corner = imgui.get_cursor_screen_pos()
+        self._before_image(host, Screen.here(placed(host.state)))
+        imgui.set_cursor_screen_pos(corner)
+        dark = (
+            self._why_black(host, Screen.here(placed(host.state))) if not (error or note) else None
+        )
+        imgui.set_cursor_screen_pos(corner)
+        state = host.state
+        clicks: list[tuple[Pixel, bool]] = []
+        seen = Seen(
+            name=self.name,
+            shown=both.camera(state),
+            size=both.size,
+            center=host.focus.center,
+            reach=host.focus.reach,
+            depth_at=lambda pixel: both.depth_at(state, pixel),
+            click=partial(self._for_guest, host, clicks),
+        )
+        pane = Pane(
+            seen=seen,
+            picture=picture,
+            values=values,
+            fonts=host.fonts,
+            note=describe(error) if error else note,
+            is_error=error is not None,
+            dark=dark,
+            progress=progress,
+            legend=legend,
+            has_tools=host.has_tools,
+            hovered=self._hovered(host, placed(state)),
+            pins=shared.pins(state),
+            depths=both.depths() if state.images.channel == "depth" else None,
+            on_pixels=lambda screen: self._on_pixels(host, screen),
+            held=shared.guest is not None and shared.guest.holds(self.name),
+        )
+        result = image_pane(pane, state, placed, shared.mouse)
+        if result.hovered is not None:
+            host.hover(self.name, result.hovered)
+        host.apply(result.state, self._gesture(result.turned) if result.turned else None)
+        if result.keyed:
+            self._walk(host, placed(host.state))
+        imgui.set_cursor_screen_pos(corner)
+        screen = Screen.here(placed(host.state))
+        self._over_image(host, screen)
+        if shared.guest is not None:
+            over = pane.held or result.hovered is not None
+            self._with_guest(host, shared.guest, screen, clicks, over)
+
+    def _for_guest(
+        self, host: Host, clicks: list[tuple[Pixel, bool]], pixel: Pixel, double: bool
+    ) -> bool:
+        """Keep a click until the image is drawn, if it is for the guest."""
+        guest = self.linked.guest
+        if guest is None or not guest.wants(host, double):
+            return False
+        clicks.append((pixel, double))
+        return True
+
+    def _with_guest(
+        self,
+        host: Host,
+        guest: Guest,
+        screen: Screen,
+        clicks: list[tuple[Pixel, bool]],
+        over: bool,
+    ) -> None:
+        """Draw the guest over the image, and hand it the clicks that it wants."""
+        width, height = host.renderers.size
+        low, high = screen.point(0, 0), screen.point(height, width)
+        extent = ImVec2(high.x - low.x, high.y - low.y)
+        shown = ShownIn(self.name, host.renderers.camera(host.state), low, extent)
+        io = imgui.get_io()
+        for pixel, double in clicks:
+            if double:
+                host.unclick()
+            number = host.renderers.object_at(host.state, pixel)
+            guest.click(host, shown, Click(number, double, io.key_shift or io.key_ctrl))
+        draw = imgui.get_window_draw_list()
+        draw.push_clip_rect(*screen.pane, True)
+        guest.draw(host, shown, over)
+        draw.pop_clip_rect()
+
+    def _before_image(self, host: Host, screen: Screen) -> None:
+        """Draw items that take the mouse before the image does."""
+
+    def _on_pixels(self, host: Host, screen: Screen) -> None:
+        """Draw on the image, below the grid, the marks and the legends."""
+
+    def _over_image(self, host: Host, screen: Screen) -> None:
+        """Draw over the image."""
+
+    def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
+        """Draw the note on a black image, with its button if there is one that helps."""
+        both, state = host.renderers, host.state
+        reason, verdict = both.why_black(state), both.verdict(state)
+        if reason is None or verdict is None:
+            return None
+        guest = self.linked.guest
+        offered = guest.remedy(state, reason.cause) if guest is not None else ""
+        note = DarkNote(reason.text, offered or remedy_for(reason))
+        if note_button(note, screen):
+            try:
+                if guest is not None and offered:
+                    host.change(guest.remedied(state, offered))
+                else:
+                    host.travel(helped(state, reason, verdict.darkness, host.focus))
+            except LucidaError as problem:
+                host.files.message = str(problem)
+        return note
+
+    def _strip(self, host: Host) -> None:
+        if host.has_tools and not host.state.preferences.presentation:
+            size = self.linked.photograph.file_size
+            strip = Strip(self.name, host.ask_resolution, size)
+            host.apply(image_strip(strip, host.state))
+
+    def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
+        """Return the pixel to frame: always in the other image, in this one only if it is small."""
+        if host.hovered is None:
+            return None
+        size = host.renderers.size
+        if host.hovered[0] == self.name and placement.magnification <= NARROW_CELL:
+            return None
+        row, column = host.hovered[1]
+        return (row, column) if row < size[1] and column < size[0] else None
+
+    def _keep_mark(self, host: Host) -> None:
+        """Move the mark to the same ray if the images have another size."""
+        shared, state, size = self.linked, host.state, host.renderers.size
+        shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
+        shared.size = size
+        marked_size = state.options.marked_size
+        if marked_size is None and shared.anchor is None and shared.steady_frames < STEADY:
+            return  # a step's mark belongs to the size that comes when the layout is done
+        marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
+        now_size = size if marked is not None else None
+        if (marked, now_size) != (state.marked, marked_size):
+            host.amend(state.with_options(marked=marked, marked_size=now_size))
+
+    def _walk(self, host: Host, placement: Placement) -> None:
+        """Move the mark by the arrow keys, and keep it in sight."""
+        shared, frame = self.linked, imgui.get_frame_count()
+        if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
+            return
+        state, size = host.state, host.renderers.size
+        middle = (size[1] // 2, size[0] // 2)
+        start = host.hovered[1] if host.hovered is not None else middle
+        pixel = walked(state.marked, size, start)
+        if pixel is None:
+            return
+        shared.walked_frame = frame
+        state = state.with_options(marked=pixel, images=shown_pixel(placement, pixel))
+        host.apply(state, self._gesture("walk"))
+
+    def _gesture(self, kind: str) -> tuple[str, int]:
+        """Return the gesture that a turn of the wheel, or a key, belongs to."""
+        shared, now_s = self.linked, time.monotonic()
+        shared.gesture_number += now_s - shared.gesture_s > PAUSE_S
+        shared.gesture_s = now_s
+        return (kind, shared.gesture_number)
+
+
+class PhotographedView(ImageView):
+    """One of the two images, with the photograph where one is open."""
+
+    is_ray: ClassVar[bool]
+
+    def __init__(self, linked: Linked) -> None:
+        super().__init__(linked)
+        self._footprint = Memo(footprint)
+
+    def _laid(self, host: Host, picture: Drawn) -> Drawn:
+        layer, options = self.linked.photograph, host.state.of(PhotographOptions)
+        if options.file and not options.shown:
+            return picture
+        if not layer.follow(host.renderers, host.state):
+            return picture
+
+        def laid(state: AppState, placement: Placement, name: str) -> Picture | None:
+            made = picture(state, placement, name)
+            of = self.name, name
+            return layer.over(host.renderers, state, of, made, placement, self.is_ray)
+
+        return laid
+
+    def _over_image(self, host: Host, screen: Screen) -> None:
+        layer = self.linked.photograph
+        options, state = host.state.of(PairOptions), host.state
+        draw, both = imgui.get_window_draw_list(), host.renderers
+        camera = both.camera(state)
+        if options.straight_lines and not camera.is_parallel:
+            draw_grid(draw, screen, camera, both.size)
+        if options.vanishing:
+            draw_parallels(draw, screen, camera, both.size, options)
+        if options.footprint and state.marked is not None:
+            self._draw_footprint(host, screen, state.marked)
+        if options.value:
+            self._draw_value(host, screen)
+        told = layer.problem or layer.note
+        if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
+            draw_told(draw, screen, told, bool(layer.problem))
+
+    def _draw_footprint(self, host: Host, screen: Screen, pixel: Pixel) -> None:
+        both, state = host.renderers, host.state
+        request = both.request(state)
+        if request is None or both.textures is None or not _contains(request.size, pixel):
+            return
+        if self.is_ray and both.shown_ray(state) is None:
+            return
+        samples = state.images.samples if self.is_ray else 1
+        square = self._footprint(both.textures.rasterizer, request, pixel, samples)
+        draw_footprint(screen, pixel, square)
+
+    def _draw_value(self, host: Host, screen: Screen) -> None:
+        if host.hovered is None or host.hovered[0] != self.name:
+            return
+        row, column = host.hovered[1]
+        read = host.renderers.ray_values if self.is_ray else host.renderers.raster_values
+        values = read(host.state, "color", (row, column, row + 1, column + 1))
+        if values is not None and values.size:
+            draw_value(screen, values[0, 0, :3], host.fonts)
+
+
+def _contains(size: tuple[int, int], pixel: Pixel) -> bool:
+    return pixel[0] < size[1] and pixel[1] < size[0]
+
+
+class RasterView(PhotographedView):
+    name = RASTER
+    title = "Raster  object order"
+    is_ray = False
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self.linked.photograph.begin(context)
+
+    def end(self) -> None:
+        self.linked.photograph.end()
+
+    def draw(self, host: Host) -> None:
+        both = host.renderers
+        picture = self._laid(host, both.raster_picture)
+        self._pane(host, picture, both.raster_values, both.raster_error)
+
+
+class RayView(PhotographedView):
+    name = RAY
+    title = "Ray  image order"
+    is_ray = True
+
+    def draw(self, host: Host) -> None:
+        both, image = host.renderers, host.renderers.ray_image
+        refining = image is not None and not image.is_last
+        progress = both.live.progress if refining else 1.0
+        note = both.preparing()
+        picture = self._laid(host, both.ray_picture)
+        self._pane(host, picture, both.ray_values, both.ray_error, note, progress)
+        both.trace(host.state)

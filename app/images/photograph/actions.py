@@ -1,0 +1,79 @@
+"""The actions of the photograph: show it, lay it over or behind the images, set its opacity, close
+it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.images.photograph.model import can_undistort, closed, undistorting
+from app.images.photograph.options import Lay, PhotographOptions
+from app.images.photograph.panel import UNDISTORT
+from app.state.app_state import AppState
+from app.ui.action import ALT, Action, Key, Window, changing
+
+MENU = "Image/Photograph"
+STEP = 0.1
+
+
+def is_open(window: Window) -> bool:
+    """Return True if there is a photograph for the images."""
+    return bool(window.state.of(PhotographOptions).file)
+
+
+def _switched(state: AppState) -> AppState:
+    shown = not state.of(PhotographOptions).shown
+    return state.with_options(photograph={"shown": shown})
+
+
+def _laid(lay: Lay) -> Callable[[AppState], AppState]:
+    return lambda state: state.with_options(photograph={"lay": lay, "shown": True})
+
+
+def _stronger(step: float) -> Callable[[AppState], AppState]:
+    def change(state: AppState) -> AppState:
+        opacity = round(state.of(PhotographOptions).opacity + step, 6)
+        return state.with_options(photograph={"opacity": opacity})
+
+    return change
+
+
+def _undistort(window: Window) -> None:
+    window.change(undistorting(window.state, window.renderers.size))
+
+
+def _lay(name: str, lay: Lay) -> Action:
+    return Action(
+        MENU,
+        name,
+        changing(_laid(lay)),
+        is_on=lambda state: state.of(PhotographOptions).lay == lay,
+        can=is_open,
+        separated=lay == "over",
+    )
+
+
+PHOTOGRAPH = (
+    Action(
+        MENU,
+        "Photograph on the images",
+        changing(_switched),
+        "Alt+P",
+        (ALT | int(Key.p),),
+        is_on=lambda state: state.of(PhotographOptions).shown,
+        can=is_open,
+    ),
+    _lay("Photograph over the images", "over"),
+    _lay("Photograph where nothing is hit", "behind"),
+    Action(MENU, "Photograph more opaque", changing(_stronger(STEP)), can=is_open),
+    Action(MENU, "Photograph less opaque", changing(_stronger(-STEP)), can=is_open),
+    Action(
+        MENU,
+        UNDISTORT,
+        _undistort,
+        is_on=lambda state: state.of(PhotographOptions).distorted is not None,
+        can=lambda window: can_undistort(window.state),
+        separated=True,
+    ),
+    Action(MENU, "Close the photograph", changing(closed), can=is_open, separated=True),
+)

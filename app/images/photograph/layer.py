@@ -1,0 +1,187 @@
+"""The open photograph, for all views: read on a thread, held once. It costs nothing until used."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import moderngl
+
+from app.images.photograph.laying import LaidPhotograph, Laying
+from app.images.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
+from app.images.photograph.options import PhotographOptions
+from app.images.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
+from app.images.placement import Placement
+from app.images.progressive_ray import RayImage
+from app.images.renderers import Renderers
+from app.images.shown import Held, Picture
+from app.state.app_state import AppState
+from app.ui.background import Background
+from renderer.raster.display import upload
+from renderer.scene.model import View
+from renderer.system.errors import LucidaError, describe
+
+# The file, its size on screen in pixels, and the lens that is taken out of it.
+Asked = tuple[Path, Size, View | None]
+Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there is none
+
+
+class PhotographLayer:
+    """problem: why there is no photograph, one line. note: a remark on it. file_size: the
+    photograph's own (width, height); (0, 0) if unknown.
+    """
+
+    def __init__(self) -> None:
+        self._gl: moderngl.Context | None = None
+        self._work: Background[Answer] = Background("lucida-photograph")
+        self._laying: Laying | None = None
+        self._asked: Asked | None = None
+        self._path: Path | None = None  # of the photograph on the GPU
+        self._distorted: View | None = None  # the lens that is taken out of that
+        self._objects: tuple[RayImage, moderngl.Texture] | None = None
+        self.problem = ""
+        self.note = ""
+        self.file_size: Size = (0, 0)
+
+    def begin(self, context: moderngl.Context) -> None:
+        """Prepare the layer."""
+        self._gl = context
+
+    @property
+    def busy(self) -> bool:
+        """True while a photograph is being read that a view still asks for."""
+        return self._asked is not None and self._work.busy
+
+    def follow(self, both: Renderers, state: AppState) -> bool:
+        """Return True if there is a photograph to show. Call in each frame in which a view would
+        show it.
+        """
+        path = path_of(state)
+        if path is None or self._gl is None or not min(both.size):
+            self._forget()
+            return False
+        distorted = state.of(PhotographOptions).distorted
+        asked = path, pixels_of(self._parts(both, state), both.size), distorted
+        if self._laying is None:
+            self._laying = Laying(self._gl)
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            self._take(*outcome.value)
+        if asked != self._asked:
+            self._asked, self.problem = asked, ""
+            self._work.submit(lambda: _answer(asked))
+        if self._path != path or self._distorted != distorted:
+            return False
+        has_bars = self._parts(both, state) != covered(state.camera, both.camera(state))
+        self.note = note(path.name, self.file_size, has_bars)
+        return True
+
+    def over(
+        self,
+        both: Renderers,
+        state: AppState,
+        name: tuple[str, str],
+        picture: Picture | None,
+        placement: Placement,
+        ray: bool,
+    ) -> Picture | None:
+        """Return a picture of one of the images with the photograph as the state says. Call
+        follow() first.
+
+        name: of the view, and of its picture.
+        ray: True for the ray image.
+        """
+        options = state.of(PhotographOptions)
+        if picture is None or not options.shown or not options.opacity:
+            return picture
+        parts = self._parts(both, state)
+        laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
+        return self._laid(both, name, picture, placement, laid, ray)
+
+    def end(self) -> None:
+        self._work.close()
+        self._forget()
+        if self._laying is not None:
+            self._laying.release()
+        self._laying = self._gl = None
+
+    def _parts(self, both: Renderers, state: AppState) -> Parts:
+        """Return the part of the images that the photograph covers, as far as its size is known.
+
+        A camera from a file may have pixels that are not square: its own image's shape counts.
+        """
+        parts = covered(state.camera, both.camera(state))
+        known = self._path is not None and self._path == path_of(state)
+        known = known and self._distorted == state.of(PhotographOptions).distorted
+        shape = state.view.own_size or pixels_of(parts, both.size)
+        return letterboxed(parts, shape, self.file_size) if known else parts
+
+    def _laid(
+        self,
+        both: Renderers,
+        name: tuple[str, str],
+        picture: Picture,
+        placement: Placement,
+        laid: LaidPhotograph,
+        ray: bool,
+    ) -> Picture:
+        assert self._laying is not None
+        try:
+            objects = self._seen(both, ray) if laid.behind else None
+            return self._laying.laid(name, picture, placement, laid, objects)
+        except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
+            self.problem = describe(error)
+            return picture
+
+    def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
+        assert self._laying is not None
+        if self._asked is None or asked[::2] != self._asked[::2]:
+            return  # another one is wanted by now
+        self._path, self.problem = None, ""
+        if isinstance(answer, str):
+            self.problem = answer
+            self._laying.take(None)
+            return
+        try:
+            self._laying.take(answer.pixels)
+        except LucidaError as error:
+            self.problem = describe(error)
+            return
+        self._path, self.file_size, self._distorted = asked[0], answer.size, asked[2]
+
+    def _seen(self, both: Renderers, ray: bool) -> Held | None:
+        """Return what the pixels of an image show.
+
+        While the camera moves, the ray image has only its colours; use the raster image's then, if
+        it is visible too.
+        """
+        image = both.ray_image
+        if ray and image is not None and image.frame.id is not None and self._gl is not None:
+            if self._objects is None or self._objects[0] is not image:
+                old, self._objects = self._objects, None
+                self._objects = image, upload(self._gl, image.frame.id, old and old[1])
+            return self._objects[1], image
+        raster = both.textures.raster_seen() if both.textures is not None else None
+        return (raster.textures.object, raster) if raster is not None else None
+
+    def _forget(self) -> None:
+        """Release the photograph's memory."""
+        if self._asked is None:
+            return
+        self._asked = self._path = None
+        self.problem = self.note = ""
+        self.file_size = (0, 0)
+        if self._laying is not None:
+            self._laying.take(None)
+        if self._objects is not None:
+            self._objects[1].release()
+            self._objects = None
+
+
+def _answer(asked: Asked) -> Answer:
+    try:
+        path, size, distorted = asked
+        if distorted is None:
+            return asked, decoded(path, size)
+        return asked, without_lens(decoded(path, distorted.own_size or size), distorted)
+    except LucidaError as error:
+        return asked, describe(error)

@@ -1,0 +1,120 @@
+"""The place of a photograph in the images, and the note on it. Pure.
+
+A photograph of the viewport's shape fills the camera's own viewport: its left edge is the
+viewport's left, its upper edge the top. Another one has bars on two sides. If a view is fitted to
+the window, its images show more than the viewport, and the photograph is a part of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from app.images.photograph.options import PhotographOptions
+from app.images.photograph.reading import Size
+from app.state.app_state import AppState
+from app.state.paths import restored, stored
+from renderer.camera.camera import Camera
+from renderer.camera.undistort import undistorted_camera
+from renderer.scene.model import View
+from renderer.system.errors import one_line
+
+Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
+WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)
+SAME_SHAPE = 0.005  # relative difference of two shapes that are the same
+
+
+def path_of(state: AppState) -> Path | None:
+    """Return the path of the open photograph."""
+    file = restored(state.of(PhotographOptions).file)
+    return Path(file) if file else None
+
+
+def with_photograph(state: AppState, path: str | None, **changes: Any) -> AppState:
+    """Return the state with a photograph open, as it was taken; None closes it."""
+    file = stored(path or "")
+    return state.with_options(photograph={"file": file, "distorted": None, **changes})
+
+
+def closed(state: AppState) -> AppState:
+    return with_photograph(state, None, follows=False)
+
+
+def can_undistort(state: AppState) -> bool:
+    """Return True if there is a lens to take out of the photograph, or one that was taken out."""
+    options = state.of(PhotographOptions)
+    return bool(options.file) and (state.camera.lens is not None or options.distorted is not None)
+
+
+def undistorting(state: AppState, size: Size) -> AppState:
+    """Return the state in which photograph and camera have no lens; if they are so, with it again.
+
+    The camera stays where it is. size: (width, height) of the photograph, or of the images, if the
+    camera was not given for an image of its own.
+    """
+    was = state.of(PhotographOptions).distorted
+    if was is not None:
+        taken = was.camera
+        camera = replace(
+            state.camera, viewport=taken.viewport, distance=taken.distance, lens=taken.lens
+        )
+        given = camera, was.own_size
+        return _as_seen(state, View(camera, was.fit, given), None)
+    if state.camera.lens is None:
+        return state
+    size = state.view.own_size or size
+    camera, new = undistorted_camera(state.camera.pinhole, state.camera.lens, size)
+    kept = replace(state.view, given=(state.camera, size))
+    return _as_seen(state, View(camera, state.view.fit, (camera, new)), kept)
+
+
+def _as_seen(state: AppState, view: View, distorted: View | None) -> AppState:
+    return state.with_view(view).with_options(photograph={"distorted": distorted, "shown": True})
+
+
+def covered(camera: Camera, drawn: Camera) -> Parts:
+    """Return the part of an image that a camera's viewport covers.
+
+    The image is drawn by another camera, which differs in its viewport only.
+    """
+    if camera.viewport == drawn.viewport:
+        return WHOLE
+    left, right, bottom, top = camera.viewport
+    l, r, b, t = drawn.viewport  # noqa: E741
+    width, height = r - l, t - b
+    return (left - l) / width, (t - top) / height, (right - l) / width, (t - bottom) / height
+
+
+def letterboxed(parts: Parts, shape: Size, own: Size) -> Parts:
+    """Return the part of `parts`, those of the viewport, that a photograph fills without being
+    stretched: all of it if the shapes agree, otherwise with bars on two sides.
+
+    shape: (width, height) of the viewport. own: of the photograph; (0, 0) if unknown.
+    """
+    if not min(own):
+        return parts
+    width, height = shape
+    ratio = own[0] * height / (own[1] * width)
+    if abs(ratio - 1) <= SAME_SHAPE + 1 / min(*own, *shape):  # a pixel is rounding
+        return parts
+    across, down = min(1.0, ratio), min(1.0, 1 / ratio)
+    x, y = (parts[0] + parts[2]) / 2, (parts[1] + parts[3]) / 2
+    wide, high = across * (parts[2] - parts[0]) / 2, down * (parts[3] - parts[1]) / 2
+    return x - wide, y - high, x + wide, y + high
+
+
+def pixels_of(parts: Parts, size: Size) -> Size:
+    """Return the number of pixels of an image of (width, height) that a photograph covers: at least
+    one, and no more than the image has.
+    """
+    left, top, right, bottom = parts
+    wide, high = round((right - left) * size[0]), round((bottom - top) * size[1])
+    return min(max(wide, 1), size[0]), min(max(high, 1), size[1])
+
+
+def note(name: str, own: Size, has_bars: bool) -> str:
+    """Return a note if a photograph has not the viewport's shape; "" if it has."""
+    if not has_bars:
+        return ""
+    return f"{one_line(name)}, {own[0]} x {own[1]}, has not the viewport's shape: with bars"

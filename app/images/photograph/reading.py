@@ -1,0 +1,137 @@
+"""Files of photographs: known by their names, read for display, no larger than needed.
+
+A photograph is display values (sRGB), upright, as its EXIF orientation says. Transparent parts stay
+so, and show the image.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera.undistort import undistorted
+from renderer.files.reading import check_file
+from renderer.images.frame import LARGEST_PIXELS
+from renderer.scene.model import View
+from renderer.system.errors import LucidaError
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as Picture
+
+PHOTO_ENDINGS = (".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff")
+ORIENTATION = 0x0112  # of EXIF
+TURNS = {  # by orientation: what makes it upright
+    2: "FLIP_LEFT_RIGHT",
+    3: "ROTATE_180",
+    4: "FLIP_TOP_BOTTOM",
+    5: "TRANSPOSE",
+    6: "ROTATE_270",
+    7: "TRANSVERSE",
+    8: "ROTATE_90",
+}
+LYING = ("TRANSPOSE", "ROTATE_270", "TRANSVERSE", "ROTATE_90")  # rows become columns
+UNREADABLE = "is no picture that can be read"
+REMEDY = "give a JPEG, PNG, WebP or TIFF file"
+
+Size = tuple[int, int]  # (width, height)
+
+
+@dataclass(frozen=True, eq=False)
+class DecodedPhotograph:
+    """A photograph in memory.
+
+    pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values times
+    alpha.
+    size: the file's own, upright.
+    """
+
+    pixels: NDArray[np.uint8]
+    size: Size
+
+
+def is_photograph(source: str) -> bool:
+    """Return True for the name of a picture, never of a scene."""
+    return source.lower().endswith(PHOTO_ENDINGS)
+
+
+def found_photograph(source: str) -> str:
+    """Return the absolute path of a readable picture. Raises LucidaError."""
+    path = Path(source).absolute()
+    decoded(path, (16, 16))
+    return str(path)
+
+
+def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
+    """Return a file's picture with the wanted number of pixels, (width, height), or with its own if
+    that is smaller. Each pixel is the mean of the area that it covers. Raises LucidaError.
+    """
+    from PIL import Image
+
+    check_file(path)
+    try:
+        with Image.open(path) as opened:
+            return _decoded(opened, wanted)
+    except LucidaError as error:
+        raise LucidaError("", error.problem, error.remedy, str(path)) from None
+    except MemoryError:
+        problem = "needs more memory than there is"
+        raise LucidaError("", problem, "give a smaller picture", str(path)) from None
+    except Image.DecompressionBombError:
+        raise _too_large(str(path)) from None
+    except Exception:  # decoders raise anything for a broken file
+        raise LucidaError("", UNREADABLE, REMEDY, str(path)) from None
+
+
+def without_lens(photograph: DecodedPhotograph, view: View) -> DecodedPhotograph:
+    """Return a photograph as the pinhole in the place of its camera sees it; transparent where the
+    photograph ends. view: its camera, with a lens.
+    """
+    camera, size = view.camera, view.own_size or photograph.size
+    assert camera.lens is not None
+    pixels = undistorted(photograph.pixels, camera.pinhole, camera.lens, size)
+    return DecodedPhotograph(pixels, (pixels.shape[1], pixels.shape[0]))
+
+
+def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
+    from PIL import Image
+
+    turn, own = TURNS.get(opened.getexif().get(ORIENTATION, 1)), opened.size
+    lying = turn in LYING
+    wanted = (wanted[1], wanted[0]) if lying else wanted
+    opened.draft("RGB", wanted)  # decodes no more of a JPEG than needed
+    if opened.width * opened.height > LARGEST_PIXELS:
+        raise _too_large()
+    size = min(wanted[0], own[0]), min(wanted[1], own[1])
+    picture = _eight_bits(opened)
+    if picture.size != size:
+        picture = picture.resize(size, Image.Resampling.BOX)
+    if turn is not None:
+        picture = picture.transpose(Image.Transpose[turn])
+    pixels = np.array(picture.convert("RGBA"))
+    alpha = pixels[..., 3:]
+    if alpha.min(initial=255) < 255:
+        product = pixels[..., :3] * alpha.astype(np.uint16)
+        pixels[..., :3] = (product + 127) // 255
+    return DecodedPhotograph(pixels, (own[1], own[0]) if lying else own)
+
+
+def _eight_bits(opened: Picture) -> Picture:
+    """Return the picture in 8 bits a channel, with alpha if it has any."""
+    from PIL import Image
+
+    if opened.mode.startswith("I"):  # 16 bits of gray, whatever they are kept in
+        gray = np.clip(np.asarray(opened).astype(np.int64) >> 8, 0, 255)
+        return Image.fromarray(gray.astype(np.uint8))
+    if opened.mode == "F":
+        raise LucidaError("", "has numbers without a largest one for pixels", REMEDY)
+    has_alpha = "transparency" in opened.info or opened.mode in ("RGBA", "LA", "PA", "RGBa", "La")
+    return opened.convert("RGBA" if has_alpha else "RGB")
+
+
+def _too_large(path: str = "") -> LucidaError:
+    most = f"{LARGEST_PIXELS // 1_000_000} million"
+    return LucidaError("", f"has more than {most} pixels", "give a smaller picture", path)

@@ -1,0 +1,50 @@
+"""The cost plot: recorded steps and times of both renderers, against triangles or pixels."""
+
+from __future__ import annotations
+
+import moderngl
+from imgui_bundle import ImVec2, imgui, implot
+
+from app.instruments.costs import plots
+from app.instruments.costs.options import CostOptions
+from app.instruments.costs.recorded import COSTS, EXPLAINED, GROWTH
+from app.ui import theme
+from app.ui.checks import radio_button
+from app.ui.rows import follow
+from app.ui.view import DockedView, Host
+
+COSTS_VIEW = "Costs"
+
+
+class CostsView(DockedView):
+    name = COSTS_VIEW
+    title = "Costs"
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        if implot.get_current_context() is None:
+            implot.create_context()
+
+    def draw(self, host: Host) -> None:
+        unit = host.state.of(CostOptions).against
+        if host.has_tools:
+            imgui.align_text_to_frame_padding()
+            imgui.text("against")
+            for name in COSTS:
+                follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
+                if radio_button(name, unit == name):
+                    host.apply(host.state.with_options(costs={"against": name}))
+        room = imgui.get_content_region_avail()
+        of_object, of_image = GROWTH[unit]
+        notes = [
+            (of_object, theme.legible(plots.color_of(is_ray=False))),
+            (of_image, theme.legible(plots.color_of(is_ray=True))),
+        ]
+        if room.y > 20 * imgui.get_font_size():
+            notes.append((EXPLAINED, theme.DIM))
+        gap = imgui.get_style().item_spacing.y
+        below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note, _ in notes)
+        plots.draw(unit, ImVec2(room.x, max(60.0, room.y - below - gap)))
+        imgui.push_text_wrap_pos(0.0)
+        for note, color in notes:
+            imgui.text_colored(color, note)
+        imgui.pop_text_wrap_pos()

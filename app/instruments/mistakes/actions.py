@@ -1,0 +1,58 @@
+"""The mistakes' actions: what is shown, and the quiz's keys.
+
+The panel reads the answers' keys, 1 to 4 and A to D, while the view has the keyboard.
+"""
+
+from __future__ import annotations
+
+from app.instruments.mistakes import question
+from app.instruments.mistakes.options import MistakesOptions, Mode
+from app.instruments.mistakes.panel import Wish
+from app.instruments.mistakes.view import MISTAKES, MistakesView
+from app.ui.action import SHIFT, Action, Key, Window
+
+MENU = "Lecture/Mistakes"
+MODES: dict[Mode, str] = {
+    "laboratory": "Mistakes: a laboratory of wrong lines",
+    "which-line": "Mistakes: which line made this picture?",
+    "which-picture": "Mistakes: what will this line do?",
+}
+
+
+def _show(window: Window, mode: Mode) -> None:
+    window.shell.stage.show(MISTAKES)
+    changes = question.switched_to(window.state.of(MistakesOptions), mode)
+    window.change(window.state.with_options(mistakes=changes))
+
+
+def _is_quiz_shown(window: Window) -> bool:
+    is_quiz = window.state.of(MistakesOptions).mode != "laboratory"
+    return is_quiz and MISTAKES in window.shell.stage.rects
+
+
+def _mode(mode: Mode, name: str) -> Action:
+    return Action(
+        MENU,
+        name,
+        lambda window: _show(window, mode),
+        is_on=lambda state: state.of(MistakesOptions).mode == mode,
+    )
+
+
+def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Action:
+    return Action(
+        MENU,
+        f"Mistakes: {name}",
+        lambda window: window.view(MistakesView).ask(wish),
+        keys,
+        (chord,),
+        can=_is_quiz_shown,
+        separated=separated,
+    )
+
+
+WRONG_LINES = (
+    *(_mode(mode, name) for mode, name in MODES.items()),
+    _asking("reveal the answer", "reveal", "U", int(Key.u), True),
+    _asking("next question", "next", "Shift+U", SHIFT | int(Key.u), False),
+)

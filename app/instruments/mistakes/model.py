@@ -1,0 +1,166 @@
+"""The mistakes laboratory's model: the lines, those that are wrong, and what that changes.
+
+Knows no window. The lines and their mistakes are in app/checking/mistakes/.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.checking.mistakes.program import Mistake, Mistakes, Program
+from app.checking.mistakes.rays import RayTask, camera_rays, ray_program
+from app.images.ray_pictures import RayPainter
+from app.instruments.mistakes.options import MistakesOptions
+from app.instruments.outside.second_camera import GivenRay, corner_rays
+from app.state.app_state import AppState
+from app.state.options import Pixel
+from app.ui.explaining.breaking import broken
+from renderer.camera.camera import Camera, Floats, Size
+from renderer.images import to_srgb8
+from renderer.images.pixels import Indexing
+
+Light = NDArray[np.float32]
+Bytes = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Situation:
+    """The inputs of pictures apart from the scene and the wrong lines.
+
+    camera: fitted to size. pixel: the marked one in an image of that size, or None.
+    """
+
+    camera: Camera
+    size: Size
+    indexing: Indexing
+    pixel: Pixel | None = None
+
+    @property
+    def program(self) -> Program:
+        return ray_program(RayTask(self.camera.projection, self.indexing))
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """right, wrong: linear light (H, W, 3). corners: origins and directions (4, 3) of the wrong
+    rays, as outside.second_camera takes them. ray: of the marked pixel, as wrong as the others."""
+
+    right: Light
+    wrong: Light
+    corners: tuple[Floats, Floats]
+    ray: GivenRay | None
+
+
+def situation_of(state: AppState, images: Size) -> Situation:
+    """images: the size of the window's own images, whose shape is taken."""
+    size = picture_size(state, images)
+    camera = state.view.for_size(size)
+    marked, pixel = state.marked, None
+    if marked is not None and marked[0] < images[1] and marked[1] < images[0]:
+        pixel = scaled_pixel(marked, images, size)
+    return Situation(camera, size, state.options.indexing, pixel)
+
+
+def picture_size(state: AppState, images: Size) -> Size:
+    """As large as the images where these are as coarse, else of the columns that were chosen."""
+    columns = state.of(MistakesOptions).columns
+    width, height = images if min(images) else (4, 3)
+    if state.images.resolution is not None and width <= columns:
+        return width, height
+    return columns, max(1, min(2 * columns, round(columns * height / width)))
+
+
+def scaled_pixel(pixel: Pixel, of: Size, size: Size) -> Pixel:
+    """The pixel of an image of `size` that lies where that one does in an image of another."""
+    row, column = (
+        (2 * at + 1) * new // (2 * old)  # where its middle lies
+        for at, old, new in zip(pixel, reversed(of), reversed(size), strict=True)
+    )
+    return row, column
+
+
+def rays_of(now: Situation, mistakes: Mistakes) -> tuple[Floats, Floats]:
+    """Origins and directions (H, W, 3) as the lines with these mistakes make them."""
+    return camera_rays(now.camera, now.size, mistakes, now.indexing)
+
+
+def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compared:
+    """Both pictures; for a thread."""
+    right = painter.picture(*rays_of(now, ()), now.camera.t_range)
+    origins, directions = rays_of(now, mistakes)
+    wrong = painter.picture(origins, directions, now.camera.t_range) if mistakes else right
+    ray = None
+    if now.pixel is not None:
+        origin, direction = origins[now.pixel], directions[now.pixel]
+        t = painter.hits([origin], [direction], now.camera.t_range)
+        ray = GivenRay(origin, direction, float(t[0]))
+    return Compared(right, wrong, corner_rays(origins, directions), ray)
+
+
+def named(program: Program, names: Iterable[str]) -> Mistakes:
+    """The mistakes of these names that the program has, in their order; at most two, which can be
+    made together."""
+    found: list[Mistake] = []
+    for name in names:
+        for mistake in program.mistakes:
+            fits = all(program.can_combine(other, mistake) for other in found)
+            if mistake.name == name and fits and mistake not in found and len(found) < 2:
+                found.append(mistake)
+    return tuple(found)
+
+
+def unknown(names: Iterable[str]) -> tuple[str, ...]:
+    """The names that no program of a ray has."""
+    known = {
+        mistake.name
+        for projection in ("perspective", "parallel")
+        for indexing in Indexing
+        for mistake in ray_program(RayTask(projection, indexing)).mistakes
+    }
+    return tuple(name for name in names if name not in known)
+
+
+def of_line(program: Program, key: str) -> Mistakes:
+    """Return the mistakes of a line, with others or alone, the most common first."""
+    found = (mistake for mistake in program.mistakes if key in mistake.keys)
+    return tuple(sorted(found, key=lambda mistake: not mistake.is_common))
+
+
+def switched(program: Program, names: Sequence[str], name: str) -> tuple[str, ...]:
+    """Return the names after a mistake was switched on or off.
+
+    Mistakes that exclude the new one are switched off; of the others, the last one stays.
+    """
+    if name in names:
+        return tuple(one for one in names if one != name)
+    (new,) = (mistake for mistake in program.mistakes if mistake.name == name)
+    others = [one.name for one in named(program, names) if program.can_combine(one, new)]
+    return (*others[-1:], name)
+
+
+def without_line(program: Program, names: Sequence[str], key: str) -> tuple[str, ...]:
+    """The names after a line was made right again."""
+    return tuple(one.name for one in named(program, names) if key not in one.keys)
+
+
+def folded(code: str, letters: int) -> list[str]:
+    """Return the code in rows of so many letters."""
+    return [row for line in code.split("\n") for row in broken(line, letters)]
+
+
+def shown(light: Light, exposure_ev: float) -> Bytes:
+    """Linear light as it is shown."""
+    return to_srgb8(light, exposure_ev)
+
+
+def told_difference(changed: NDArray[np.bool_]) -> str:
+    """Return how much of the picture differs, in words."""
+    count = int(changed.sum())
+    if count == 0:
+        return "nowhere: this camera does not tell them apart"
+    part = 100 * count / changed.size
+    return f"{part:.0f} % of the pixels" if part >= 1 else f"{count} pixels of {changed.size}"

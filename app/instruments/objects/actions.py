@@ -1,0 +1,110 @@
+"""The actions of the scene's objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.instruments.objects import editing
+from app.instruments.objects.choosing import chosen, everything, walked
+from app.instruments.objects.options import ObjectsOptions
+from app.state.app_state import AppState
+from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
+from renderer.editing import objects
+from renderer.scene.focus import Focus
+from renderer.system.errors import LucidaError
+
+MENU, HANDLES = "Scene", "Scene/Handles"
+
+
+def _toggle(
+    menu: str,
+    name: str,
+    field: str,
+    on: object,
+    off: object,
+    keys: str = "",
+    chords: tuple[int, ...] = (),
+    separated: bool = False,
+) -> Action:
+    """Return the action that switches an option between two values."""
+
+    def is_on(state: AppState) -> bool:
+        return bool(getattr(state.of(ObjectsOptions), field) == on)
+
+    def toggled(state: AppState) -> AppState:
+        return state.with_options(objects={field: off if is_on(state) else on})
+
+    return Action(menu, name, changing(toggled), keys, chords, is_on=is_on, separated=separated)
+
+
+def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window], None]:
+    """Return a function that runs an edit as an undo step, or reports why it is impossible."""
+
+    def run(window: Window) -> None:
+        try:
+            window.change(change(window.state, window.focus))
+        except LucidaError as error:
+            window.files.message = str(error)
+
+    return run
+
+
+def _has_chosen(window: Window) -> bool:
+    return bool(chosen(window.state))
+
+
+def _walking(step: int) -> Callable[[Window], None]:
+    return lambda window: window.amend(walked(window.state, step))
+
+
+def _adding(kind: str) -> Action:
+    name = f"Add {kind} light" if kind in objects.LIGHTS else f"Add {kind}"
+    return Action(
+        "Scene/Add",
+        name,
+        _editing(lambda state, focus: editing.added(state, kind, focus)),
+        separated=kind == objects.LIGHTS[0],
+    )
+
+
+SCENE = (
+    *(_adding(kind) for kind in (*objects.SHAPES, *objects.LIGHTS)),
+    Action("Scene/Add", "Add model...", lambda w: w.files.add_model_dialog(), separated=True),
+    Action(
+        MENU,
+        "Duplicate",
+        _editing(editing.duplicated),
+        "Ctrl+D",
+        (CTRL | int(Key.d),),
+        can=_has_chosen,
+        separated=True,
+    ),
+    Action(
+        MENU,
+        "Delete",
+        _editing(lambda state, focus: editing.deleted(state)),
+        "Delete",
+        (int(Key.delete),),
+        can=_has_chosen,
+    ),
+    Action(
+        MENU,
+        "Select all",
+        lambda window: window.amend(everything(window.state)),
+        "Ctrl+A",
+        (CTRL | int(Key.a),),
+        separated=True,
+    ),
+    Action(MENU, "Select next object", _walking(1), ".", (int(Key.period),)),
+    Action(MENU, "Select previous object", _walking(-1), ",", (int(Key.comma),)),
+)
+
+CHOOSING = (
+    _toggle(MENU, "Select on click", "selects", True, False, "V", (int(Key.v),)),
+    _toggle(MENU, "Add dropped models to the scene", "dropped", "add", "open"),
+    _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G", (SHIFT | int(Key.g),)),
+    _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T", (SHIFT | int(Key.t),)),
+    _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L", (SHIFT | int(Key.l),)),
+    _toggle(HANDLES, "Along the object's own axes", "along", "object", "world", separated=True),
+    _toggle(HANDLES, "In steps", "snaps", True, False),
+)

@@ -1,0 +1,75 @@
+"""Edits of the scene: each takes a state and returns another one.
+
+Pure. renderer/editing/ changes the scene; here the selection follows. Raises LucidaError if
+the edit is impossible; the old state is unchanged.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from app.instruments.objects.choosing import choose, chosen, unlocked
+from app.instruments.objects.placing import place_for
+from app.state.app_state import AppState
+from renderer.editing import objects
+from renderer.editing.changing import Item
+from renderer.editing.outline import OutlineRow
+from renderer.scene.focus import Focus
+from renderer.scene.model import Scene
+
+
+def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = None) -> AppState:
+    """Return the state with an edited scene, and the same view. items: the new selection."""
+    changed = replace(state, scene=scene)
+    return changed if items is None else choose(changed, items)
+
+
+def added(state: AppState, kind: str, focus: Focus) -> AppState:
+    """Return the state with a new object or light, in the picture, selected."""
+    if kind == "directional":  # it has no place
+        table = objects.new_table(state.scene, kind)
+        return with_scene(state, *objects.add(state.scene, table))
+    place = place_for(state.scene, focus, state.camera, kind in objects.LIGHTS)
+    power = math.floor(math.log10(place.size))
+    size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger
+    at = [round(x, 2 - power) for x in place.at]
+    table = objects.new_table(state.scene, kind, at, size)
+    return with_scene(state, *objects.add(state.scene, table))
+
+
+def rounded(length: float) -> float:
+    """Round a length to one digit, so that it is easy to read."""
+    return float(f"{length:.1g}")
+
+
+def deleted(state: AppState) -> AppState:
+    """Return the state without the selection; locked items stay."""
+    items = unlocked(state)
+    return with_scene(state, objects.delete(state.scene, items), ()) if items else state
+
+
+def duplicated(state: AppState, focus: Focus) -> AppState:
+    """Add a copy of the selection next to it, and select it."""
+    items = chosen(state)
+    if not items:
+        return state
+    by = (rounded(0.1 * focus.reach), 0.0, 0.0)
+    return with_scene(state, *objects.duplicate(state.scene, items, by))
+
+
+def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
+    """Return the rows that contain all of these words: in a name, a kind or a file."""
+    wanted = words.lower().split()
+    texts = (f"{row.shown} {row.kind} {row.file}".lower() for row in rows)
+    return [r for r, text in zip(rows, texts, strict=True) if all(w in text for w in wanted)]
+
+
+def reached(rows: Sequence[OutlineRow], first: Item | None, last: Item) -> tuple[Item, ...]:
+    """Return the items from one row to another, inclusive: Shift and a click in the list."""
+    items = [row.item for row in rows if row.item is not None]
+    if first not in items or last not in items:
+        return (last,)
+    start, end = items.index(first), items.index(last)
+    return tuple(items[start : end + 1] if start <= end else items[end : start + 1][::-1])

@@ -1,0 +1,35 @@
+"""The options for editing the scene: the selection, and how it is handled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from app.state.bounds import AtMost, Range
+
+MOST_CHOSEN = 1000
+Key = Annotated[int, Range(0, 2**53)]
+Handle = Literal["none", "move", "turn", "scale"]
+
+
+@dataclass(frozen=True)
+class ObjectsOptions:
+    """The options for editing the scene.
+
+    chosen: selected objects and lights by their keys (renderer/editing/), the last one last.
+    selects: a click in a view selects the object under it, instead of marking a pixel.
+    handle: the selection's handles in the views.
+    along: the handles' axes, the world's or the object's own.
+    snaps: handles move in steps.
+    dropped: what to do with a model that is dropped on the window.
+    """
+
+    chosen: Annotated[tuple[Key, ...], AtMost(MOST_CHOSEN)] = ()
+    selects: bool = False
+    handle: Handle = "move"
+    along: Literal["world", "object"] = "world"
+    snaps: bool = False
+    dropped: Literal["ask", "add", "open"] = "ask"
+
+
+OPTIONS = ObjectsOptions

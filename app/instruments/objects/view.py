@@ -1,0 +1,70 @@
+"""The list of the scene's objects, and the inspector: two views that can be docked.
+
+Keeps what is not in the state. outliner.py and inspector.py draw.
+"""
+
+from __future__ import annotations
+
+from app.cameras.presets import framed
+from app.instruments.objects.inspector import Inspector, PanelSetting, inspector_panel
+from app.instruments.objects.listed import Outliner
+from app.instruments.objects.outliner import outliner_panel
+from app.ui import layout
+from app.ui.view import DockedView, Host
+from renderer.editing.changing import Item, has_default_lights, ids_of
+from renderer.scene.focus import object_corners
+from renderer.system.errors import LucidaError
+
+OBJECTS, INSPECTOR = "Objects", "Inspector"
+
+
+class ObjectsView(DockedView):
+    name = OBJECTS
+    title = OBJECTS
+    space = layout.CAMERA_SPACE
+
+    def __init__(self) -> None:
+        self.outliner = Outliner()
+
+    def draw(self, host: Host) -> None:
+        listed = outliner_panel(self.outliner, host.state, host.focus)
+        self.outliner = listed.outliner
+        if listed.problem:
+            host.files.message = listed.problem
+        if listed.changed is not None:
+            host.change(listed.changed)
+        if listed.chosen is not None:
+            host.amend(listed.chosen)
+        if listed.framed is not None:
+            frame_item(host, listed.framed)
+        if listed.model:
+            host.files.add_model_dialog()
+
+
+class InspectorView(DockedView):
+    name = INSPECTOR
+    title = INSPECTOR
+    space = layout.INSTRUMENTS
+
+    def __init__(self) -> None:
+        self.inspector = Inspector()
+
+    def draw(self, host: Host) -> None:
+        around = PanelSetting(host.fonts, host.focus, has_default_lights(host.state.scene))
+        self.inspector, state = inspector_panel(self.inspector, host.state, around)
+        host.apply(state)
+
+
+def frame_item(host: Host, item: Item) -> None:
+    """Move the camera so that an object fills the picture."""
+    numbers = ids_of(host.state.scene, item)
+    corners = [object_corners(host.state.scene.objects[number]) for number in numbers]
+    if not corners:
+        return
+    points = [point for box in corners for point in box]
+    try:
+        camera = framed(host.state.camera, points, host.focus.bounds)
+    except LucidaError as error:
+        host.files.message = str(error)
+        return
+    host.travel(host.state.with_camera(camera))

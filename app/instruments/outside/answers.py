@@ -1,0 +1,98 @@
+"""A wrong answer in the outside view, next to the correct one: vectors, points, a viewing ray.
+
+What a student gave is dashed, in a colour of its own, and named "your"; what is correct is solid.
+Pure. second_camera.py draws a whole camera.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.instruments.outside.diagram import Arrow, Dot, Item, Label, Role, Segments
+from app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
+from renderer.camera.camera import Floats
+from renderer.camera.checks import LARGEST
+
+
+def vector(name: str, role: Role, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
+    """Return a vector at a point as it was given, and as it is."""
+    start = np.asarray(at, float)
+    text = f"vec({name})" if name.isalnum() else name
+    return [
+        *_arrow(f"correct {name}", role, text, start, start + correct, dashed=False),
+        *_arrow(f"your {name}", ROLE, f"your {text}", start, start + given, dashed=True),
+    ]
+
+
+def _arrow(
+    name: str, role: Role, text: str, start: Floats, end: Floats, dashed: bool
+) -> list[Item]:
+    """Return an arrow with its name behind the tip; nothing for numbers that are too large."""
+    if not is_drawable(start, end):
+        return []
+    arrow = Arrow(name, role, start, end, dashed=dashed, layer=5 if dashed else 4)
+    strong = role in ("u", "v", "w")  # as the basis is named
+    return [arrow, Label(name, role, text, end, away=start, strong=strong)]
+
+
+def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
+    """Return a point as it was given, and as it is, each with a line from `at`."""
+    start = np.asarray(at, float)
+    items: list[Item] = []
+    both: list[tuple[str, Role, Floats]] = [
+        (name, "text", correct),
+        (f"your {name}", ROLE, given),
+    ]
+    for text, role, end in both:
+        if is_drawable(end):
+            line = np.array([[start, end]])
+            items += [
+                Segments(text, role, line, 2.0, dashed=role == ROLE, layer=4),
+                Dot(text, role, end, 6.0, layer=5),
+                Label(text, role, text, end, away=start if (end != start).any() else None),
+            ]
+    return items
+
+
+def ray(given: GivenRay, correct: GivenRay, reach: float) -> list[Item]:
+    """Return a viewing ray as it was given, and as it is, with their directions at t = 1.
+
+    reach: the length of the drawn rays, world units.
+    """
+    way = np.array([[correct.origin, correct.origin + _stretched(correct.direction, reach)]])
+    items: list[Item] = [
+        Segments("correct ray", "ray", way, 2.6, hidden=0.6, layer=3),
+        *vector("d", "ray", correct.origin, correct.direction, correct.direction)[:2],
+    ]
+    if not is_drawable(given.origin, given.direction):
+        return items
+    items += second_ray(given, reach)
+    tip = given.origin + given.direction
+    items += _arrow("your d", ROLE, "your vec(d)", given.origin, tip, dashed=True)
+    if np.linalg.norm(given.origin - correct.origin) > 1e-3 * reach:
+        items.append(Dot("your origin", ROLE, given.origin, 6.0, layer=5))
+        label = Label("your origin", ROLE, "your vec(p)", given.origin, away=tip)
+        items.append(label)
+    return items
+
+
+def _stretched(direction: Floats, length: float) -> Floats:
+    return length / float(np.linalg.norm(direction)) * direction
+
+
+def is_drawable(*points: Floats) -> bool:
+    return all(bool(np.isfinite(one).all() and np.abs(one).max() < LARGEST) for one in points)
+
+
+def points_of(items: Iterable[Item]) -> Floats:
+    """Return the points of a drawing that must be in sight, (n, 3): without rays' far ends."""
+    found = [np.zeros((0, 3))]
+    for item in items:
+        if isinstance(item, Arrow):
+            found.append(np.array([item.start, item.end]))
+        elif isinstance(item, Dot | Label):
+            found.append(np.array([item.point]))
+    return np.concatenate(found)

@@ -1,0 +1,78 @@
+"""A cloud's picture in the outside view, drawn again if the cloud or the view has changed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from app.instruments.outside.cloud import Cloud
+from app.instruments.outside.paint import CASING, line_color
+from app.instruments.outside.screen import OutsideScreen
+from app.ui import theme
+from renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
+from renderer.raster.overlay import screen_from_world
+
+NEAREST = 1e-3  # of the cloud's reach: what is nearer to the outside camera's eye is not drawn
+CASING_PX = 0.9  # on each side of a line, in widths of a line
+POINT_PX, FEW = 2.0, 30_000  # a point's width; half as much again if there are fewer points
+
+
+class CloudLayer:
+    """The cloud of one view, in its context."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._renderer = CloudRenderer(context)
+        self._cloud: Cloud | None = None
+        self._key: Any = None
+        self._picture: CloudPicture | None = None
+
+    def picture(
+        self, cloud: Cloud | None, screen: OutsideScreen, ground: theme.Rgb
+    ) -> CloudPicture | None:
+        """Return the picture, or None without a cloud.
+
+        ground: the colour under it. Raises LucidaError.
+        """
+        if cloud is not self._cloud:
+            self._take(cloud)
+        if cloud is None:
+            return None
+        ink = line_color(cloud.lines, ground)
+        key = (cloud, screen.camera, screen.size, screen.unit_px, ink)
+        if key != self._key:
+            self._picture = self._renderer.draw(screen.size, _look(cloud, screen, ink))
+            self._key = key
+        return self._picture
+
+    def release(self) -> None:
+        self._renderer.release()
+
+    def _take(self, cloud: Cloud | None) -> None:
+        """Upload a cloud. Unchanged points stay on the GPU: there may be millions."""
+        before, self._cloud, self._key = self._cloud, cloud, None
+        if cloud is None:
+            self._renderer.take_points(np.zeros(0, POINT))
+            self._renderer.take_lines(np.zeros((0, 2, 3), np.float32))
+            return
+        self._renderer.take_lines((cloud.lines.segments - cloud.origin).astype(np.float32))
+        if before is None or before.points is not cloud.points:
+            points = np.zeros(len(cloud.points), POINT)
+            points["place"], points["color"] = cloud.points, cloud.colors
+            self._renderer.take_points(points)
+
+
+def _look(cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudLook:
+    matrix = screen_from_world(screen.camera, screen.size)
+    matrix[:, 3] += matrix[:, :3] @ cloud.origin
+    middle = cloud.middle - cloud.origin
+    away = float(matrix[2, :3] @ middle + matrix[2, 3])
+    reach = max(cloud.reach * float(np.linalg.norm(matrix[2, :3])), NEAREST * abs(away))
+    near = max(away - 1.1 * reach, NEAREST * reach)
+    unit_px = screen.unit_px
+    point_px = POINT_PX * unit_px * (1.5 if len(cloud.points) < FEW else 1.0)
+    return CloudLook(
+        matrix, screen.camera.is_parallel, near, max(away + 1.1 * reach, 2 * near), ink, CASING,
+        cloud.lines.width * unit_px, CASING_PX * unit_px, point_px,
+    )  # fmt: skip

@@ -1,0 +1,158 @@
+"""The parts of a drawing over the outside view, in world space: lines, faces, marks, labels.
+
+Parts have names and roles (their meanings, from which painting and SVG take a colour). Pure: knows
+no outside camera, no pixels, no colours. camera_diagram.py draws a camera with them.
+
+Widths and radii are in units of a line in class, about a pixel at 100 %.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from app.state.options import Notation, Pixel
+from app.ui.explaining.symbols import plain
+from renderer.camera.camera import Floats
+
+Role = Literal[
+    "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other",
+    "pose",
+]  # fmt: skip
+
+PALE = 0.42  # the opacity of hidden dashes
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """Segments (n, 2, 3).
+
+    layer: higher ones cover lower ones. on_plane: part of the image plane, which then does not hide
+    them. dashed: even if nothing hides them.
+    """
+
+    name: str
+    role: Role
+    segments: Floats
+    width: float = 1.5
+    opacity: float = 1.0
+    hidden: float = PALE
+    on_plane: bool = False
+    dashed: bool = False
+    layer: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A filled convex polygon, corners (n, 3)."""
+
+    name: str
+    role: Role
+    corners: Floats
+    opacity: float
+    hidden: float = 0.5
+    on_plane: bool = False
+    layer: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Arrow:
+    """An arrow from start to end, (3,) each. Its head has a size on the screen."""
+
+    name: str
+    role: Role
+    start: Floats
+    end: Floats
+    width: float = 3.2
+    head: float = 15.0
+    dashed: bool = False
+    layer: int = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Dot:
+    """A round mark."""
+
+    name: str
+    role: Role
+    point: Floats
+    radius: float = 4.5
+    on_plane: bool = False
+    layer: int = 4
+    hidden: float = 0.45
+
+
+@dataclass(frozen=True, eq=False)
+class Eye:
+    """The eye: a ball that looks along `gaze`."""
+
+    name: str
+    point: Floats
+    gaze: Floats
+    radius: float = 10.0
+    layer: int = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """Text next to a point.
+
+    away: a point that the text keeps away from; None to centre it above. strong: a letter of the
+    formulas. least: hide the text if point and `away` are nearer than this on the screen, in units
+    of a line. fixed: the text stays on its side of the point, even if it covers something there.
+    """
+
+    name: str
+    role: Role
+    text: str
+    point: Floats
+    away: Floats | None = None
+    strong: bool = False
+    least: float = 0.0
+    fixed: bool = False
+
+
+Item = Segments | Face | Arrow | Dot | Eye | Label
+
+
+@dataclass(frozen=True)
+class RayEnd:
+    """A viewing ray and where it ends. t: inf if nothing is hit, None if it is not known yet."""
+
+    pixel: Pixel
+    t: float | None
+
+    @property
+    def is_hit(self) -> bool:
+        return self.t is not None and math.isfinite(self.t)
+
+    def t_or(self, end: float) -> float:
+        return self.t if self.t is not None and self.is_hit else end
+
+
+def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
+    """Split a label into pieces of one weight, each with True if it is bold: in a formula its
+    vectors are, otherwise all of a strong label is.
+    """
+    pieces = re.split(r"vec\((\w+)\)", text)
+    whole = strong and len(pieces) == 1
+    return [(piece, whole or bool(n % 2)) for n, piece in enumerate(pieces) if piece]
+
+
+def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:
+    """Return items whose labels are formulas of the book, as plain text, in a notation."""
+    return [
+        replace(item, text=plain(item.text, notation)) if isinstance(item, Label) else item
+        for item in items
+    ]
+
+
+def polyline(points: Floats, closed: bool = False) -> Floats:
+    """Return segments (n, 2, k) through points (m, k)."""
+    ends = np.concatenate([points[1:], points[:1]]) if closed else points[1:]
+    return np.stack([points[: len(ends)], ends], axis=1)

@@ -1,0 +1,77 @@
+"""Extensions of the outside view by other instruments: lines, labels, points, a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import NamedTuple
+
+import moderngl
+
+from app.instruments.outside.cloud import Cloud
+from app.instruments.outside.diagram import Item
+from app.instruments.outside.looking import NOTHING
+from app.instruments.outside.mouse import Scope
+from app.ui.view import Host
+from renderer.camera.camera import Floats
+
+
+class Extension(NamedTuple):
+    """Show something of another instrument in the view.
+
+    items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
+    instead of the live image; another texture whenever it differs. draw: called in each frame
+    inside the view's window, with the view as it was drawn, and True if the mouse is over its
+    picture; returns True if a double click there is for the instrument. The arrow keys are its own
+    then.
+    answer: what was answered, if the items are the drawing of a wrong answer: they are brought
+    into sight when it changes. around: points (n, 3) that must be in sight with the scene.
+    """
+
+    items: tuple[Item, ...] = ()
+    cloud: Cloud | None = None
+    picture: moderngl.Texture | None = None
+    draw: Callable[[Host, Scope, bool], bool] | None = None
+    answer: Hashable = None
+    around: Floats | None = None
+
+
+class Extensions:
+    """All that is shown in a view, by the instrument that shows it."""
+
+    def __init__(self) -> None:
+        self.by_source: dict[str, Extension] = {}
+
+    @property
+    def cloud(self) -> Cloud | None:
+        found = (one.cloud for one in self.by_source.values() if one.cloud is not None)
+        return next(found, None)
+
+    @property
+    def picture(self) -> moderngl.Texture | None:
+        found = (one.picture for one in self.by_source.values() if one.picture is not None)
+        return next(found, None)
+
+    @property
+    def guests(self) -> list[Callable[[Host, Scope, bool], bool]]:
+        return [one.draw for one in self.by_source.values() if one.draw is not None]
+
+    @property
+    def items(self) -> tuple[Item, ...]:
+        return tuple(item for one in self.by_source.values() for item in one.items)
+
+    @property
+    def lines(self) -> tuple[Item, ...]:
+        """Return the lines and labels, with those of the cloud, without points."""
+        return self.items if self.cloud is None else (self.cloud.lines, *self.items)
+
+    @property
+    def answers(self) -> dict[Hashable, tuple[Item, ...]]:
+        """Return the wrong answers that are drawn, with their drawings."""
+        found = self.by_source.values()
+        return {one.answer: one.items for one in found if one.answer is not None}
+
+    @property
+    def points(self) -> Floats:
+        """Return points (n, 3) that must be in sight with the scene."""
+        found = [one.around for one in self.by_source.values() if one.around is not None]
+        return next(iter(found), NOTHING) if self.cloud is None else self.cloud.around

@@ -1,0 +1,150 @@
+"""The extent of a scene, and the outside camera that sees it and the other camera. Pure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from app.instruments.outside.frustum import border, has_plane, image_point, plane_corners
+from renderer.camera.camera import Camera, Floats
+from renderer.camera.checks import LARGEST, three
+from renderer.system.errors import LucidaError
+
+FOV_Y_DEG = 50.0
+MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold
+# From which side one looks, in the other camera's terms: its right, the world's up, its back.
+FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
+
+
+def around(points: Floats, *cameras: Camera) -> Floats:
+    """Return the points (n, 3) with those around cameras: eyes, image planes, bases with
+    letters.
+    """
+    parts = [points]
+    for camera in cameras:
+        eye = np.asarray(camera.eye)
+        tips = [eye + 1.2 * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
+        image = plane_corners(camera)
+        if not has_plane(camera):
+            image = image_point(camera, *border(camera).T)
+        parts.append(np.array([eye, *tips, *image]))
+    everything = np.concatenate(parts)
+    return everything[np.isfinite(everything).all(axis=1)]
+
+
+def way_of(axis: str) -> Floats:
+    """Return the unit vector of an axis of the world: "x", "-x", ... "-z"."""
+    way = np.eye(3)["xyz".index(axis[-1])]
+    return -way if axis.startswith("-") else way
+
+
+def end_parameter(camera: Camera, points: Floats) -> float:
+    """Return the ray parameter at which the scene ends for a camera; some way beyond its image
+    plane if nothing is in front of it.
+    """
+    least = 1.0 / float(np.linalg.norm(camera.w)) if camera.is_parallel else 1.6
+    if not len(points):
+        return 2 * least
+    matrix = camera.camera_from_world
+    if camera.lens is not None:
+        x, y, z = matrix[:3, :3] @ points.T + matrix[:3, 3:]
+        return float(max(1.04 * camera.lens.length(x, -y, -z).max() / camera.distance, least))
+    t = -(points @ matrix[2, :3] + matrix[2, 3]) / (1.0 if camera.is_parallel else camera.distance)
+    return float(max(1.04 * t.max(), least))
+
+
+def outside_camera(
+    points: Floats, home: Camera, aspect: float, margin: tuple[float, float] = MARGIN
+) -> Camera:
+    """Return a camera that sees all points as large as possible, from the right, from behind
+    and from above the camera `home`, fitted to width / height = aspect.
+
+    points: (n, 3); those that are not finite are ignored. margin: see MARGIN.
+    """
+    points = points[np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1) < LARGEST / 1e3)]
+    if not len(points):
+        points = np.zeros((1, 3))
+    right, up, back = level_frame(home)
+    toward = FROM_RIGHT * right + FROM_ABOVE * up + FROM_BEHIND * back
+    return framed(points, toward / np.linalg.norm(toward), aspect, margin=margin)
+
+
+def level_frame(camera: Camera) -> tuple[Floats, Floats, Floats]:
+    """Return a camera's right and back in the horizontal plane, with the world's up; unit
+    vectors.
+    """
+    up = np.array([0.0, 1.0, 0.0])
+    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
+    level = back - (back @ up) * up
+    if np.linalg.norm(level) < 0.05:  # looking straight up or down: the top of its image
+        top = np.asarray(camera.v) / np.linalg.norm(camera.v)
+        level = -math.copysign(1.0, back @ up) * (top - (top @ up) * up)
+    if np.linalg.norm(level) < 1e-6:
+        level = np.array([0.0, 0.0, 1.0])
+    level = level / np.linalg.norm(level)
+    return np.cross(up, level), up, level
+
+
+def framed(
+    points: Floats,
+    toward: Floats,
+    aspect: float,
+    projection: str = "perspective",
+    up: Iterable[float] = (0.0, 1.0, 0.0),
+    margin: tuple[float, float] = MARGIN,
+    fov_y_deg: float = FOV_Y_DEG,
+) -> Camera:
+    """Return the camera in direction `toward` of the points, unit length, that sees them all as
+    large as possible.
+
+    Each plane of a view pyramid bounds the eye linearly, so the nearest eye that satisfies all
+    four is exact. points: (n, 3), at least one. margin: room around them, see MARGIN.
+    """
+    center = (points.min(axis=0) + points.max(axis=0)) / 2
+    upward = np.asarray(tuple(up), float)
+    if np.linalg.norm(np.cross(upward, toward)) < 1e-3:
+        upward = np.array([0.0, 0.0, -1.0])
+    camera = Camera.look_at(center + toward, center, upward, fov_y_deg=fov_y_deg, aspect=aspect)
+    x, y, z = ((points - center) @ np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
+    # Not so near that the numbers' own steps show.
+    least = max(1e-6 * float(np.abs(center).max()), 1e-9)
+    radius = max(float(np.linalg.norm(points - center, axis=1).max()), least)
+    tangent_y = math.tan(math.radians(fov_y_deg) / 2)
+    tangents = tangent_y * aspect / margin[0], tangent_y / margin[1]
+    offsets, depths = [], [1.02 * float(z.max()) + 0.05 * radius]
+    for across, tangent in ((x, tangents[0]), (y, tangents[1])):
+        high, low = float((across + tangent * z).max()), float((across - tangent * z).min())
+        depths.append((high - low) / (2 * tangent))
+        offsets.append((high + low) / 2)
+    depth = max(depths)
+    offsets = [_centered(across, depth - z, at) for across, at in zip((x, y), offsets, strict=True)]
+    right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
+    try:
+        eye = center + offsets[0] * right + offsets[1] * top + depth * back
+        found = replace(camera, eye=three(eye))
+        if projection != "parallel":
+            return found
+        half = max(np.ptp(y) / 2 * margin[1], np.ptp(x) / 2 / aspect * margin[0], 1e-9)
+        eye = center + (x.max() + x.min()) / 2 * right + (y.max() + y.min()) / 2 * top
+        eye = eye + (float(z.max()) + radius) * back
+        return Camera(
+            three(eye), found.u, found.v, found.w, 1.0,
+            (-half * aspect, half * aspect, -half, half), "parallel",
+        )  # fmt: skip
+    except LucidaError:  # a scene at the very ends of the numbers
+        return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=fov_y_deg, aspect=aspect)
+
+
+def _centered(across: Floats, depths: Floats, at: float) -> float:
+    """Return the place of the eye, near `at`, from which points reach equally far to both sides.
+
+    Newton's method: the two outermost points stay the same from the first steps on.
+    """
+    for _ in range(6):
+        slopes = (across - at) / depths
+        high, low = int(slopes.argmax()), int(slopes.argmin())
+        at += float((slopes[high] + slopes[low]) / (1 / depths[high] + 1 / depths[low]))
+    return at

@@ -1,0 +1,89 @@
+"""The scene from outside, without the drawing over it: its edges are smooth when it is still."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+
+import moderngl
+
+from app.images.request import ImageRequest
+from app.images.window_rasterizer import WindowRasterizer
+from renderer.images.coarseness import STILL_S
+from renderer.raster.overlay import Overlay
+from renderer.raster.targets import Textures
+from renderer.system.memo import Memo
+
+PLACE = "Outside"  # see Rasterizer.draw
+# Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
+# is not, so that what lies behind is decided at the pixels' centres.
+SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class GroundPicture:
+    """The scene from outside: another object for each drawing.
+
+    changed_s: since when it has been requested. mean: its colour with smooth edges, once it has
+    been still.
+    """
+
+    request: ImageRequest
+    textures: Textures
+    changed_s: float
+    mean: moderngl.Texture | None = None
+
+
+class Ground:
+    """The scene's picture in one view. It stays while only the other camera moves.
+
+    shown: the newest picture.
+    """
+
+    def __init__(self) -> None:
+        self.shown: GroundPicture | None = None
+        self._t_at = Memo(_t_at)
+
+    @property
+    def settled(self) -> bool:
+        """True if the picture's edges are smooth."""
+        return self.shown is None or self.shown.mean is not None
+
+    def forget(self) -> None:
+        self.shown = None
+
+    def t_at(self, part: tuple[float, float], overlay: Overlay) -> float:
+        """Return the ray parameter of the visible scene at a place, infinity without a
+        picture. It is read once. See Overlay.t_at().
+        """
+        picture = self.shown
+        return self._t_at(overlay, picture, part) if picture is not None else math.inf
+
+    def picture(
+        self,
+        request: ImageRequest,
+        rasterizer: WindowRasterizer,
+        overlay: Overlay,
+        refines: bool = True,
+    ) -> GroundPicture:
+        """Draw the picture at once, and with smooth edges once it has been still.
+
+        refines: False while frames have something else to draw. Raises LucidaError.
+        """
+        now_s, picture = time.monotonic(), self.shown
+        if picture is None or picture.request != request:
+            self.shown = None
+            textures = rasterizer.draw(request, PLACE)
+            self.shown = picture = GroundPicture(request, textures, now_s)
+        elif picture.mean is None and refines and now_s - picture.changed_s >= STILL_S:
+            for number, shift in enumerate(SHIFTS):
+                camera = request.camera.shifted(*shift, request.size)
+                textures = rasterizer.draw(replace(request, camera=camera), PLACE)
+                mean = overlay.gather(textures, number == 0, 1 / len(SHIFTS))
+            self.shown = picture = replace(picture, textures=textures, mean=mean)
+        return picture
+
+
+def _t_at(overlay: Overlay, picture: GroundPicture, part: tuple[float, float]) -> float:
+    return overlay.t_at(picture.textures, part)

@@ -1,0 +1,228 @@
+"""The camera of the outside view, its reach, and the width of its lines.
+
+Makes the camera that sees everything and those along the world's axes, and chooses whose ray is
+drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from functools import lru_cache
+
+import numpy as np
+from imgui_bundle import ImVec2
+
+from app.images.ray_pictures import RayPainter, RayPictures
+from app.instruments.outside.diagram import RayEnd
+from app.instruments.outside.extent import around, framed, outside_camera, way_of
+from app.instruments.outside.frustum import bundle_pixels
+from app.instruments.outside.mouse import Scope
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.screen import NEAREST, OutsideScreen
+from app.state.options import Pixel
+from app.ui import theme
+from app.ui.theme import framebuffer_scale
+from app.ui.view import Host
+from renderer.camera.camera import Camera, Floats, Size
+from renderer.camera.navigation import depth_of
+from renderer.raster.overlay import screen_from_world
+from renderer.system.memo import Memo, same
+
+NOTHING = np.zeros((0, 3))
+LETTER_PX = 26.0  # round what is framed, for letters
+STILL_S = 0.25  # without a change of the other camera, before the view follows it
+ROOMY_PX = 330.0  # a smaller view has smaller symbols
+TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
+LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
+
+
+class Scopes:
+    """The view as it was last asked for: a frame asks before the mouse, and after it if that has
+    changed something. moves: whether the other camera has just moved. waits: whether the camera
+    that looks does not see everything of now yet."""
+
+    def __init__(self) -> None:
+        self._fixed: tuple[object, ...] | None = None
+        self._inner: Camera | None = None  # of the scope
+        self._seen: Camera | None = None  # in the frame before
+        self._changed_s = 0.0
+        self._scope: Scope | None = None
+        self._is_in_picture = Memo(is_in_picture)
+        self.moves = self.waits = self._is_dragged = False
+
+    def of(
+        self,
+        host: Host,
+        size: Size,
+        origin: ImVec2,
+        extent: ImVec2,
+        more: Floats,
+        now_s: float,
+        held: bool = False,
+    ) -> Scope:
+        """Return scope_of(). While the other camera moves within sight, an outside camera that is
+        not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
+        """
+        both, state = host.renderers, host.state
+        place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
+        options, inner = state.of(OutsideOptions), both.camera(state)
+        looking = options.camera
+        fixed = state.scene, more, looking, both.size, size, place, state.step
+        if inner != self._seen:
+            self._seen, self._changed_s = inner, now_s
+        self.moves = now_s - self._changed_s < STILL_S
+        self._is_dragged = held and (self.moves or self._is_dragged)
+        scope = self._scope if same(fixed, self._fixed) else None
+        stays = (
+            scope is not None
+            and (self.moves or self._is_dragged)
+            and looking is None
+            and self._is_in_picture(inner, scope.shown)
+        )
+        self.waits = stays and self.moves and inner != self._inner
+        if scope is None or not (stays or inner == self._inner):
+            self._scope = scope = scope_of(host, size, origin, extent, more)
+            self._fixed, self._inner = fixed, inner
+        return scope
+
+
+_kept_screen_from_world = lru_cache(maxsize=1)(screen_from_world)
+
+
+def is_in_picture(camera: Camera, looking: Camera) -> bool:
+    """Return True if a camera's eye, basis and image plane are in the picture of another one."""
+    matrix = _kept_screen_from_world(looking, (2, 2))  # it stays while the other one is dragged
+    x, y, t = matrix[:, :3] @ around(NOTHING, camera).T + matrix[:, 3:]
+    edge = 1.0 if looking.is_parallel else t
+    return bool((np.maximum(abs(x), abs(y)) <= edge).all())
+
+
+def scope_of(
+    host: Host,
+    size: Size,
+    origin: ImVec2,
+    extent: ImVec2,
+    more: Floats = NOTHING,
+) -> Scope:
+    """Return the outside camera for a picture of `size` that takes `extent` of the window.
+
+    more: points (n, 3) that must be in sight with the scene.
+    """
+    points = _points(host, more)
+    center = (points.min(axis=0) + points.max(axis=0)) / 2
+    reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
+    camera = host.state.of(OutsideOptions).camera or _for_all(points, host, size, extent)
+    x, y, z = center.tolist()
+    middle, reach = (x, y, z), max(reach, 1e-9)
+    return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
+
+
+def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
+    """Return the outside camera that sees everything."""
+    return _for_all(_points(host, more), host, size, extent)
+
+
+def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
+    home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
+    margin = margin_for(extent.x, room), margin_for(extent.y, room)
+    return outside_camera(points, home, size[0] / size[1], margin)
+
+
+def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
+    """Return the outside camera that looks along an axis of the world and sees everything."""
+    aspect = scope.extent.x / max(scope.extent.y, 1.0)
+    return framed(_points(host, more), way_of(axis), aspect, scope.camera.projection)
+
+
+def nearest(camera: Camera, scope: Scope) -> float:
+    """Return the least t of lines that are drawn: a small part of the distance to the middle."""
+    unit = 1.0 if camera.is_parallel else camera.distance
+    away = scope.reach / float(np.linalg.norm(camera.w)) / unit
+    return NEAREST * max(depth_of(camera, scope.center) / unit, away)
+
+
+def units_px(extent: ImVec2) -> tuple[float, float]:
+    """Return the width of a line and the size of symbols in a view of this extent."""
+    symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
+    # In presentation mode lines are thick, but the picture is not made of them.
+    return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
+
+
+def widest_px(screen: OutsideScreen, corners: Floats) -> float:
+    """Return the longest visible side of a polygon (n, 3) on the screen."""
+    points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
+    return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
+
+
+def margin_for(side: float, room: float) -> float:
+    """Return a side of the view in sides of its contents, with room at both ends."""
+    return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
+
+
+def ray_ends(
+    hits: RayPictures[dict[Pixel, float]],
+    host: Host,
+    camera: Camera,
+    size: Size,
+    others: Container[str],
+) -> tuple[RayEnd | None, list[RayEnd]]:
+    """Return the marked pixel's ray and the bundle's, with their ends as far as they are known.
+
+    others: views that draw the rays of the pixels that they point out.
+    """
+    both, state = host.renderers, host.state
+    options = state.of(OutsideOptions)
+    marked = _ray_pixel(host, others) if options.ray else None
+    counts = options.bundle
+    if camera.lens is not None and options.volume and not any(counts):
+        counts = LENS_RAYS
+    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, counts)]
+    asked = (*pixels, marked) if marked is not None else tuple(pixels)
+    known: dict[Pixel, float] = {}
+    if not asked:
+        hits.forget()
+    else:
+
+        def depths(painter: RayPainter) -> dict[Pixel, float]:
+            return ray_depths(painter, camera, size, asked)
+
+        known = hits.follow((camera, size, asked), state.scene, both.live, depths) or {}
+    bundle = [RayEnd(pixel, known.get(pixel)) for pixel in pixels]
+    if marked is None:
+        return None, bundle
+    t = both.depth_at(state, marked)
+    return RayEnd(marked, known.get(marked) if t is None else t), bundle
+
+
+def ray_depths(
+    painter: RayPainter, camera: Camera, size: Size, pixels: tuple[Pixel, ...]
+) -> dict[Pixel, float]:
+    """Return where the rays of pixels end; inf if they hit nothing, or are outside of the lens."""
+    i, j = np.array(pixels).T
+    ray = camera.ray(i, j, size)
+    t = np.full(len(pixels), np.inf)
+    seen = np.isfinite(ray.direction[:, 0])
+    if seen.any():
+        t[seen] = painter.hits(ray.origin[seen], ray.direction[seen], camera.t_range)
+    return dict(zip(pixels, t.tolist(), strict=True))
+
+
+def _ray_pixel(host: Host, others: Container[str]) -> Pixel | None:
+    """Return the pixel whose ray is drawn: the marked one, or the one under the mouse."""
+    pixel = host.state.marked
+    if pixel is None and host.hovered is not None and host.hovered[0] not in others:
+        pixel = host.hovered[1]
+    width, height = host.renderers.size
+    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
+        return None
+    return pixel
+
+
+def _points(host: Host, more: Floats) -> Floats:
+    """Return points around everything in sight: the scene, the camera, its place in the scene's
+    file, and more.
+    """
+    home = host.state.scene.view.for_size(host.renderers.size)
+    return around(
+        np.concatenate([host.focus.framed, more]), home, host.renderers.camera(host.state)
+    )

@@ -1,0 +1,123 @@
+"""The mouse over the outside view: it moves the outside camera as it moves the others.
+
+It turns about and drags the middle of everything in sight, whose distance is known without reading
+an image back.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+
+from imgui_bundle import ImVec2, imgui
+
+from app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
+from renderer.camera import navigation
+from renderer.camera.camera import Camera, Vector
+
+WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
+STILL_PX = 4.0  # a press that moves less is a click
+
+
+@dataclass(frozen=True)
+class Scope:
+    """The view in a frame.
+
+    camera: the outside camera. shown: the same, fitted to the view. origin, extent: the view's
+    upper left corner and size, in ImGui's coordinates. center, reach: of everything in sight, world
+    space.
+    """
+
+    camera: Camera
+    shown: Camera
+    origin: ImVec2
+    extent: ImVec2
+    center: Vector
+    reach: float
+
+    def part(self, mouse: ImVec2) -> tuple[float, float]:
+        """Return the mouse's position as a fraction of the view's width and height."""
+        column = (mouse.x - self.origin.x) / max(self.extent.x, 1.0)
+        return column, (mouse.y - self.origin.y) / max(self.extent.y, 1.0)
+
+    def image_point(self, mouse: ImVec2) -> tuple[float, float]:
+        """Return (x, y) on the outside camera's image plane under the mouse."""
+        column, row = self.part(mouse)
+        left, right, bottom, top = self.shown.viewport
+        return left + column * (right - left), top - row * (top - bottom)
+
+    def ray(self, mouse: ImVec2) -> tuple[navigation.Floats, navigation.Floats]:
+        """Return origin and direction of the outside camera's ray under the mouse."""
+        column, row = self.part(mouse)
+        ray = self.shown.ray(row - 0.5, column - 0.5, (1, 1))
+        return ray.origin, ray.direction
+
+
+class Mouse:
+    """The mouse over one view, whose item was just submitted."""
+
+    def __init__(self) -> None:
+        self._grab: CameraDrag | None = None
+        self._wheel_number = 0
+        self._wheel_s = 0.0
+
+    @property
+    def dragging(self) -> bool:
+        return self._grab is not None
+
+    def cancel(self) -> None:
+        self._grab = None
+
+    def clicked(self) -> bool:
+        """Return True if the left button was released over the item without a drag."""
+        moved = imgui.get_mouse_drag_delta(imgui.MouseButton_.left, 0.0)
+        still = math.hypot(moved.x, moved.y) < STILL_PX
+        return imgui.is_item_deactivated() and still and imgui.is_mouse_released(0)
+
+    def follow(self, scope: Scope) -> tuple[Camera, Hashable]:
+        """Return the new outside camera, and the gesture that the change belongs to."""
+        io = imgui.get_io()
+        camera = self._drag(scope, io.mouse_pos)
+        if imgui.is_item_hovered() and io.mouse_wheel and self._grab is None:
+            now_s = time.monotonic()
+            self._wheel_number += now_s - self._wheel_s > WHEEL_PAUSE_S
+            self._wheel_s = now_s
+            return self._wheel(scope, io), ("outside wheel", self._wheel_number)
+        return camera, None
+
+    def _drag(self, scope: Scope, mouse: ImVec2) -> Camera:
+        camera = scope.camera
+        if imgui.is_item_activated():
+            self._grab = self._begin(scope, drag_kind(), mouse)
+            return camera
+        grab = self._grab
+        if grab is None:
+            return camera
+        if not imgui.is_item_active():
+            self._grab = None
+            return camera
+        if camera != grab.latest and grab.kind != "look":  # by a key: continue from there
+            self._grab = self._begin(scope, grab.kind, mouse)
+            return camera
+        still = math.dist(grab.start, (mouse.x, mouse.y)) < STILL_PX
+        if not (still and camera == grab.camera):
+            angle = HALF_TURN / max(scope.extent.y, 1.0)
+            camera = grab.moved(camera, mouse, scope.image_point(mouse), angle)
+            self._grab = replace(grab, latest=camera)
+        return camera
+
+    def _begin(self, scope: Scope, kind: str, mouse: ImVec2) -> CameraDrag:
+        parameter = navigation.parameter_of(scope.shown, scope.center)
+        point, start = scope.image_point(mouse), (mouse.x, mouse.y)
+        return CameraDrag(kind, scope.camera, start, point, scope.center, parameter, scope.camera)
+
+    def _wheel(self, scope: Scope, io: imgui.IO) -> Camera:
+        """Zoom at a point under the mouse that is as far away as the middle."""
+        at, (origin, direction) = scope.image_point(io.mouse_pos), scope.ray(io.mouse_pos)
+        parameter = navigation.aim(scope.shown, direction, scope.center, scope.reach)
+        x, y, z = (origin + parameter * direction).tolist()
+        extent, steps = (scope.center, scope.reach), float(io.mouse_wheel)
+        found = navigation.zoomed_by_wheel(scope.camera, at, steps, parameter, (x, y, z), extent)
+        return found or scope.camera

@@ -1,0 +1,66 @@
+"""The options of the outside view: its parts and its camera."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from app.state.bounds import AtMost, Range
+from renderer.camera.camera import Camera
+
+Coordinate = Annotated[float, Range(-1e6, 1e6)]
+Point = tuple[Coordinate, Coordinate, Coordinate]
+# Of the key formula as it grows: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
+STAGES = ("pixel", "centre", "w", "u", "v", "ray")
+# With a lens: between its centre and the terms, the pixel's ideal point.
+LENS_STAGES = (*STAGES[:2], "undistort", *STAGES[2:])
+Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
+
+
+@dataclass(frozen=True)
+class OutsideOptions:
+    """The outside view. camera: the free camera that looks at the scene and the other camera;
+    None: one that shows both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
+    gizmo: what the handles in the view do: move the eye or the image plane, turn the basis, or turn
+    up, from which the basis then follows.
+    target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
+    from; None: neither. formula:
+    how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None: it is not drawn.
+    answers: wrong ones, next to the correct ones. pixels: the image plane in pixels, with K's
+    numbers, to be dragged.
+
+    The numbers below are drawings of a lecture that grow: each counts the parts that are complete.
+    points: points of the scene whose viewing rays are drawn; points_grown: their rays, then dots
+    where these pass the image plane. image_opacity: of the picture on the image plane. half_line:
+    the marked pixel's ray as p, d, the whole line with t = 1, 2, 3, and then without t < 0.
+    meetings: all t at which that ray meets objects, then the least t > 0. simple: what makes the
+    simple camera: its eye, where it looks, its viewport, the viewport's sides, d. basis_grown: of
+    a basis that is made from a target: w, up, u, v. numbers: write numbers in place of the
+    formula's letters. to_parallel: how far the formula has turned from perspective to parallel.
+    """
+
+    camera: Camera | None = None
+    volume: bool = True
+    image: bool = True
+    basis: bool = True
+    grid: bool = True
+    ray: bool = True
+    bundle: tuple[Rays, Rays] = (0, 0)
+    gizmo: Literal["none", "move", "turn", "distance", "up"] = "none"
+    target: Point | None = None
+    up: Point = (0.0, 1.0, 0.0)
+    answers: bool = True
+    formula: Annotated[float, Range(0, len(LENS_STAGES))] | None = None
+    pixels: bool = False
+    points: Annotated[tuple[Point, ...], AtMost(16)] = ()
+    points_grown: Annotated[float, Range(0, 2)] = 2.0
+    image_opacity: Annotated[float, Range(0, 1)] = 0.9
+    half_line: Annotated[float, Range(0, 4)] = 0.0
+    meetings: Annotated[float, Range(0, 2)] = 0.0
+    simple: Annotated[float, Range(0, 5)] = 0.0
+    basis_grown: Annotated[float, Range(0, 4)] = 4.0
+    numbers: bool = False
+    to_parallel: Annotated[float, Range(0, 1)] = 0.0
+
+
+OPTIONS = OutsideOptions

@@ -1,0 +1,227 @@
+"""Places for the labels of the outside view: next to their points, where they cover nothing.
+
+Each label takes the best of a few places around its point, one after another; places of the picture
+before are kept as long as they are good, so that labels do not jump while the view turns. Pure.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import accumulate
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.instruments.outside.projected import Primitive, Shape, Strokes, Text
+from renderer.camera.camera import Floats
+
+Spot = tuple[float, float]
+Label = tuple[str, str, int]  # name, role, how many before it have both
+Edges = tuple[float, float, float, float]  # left, top, right, bottom
+
+# Places: turned away from the label's own direction, and farther out in heights of the text.
+TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
+FARTHER = (0.0, 0.8, 1.8)
+# What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
+# on another label, on a mark, for a height of a line in the text, on the image plane.
+TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
+_PREFERENCES = np.add.outer(OUT * np.array(FARTHER), TURNED * np.abs(TURNS) / math.pi).ravel()
+TINY = 1e-300  # in place of 0, to divide by
+JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
+KEPT = 1.0  # by which another place must be better than the present one
+SPACE = 0.12  # around a text, in its heights
+
+
+@dataclass(frozen=True)
+class Box:
+    """The size of a text, and the space between it and its point, in pixels."""
+
+    width: float
+    height: float
+    room: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Ground:
+    """Obstacles for labels. Boxes are left, top, right, bottom.
+
+    lines: boxes (n, 4) around them. starts, ways: of the lines, (n, 2). weights: what
+    the whole line in a text costs, in heights of the text (n,). marks: boxes (n, 4) of heads and
+    dots. plane: the image plane's corners (m, 2).
+    """
+
+    lines: Floats
+    starts: Floats
+    ways: Floats
+    weights: Floats
+    marks: Floats
+    plane: Floats
+
+
+@dataclass
+class LabelPlacer:
+    """Places the labels of one view. Its memory are the places of the picture before."""
+
+    _chosen: dict[Label, tuple[Spot, int]] = field(default_factory=dict)
+    _size: tuple[float, float] = (0.0, 0.0)
+
+    def place(
+        self,
+        primitives: Sequence[Primitive],
+        boxes: Sequence[Box],
+        size: tuple[float, float],
+        tools: tuple[Edges, ...] = (),
+    ) -> list[Spot]:
+        """Return the centres of the texts among the primitives, in their order.
+
+        boxes: of those texts. size: of the view. tools: boxes that no text may be under.
+        """
+        if size != self._size:
+            self._chosen, self._size = {}, size
+        texts = [part for part in primitives if isinstance(part, Text)]
+        labels = _labels(texts)
+        before = self._chosen if self._is_moving(labels, texts) else {}
+        self._chosen = {}
+        if not texts:
+            return []
+        ground = _ground(primitives)
+        places = _places(texts, boxes)
+        wide = np.array([(box.width, box.height) for box in boxes]) / 2
+        wide += SPACE * np.array([[box.height] for box in boxes])
+        around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
+        areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
+        costs = _PREFERENCES + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
+        centers: list[Spot] = [(0.0, 0.0)] * len(texts)
+        taken = np.zeros((len(texts), 4))
+        order = sorted(range(len(texts)), key=lambda k: (not texts[k].fixed, not texts[k].strong))
+        for number in order:
+            text, label, of_text = texts[number], labels[number], around[number]
+            cost = costs[number] + _crossed(of_text, ground) / boxes[number].height
+            cost += LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
+            if label in before:
+                cost[before[label][1]] -= KEPT
+            best = 0 if text.fixed else int(cost.argmin())
+            self._chosen[label] = text.at, best
+            x, y = places[number, best].tolist()
+            (far_x, far_y), (wide_x, wide_y) = size, wide[number].tolist()
+            if 0 < text.at[0] < far_x and 0 < text.at[1] < far_y:  # of a point in sight
+                x = min(max(x, wide_x), max(far_x - wide_x, wide_x))
+                y = min(max(y, wide_y), max(far_y - wide_y, wide_y))
+            centers[number] = x, y
+            taken[number] = x - wide_x, y - wide_y, x + wide_x, y + wide_y
+        return centers
+
+    def _is_moving(self, labels: Sequence[Label], texts: Sequence[Text]) -> bool:
+        """Return True if the view moves smoothly: otherwise the places of before mean nothing."""
+        ways = [
+            math.dist(self._chosen[label][0], text.at)
+            for label, text in zip(labels, texts, strict=True)
+            if label in self._chosen
+        ]
+        return 0 < max(ways, default=0.0) < JUMP_PX
+
+
+def _labels(texts: Sequence[Text]) -> list[Label]:
+    """Return names of texts that stay the same from frame to frame."""
+    names = [(text.name, text.role) for text in texts]
+    return [(*name, names[:number].count(name)) for number, name in enumerate(names)]
+
+
+def _places(texts: Sequence[Text], boxes: Sequence[Box]) -> Floats:
+    """Return the centres of each label's places, (labels, n, 2): the text's box touches a circle
+    around the point from outside.
+    """
+    numbers = [
+        (*text.at, math.atan2(*text.toward[::-1]), box.width / 2, box.height, box.room)
+        for text, box in zip(texts, boxes, strict=True)
+    ]
+    x, y, angle, half, height, room = np.array(numbers).T[..., None]
+    across, down = np.cos(angle + TURNS), np.sin(angle + TURNS)
+    reach = room + np.abs(across) * half + np.abs(down) * height / 2
+    out = (np.multiply.outer(FARTHER, height) + reach).swapaxes(0, 1)
+    places = np.stack(
+        [x[:, None] + out * across[:, None], y[:, None] + out * down[:, None]], axis=3
+    )
+    return places.reshape(len(texts), -1, 2)
+
+
+def _ground(primitives: Iterable[Primitive]) -> _Ground:
+    strokes = [part for part in primitives if isinstance(part, Strokes) and part.role != "grid"]
+    shapes = [
+        part.points for part in primitives if isinstance(part, Shape) and part.opacity >= 0.5
+    ]  # heads, and the marked pixel
+    ends = np.concatenate([np.zeros((0, 2, 2)), *(part.points for part in strokes)])
+    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
+    values = np.array([(part.opacity, part.width_px / 2) for part in strokes]).reshape(-1, 2)
+    weights, half = np.repeat(values, [len(part.points) for part in strokes], axis=0).T
+    lengths = np.hypot(way[:, 0], way[:, 1])
+    is_spot, is_line = lengths == 0, lengths > 0
+    spots, around = start[is_spot], half[is_spot, None]
+    marks = [np.concatenate([spots - around, spots + around], axis=1)]
+    start, way = start[is_line], way[is_line]
+    lines = np.concatenate([start + np.minimum(way, 0), start + np.maximum(way, 0)], axis=1)
+    way[way == 0] = TINY
+    if shapes:
+        corners, first = np.concatenate(shapes), [0, *accumulate(map(len, shapes[:-1]))]
+        low, high = np.minimum.reduceat(corners, first), np.maximum.reduceat(corners, first)
+        marks.append(np.concatenate([low, high], axis=1))
+    plane = [part.points[:, 0] for part in strokes if part.name == "image plane"]
+    return _Ground(
+        lines,
+        start,
+        way,
+        CROSSED * (weights * lengths)[is_line],
+        np.concatenate(marks),
+        plane[-1] if plane else np.zeros((0, 2)),
+    )
+
+
+def _costs(
+    around: Floats, areas: Floats, ground: _Ground, tools: Floats, size: tuple[float, float]
+) -> Floats:
+    """Return what boxes (labels, n, 4) cost without the lines and other labels, (labels, n).
+
+    areas: of a label's boxes, (labels, 1).
+    """
+    obstacles = np.concatenate([[[0.0, 0.0, *size]], tools, ground.marks])
+    met = _overlap(around, obstacles)
+    under = met[..., 1 : 1 + len(tools)].sum(axis=2)
+    costs = OUTSIDE * (1 - met[..., 0] / areas) + OUTSIDE * under / areas
+    costs += MARK * (met[..., 1 + len(tools) :] > 0).sum(axis=2)
+    if len(ground.plane) == 4:
+        costs += ON_PLANE * _in_polygon((around[..., :2] + around[..., 2:]) / 2, ground.plane)
+    return costs
+
+
+def _overlap(boxes: Floats, others: Floats) -> Floats:
+    """Return the common areas of boxes (..., 4) and others (m, 4), (..., m)."""
+    left, top, right, bottom = (boxes[..., side, None] for side in range(4))
+    wide = np.minimum(right, others[:, 2]) - np.maximum(left, others[:, 0])
+    high = np.minimum(bottom, others[:, 3]) - np.maximum(top, others[:, 1])
+    return np.maximum(wide, 0.0) * np.maximum(high, 0.0)
+
+
+def _crossed(boxes: Floats, ground: _Ground) -> Floats:
+    """Return what the lines in boxes (n, 4) of one label cost, (n,). Source: Liang and Barsky
+    1984.
+    """
+    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+    near = ((ground.lines[:, 2:] > low) & (ground.lines[:, :2] < high)).all(axis=1)
+    first, last = 0.0, 1.0
+    for axis in (0, 1):
+        start, way = ground.starts[near, axis], ground.ways[near, axis]
+        one = (boxes[:, axis, None] - start) / way
+        other = (boxes[:, axis + 2, None] - start) / way
+        first = np.maximum(first, np.minimum(one, other))
+        last = np.minimum(last, np.maximum(one, other))
+    return np.maximum(last - first, 0.0) @ ground.weights[near]
+
+
+def _in_polygon(points: Floats, corners: Floats) -> NDArray[np.bool_]:
+    """Return whether points (..., 2) are inside a convex polygon (m, 2)."""
+    sides = np.concatenate([corners[1:], corners[:1]]) - corners
+    x, y = points[..., 0, None] - corners[:, 0], points[..., 1, None] - corners[:, 1]
+    turns = sides[:, 0] * y - sides[:, 1] * x
+    return np.all(turns > 0, axis=-1) | np.all(turns < 0, axis=-1)

@@ -1,0 +1,101 @@
+"""A second camera in the outside view: one that somebody wrote, dashed.
+
+Draws its frustum, first pixel and ray. It is defined by rays, not by a Camera, because a wrong
+program's rays may belong to no camera at all, such as one with a singular basis. Pure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.instruments.outside.diagram import Dot, Face, Item, Label, RayEnd, Role, Segments, polyline
+from renderer.camera.camera import Floats
+
+SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
+ROLE: Role = "other"
+
+
+@dataclass(frozen=True, eq=False)
+class GivenRay:
+    """origin, direction: (3,). t: of its hit; inf where it meets nothing, None where that is not
+    known."""
+
+    origin: Floats
+    direction: Floats
+    t: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class SecondCamera:
+    """origins, directions: (4, 3), of the rays through the image's corner pixels: upper left, upper
+    right, lower right, lower left as that camera's image has them. ray: of the marked pixel.
+    name: what it is called; first: what its first pixel is."""
+
+    origins: Floats
+    directions: Floats
+    ray: GivenRay | None = None
+    name: str = ""
+    first: str = ""
+
+
+def corner_rays(origins: Floats, directions: Floats) -> tuple[Floats, Floats]:
+    """Return the corner pixels' rays of rays (H, W, 3), (4, 3) each, for SecondCamera."""
+    rows, columns = [0, 0, -1, -1], [0, -1, -1, 0]
+    return origins[rows, columns], directions[rows, columns]
+
+
+def second_camera(camera: SecondCamera, reach: float) -> list[Item]:
+    """Return its drawing, as far as its rays are finite. reach: the length of the drawn rays, world
+    units.
+    """
+    items = _frustum(camera, reach)
+    if camera.ray is not None:
+        items += second_ray(camera.ray, reach)
+    return items
+
+
+def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
+    origins, directions = camera.origins, camera.directions
+    length = np.linalg.norm(directions, axis=1).mean()
+    if not np.isfinite(origins).all() or not np.isfinite(length) or length == 0:
+        return []
+    ends = origins + reach / length * directions
+    middle = origins.mean(axis=0)
+    has_eye = bool(np.abs(origins - middle).max() <= SAME * reach)
+    plane = origins + directions if has_eye else origins
+    items: list[Item] = [
+        Face(f"second side {k}", ROLE, np.array([origins[k], ends[k], ends[n], origins[n]]), 0.06)
+        for k, n in enumerate((1, 2, 3, 0))
+    ]
+    items += [
+        Segments(
+            "second edges", ROLE, np.stack([origins, ends], axis=1), 1.8, dashed=True, layer=2
+        ),
+        Segments("second end", ROLE, polyline(ends, True), 1.0, 0.7, 0.3, dashed=True, layer=2),
+        Segments("second image plane", ROLE, polyline(plane, True), 2.4, dashed=True, layer=2),
+        Dot("second first pixel", ROLE, plane[0], 5.0),
+    ]
+    if camera.first:
+        away = plane.mean(axis=0)
+        items.append(Label("second first pixel", ROLE, camera.first, plane[0], away=away))
+    if has_eye:
+        items.append(Dot("second eye", ROLE, middle, 7.0))
+    if camera.name:
+        items.append(Label("second name", ROLE, camera.name, plane[2], away=plane.mean(axis=0)))
+    return items
+
+
+def second_ray(ray: GivenRay, reach: float) -> list[Item]:
+    """Return the ray to its hit, or as long as `reach`. Nothing if it is none."""
+    length = float(np.linalg.norm(ray.direction))
+    if not np.isfinite(ray.origin).all() or not np.isfinite(length) or length == 0:
+        return []
+    end = RayEnd((0, 0), ray.t)
+    reached = ray.origin + end.t_or(reach / length) * ray.direction
+    way = np.array([[ray.origin, reached]])
+    items: list[Item] = [Segments("second ray", ROLE, way, 2.6, hidden=0.6, dashed=True, layer=3)]
+    if end.is_hit:
+        items.append(Dot("second hit", ROLE, reached, 6.0))
+    return items

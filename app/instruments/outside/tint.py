@@ -1,0 +1,68 @@
+"""The handles in the colours of the basis, and without ImGuizmo's text: it has no setting for them.
+
+Owns the exchange of colours in what was drawn. Knows nothing of handles and of cameras.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+
+import numpy as np
+from imgui_bundle import ImVec4, imgui
+from numpy.typing import NDArray
+
+from app.ui import theme
+
+Rgb = tuple[int, int, int]
+
+# ImGuizmo's own: of the axes x, y, z, and of the handle under the mouse. They come with several
+# opacities, which stay.
+AXES: dict[str, Rgb] = {"u": (170, 0, 0), "v": (0, 170, 0), "w": (0, 0, 170)}
+HELD: Rgb = (255, 128, 16)  # almost the colour of u
+SHADOW = np.uint32(0xFF000000)  # black: of the text alone, which is drawn over it
+
+
+def handle_colors(ground: theme.Rgb) -> dict[Rgb, ImVec4]:
+    """Return the colours that replace ImGuizmo's in the current theme. ground: the colour under the
+    handles.
+    """
+    colors = {AXES[name]: theme.seen_on(theme.BASIS[name], ground) for name in AXES}
+    return {**colors, HELD: theme.rgb("#ffffff")}
+
+
+def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb, ImVec4]) -> None:
+    """Exchange colours in all vertices of a draw list from `first` on. Opacities stay."""
+    packed = vertex_colors(draw)[first:]
+    rgb = packed & 0xFFFFFF
+    for old, new in colors.items():
+        changed = rgb == _packed(old)
+        rest = packed[changed] & 0xFF000000
+        packed[changed] = rest | _packed(tuple(round(255 * x) for x in (new.x, new.y, new.z)))
+
+
+def hide_text(draw: imgui.ImDrawList, first: int) -> None:
+    """Make the text transparent that ImGuizmo wrote last, which calls the basis x, y and z: the
+    letters of its shadow, and as many after them.
+    """
+    packed = vertex_colors(draw)[first:]
+    shadow = np.flatnonzero(packed == SHADOW)
+    if len(shadow):
+        packed[shadow[0] : shadow[0] + 2 * len(shadow)] = 0
+
+
+def vertex_colors(draw: imgui.ImDrawList) -> NDArray[np.uint32]:
+    """Return the colours of a draw list's vertices in place, (n,), opacity in the highest byte.
+    Valid until something more is drawn.
+    """
+    count, size = draw.vtx_buffer.size(), imgui.VERTEX_SIZE
+    if not count:
+        return np.empty(0, np.uint32)
+    content = (ctypes.c_uint8 * (count * size)).from_address(draw.vtx_buffer.data_address())
+    rows = np.frombuffer(memoryview(content), np.uint32).reshape(count, size // 4)
+    return rows[:, imgui.VERTEX_BUFFER_COL_OFFSET // 4]
+
+
+def _packed(rgb: tuple[int, ...]) -> np.uint32:
+    """Return a colour as ImGui packs it: red in the lowest byte."""
+    return np.uint32(rgb[0] | rgb[1] << 8 | rgb[2] << 16)

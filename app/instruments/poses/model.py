@@ -1,0 +1,311 @@
+"""A set of cameras: their names, frusta and points for the outside view, the way through them.
+
+These are computed once per set. Pure; slow functions are called on a thread.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.cameras.taken import is_fitted
+from app.instruments.outside.cloud import Cloud
+from app.instruments.outside.diagram import Segments
+from app.instruments.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
+from app.instruments.outside.frustum import border
+from app.instruments.poses.options import PosesOptions
+from app.state.app_state import AppState
+from app.state.paths import stored
+from renderer.camera.camera import Camera, Size
+from renderer.files.cameras import CameraSet, PosedCamera, read_cameras
+from renderer.files.cameras.given import Options, given
+from renderer.scene.model import Scene, View
+from renderer.system.file_dependencies import Noted
+
+Floats = NDArray[np.float64]
+
+LINES = 10  # a camera: four edges, four sides of its image, two for which way is up
+CURVE = 4  # parts of a side that a lens bends
+UP = 0.28  # the height of the mark for that, in parts of the image's
+INLIERS = (1.0, 99.0)  # percent of points between which a reconstruction is; the rest are strays
+LOOKED_AT = 50_000  # points, for that
+SEED = 7  # of the order in which points are drawn
+PLAIN = 150  # gray of points without colours
+_HEIGHT = np.linspace(-0.99, 0.99, 96)
+_TURN = np.pi * (1 + 5**0.5) * np.arange(96)
+# Evenly spread unit vectors (96, 3). Source: the spherical Fibonacci lattice.
+DIRECTIONS = np.stack(
+    [np.cos(_TURN) * (1 - _HEIGHT**2) ** 0.5, _HEIGHT, np.sin(_TURN) * (1 - _HEIGHT**2) ** 0.5], 1
+)
+NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
+# A frustum's length, relative to the cameras' extent: shorter if there are many.
+SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class PoseSet:
+    """A set of cameras.
+
+    path: of its file or folder.
+    origins, ways: (n, 4 parts, 3), the starts of the rays through the image's corners, and between
+    them if there is a lens, and their directions, equally long: from the upper left to the right.
+    points, colors: of a reconstruction, as Cloud has them.
+    low, high: (3,), a box around the cameras and most of the points.
+    hull: the outermost of these points (k, 3).
+    outer: the numbers of the outermost cameras.
+    told: notes on the set, a phrase each.
+    files: their stamps at the time of reading.
+    photographs: the numbers of the cameras whose photograph is there; None if the set names none.
+    """
+
+    path: Path
+    format: str
+    cameras: tuple[PosedCamera, ...]
+    names: tuple[str, ...]
+    origins: Floats
+    ways: Floats
+    points: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    low: Floats
+    high: Floats
+    hull: Floats
+    outer: NDArray[np.int64]
+    told: tuple[str, ...]
+    files: Noted = field(default_factory=dict)
+    photographs: frozenset[int] | None = None
+
+    @property
+    def origin(self) -> Floats:
+        """The origin of positions in float32."""
+        return (self.low + self.high) / 2
+
+    @property
+    def parts(self) -> int:
+        """The parts of a side of the images, which lenses bend; 1 for straight sides."""
+        return self.ways.shape[1] // 4
+
+    @property
+    def lines(self) -> int:
+        """The lines of a camera."""
+        return LINES + 4 * (self.parts - 1)
+
+    @property
+    def length(self) -> float:
+        """A length of frusta that suits the set, world units."""
+        eyes = self.origins.mean(axis=1)
+        reach = float(np.linalg.norm(np.ptp(eyes, axis=0))) / 2
+        reach = reach or float(np.linalg.norm(self.high - self.low)) / 2 or 1.0
+        return reach * min(max(FOR_ONE / len(eyes) ** 0.5, SHORTEST), LONGEST)
+
+    @property
+    def up(self) -> Floats:
+        """The direction that is up in most of the images, a unit vector; (0, 1, 0) if they do not
+        agree.
+
+        Reconstructions are often upside down.
+        """
+        ways = np.array([posed.camera.v for posed in self.cameras], float)
+        mean = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).mean(axis=0)
+        size = float(np.linalg.norm(mean))
+        return mean / size if size > 0.3 else np.array([0.0, 1.0, 0.0])
+
+    @property
+    def folder(self) -> Path:
+        """The base of relative paths in it."""
+        return self.path if self.path.is_dir() else self.path.parent
+
+    @property
+    def title(self) -> str:
+        """The file's name. A folder's includes its parent, because many are called 0."""
+        path = self.path
+        return f"{path.parent.name}/{path.name}" if not path.suffix else path.name
+
+    @property
+    def counts(self) -> str:
+        """The numbers of cameras and points, in words."""
+        count, points = len(self.names), len(self.points)
+        words = f"{count:,} camera{'s' if count != 1 else ''}"
+        return words + (f", {points:,} points" if points else "")
+
+    @property
+    def found(self) -> str:
+        """The number of photographs, in words; "" if the set names none."""
+        if self.photographs is None:
+            return ""
+        return f"{len(self.photographs):,} of {len(self.names):,} photographs found"
+
+    def view(self, number: int) -> View:
+        """Return the view of a camera. Images of other proportions show more, never less."""
+        posed = self.cameras[number]
+        return View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
+
+
+def load_poses(path: Path, options: Options | None = None) -> CameraSet:
+    """Return the contents of a file or a folder. Raises LucidaError."""
+    return read_cameras(given(path), options=options)
+
+
+def pose_set(path: Path, found: CameraSet) -> PoseSet:
+    """Prepare a set. Takes some seconds for ten thousand cameras and millions of points."""
+    curved = any(posed.camera.lens is not None for posed in found.cameras)
+    rays = [_border_rays(posed.camera, CURVE if curved else 1) for posed in found.cameras]
+    origins = np.array([origin for origin, _ in rays], float)
+    ways = np.array([way for _, way in rays], float)
+    eyes = origins.mean(axis=1)
+    low, high = eyes.min(axis=0), eyes.max(axis=0)
+    points, colors = np.zeros((0, 3)), np.zeros((0, 3), np.uint8)
+    if found.points is not None:
+        points = np.asarray(found.points, float).reshape(-1, 3)
+        order = np.flatnonzero(np.isfinite(points).all(axis=1))
+        order = np.random.default_rng(SEED).permutation(order)
+        points = points[order]
+        colors = np.full((len(order), 3), PLAIN, np.uint8)
+        if found.point_colors is not None:
+            colors = np.asarray(found.point_colors, np.uint8)[order]
+    most = points[:LOOKED_AT]
+    if len(most):
+        ends = np.percentile(most, INLIERS, axis=0)
+        most = most[((most >= ends[0]) & (most <= ends[1])).all(axis=1)]
+        low, high = np.minimum(low, ends[0]), np.maximum(high, ends[1])
+    return PoseSet(
+        path,
+        found.format,
+        found.cameras,
+        _names(found.cameras),
+        origins,
+        ways,
+        (points - (low + high) / 2).astype(np.float32),
+        colors,
+        low,
+        high,
+        most[outermost(most)],
+        outermost(eyes),
+        found.taken,
+    )
+
+
+def outermost(points: Floats) -> NDArray[np.int64]:
+    """Return the indices of points (n, 3) that are outermost in one of many directions. Together
+    they have about the same extent as all points, from every side.
+    """
+    if not len(points):
+        return np.zeros(0, np.int64)
+    return np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))
+
+
+def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
+    """Return the rays around a camera's image. parts: of a side, 1 for the corners."""
+    x, y = border(camera, parts).T
+    if camera.is_parallel:
+        across = x[:, None] * np.asarray(camera.u) + y[:, None] * np.asarray(camera.v)
+        return np.asarray(camera.eye) + across, np.tile(-np.asarray(camera.w), (len(x), 1))
+    ways = camera.direction(x, y)
+    origins = np.tile(np.asarray(camera.eye), (len(x), 1))
+    return origins, ways / np.linalg.norm(ways, axis=1).mean()
+
+
+def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
+    """Return the names without their common folder. Unnamed cameras have their numbers."""
+    names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
+    first, last = min(names), max(names)  # what these share, all do
+    pairs = enumerate(zip(first, last, strict=False))
+    shared = next((place for place, (one, other) in pairs if one != other), len(first))
+    start = first.rfind("/", 0, shared) + 1
+    return tuple(name[start:] for name in names)
+
+
+# In the outside view.
+
+
+def frusta(
+    poses: PoseSet, length: float, numbers: Sequence[int] | NDArray[np.int64] | slice = slice(None)
+) -> Floats:
+    """Return lines (n * poses.lines, 2, 3) of these cameras. length: world units."""
+    origins = poses.origins[numbers]
+    ends = origins + length * poses.ways[numbers]
+    corners, at = ends[:, :: poses.parts], poses.parts // 2
+    middle_top, middle_bottom = (corners[:, ::2] + corners[:, 1::2]).swapaxes(0, 1) / 2
+    if at:  # of a curve
+        middle_top, middle_bottom = ends[:, at], ends[:, 2 * poses.parts + at]
+    tip = middle_top + UP * (middle_top - middle_bottom)
+    nexts = np.roll(ends, -1, axis=1)
+    lines = np.concatenate(
+        [
+            np.stack([origins[:, :: poses.parts], corners], axis=2),
+            np.stack([ends, nexts], axis=2),
+            np.stack([corners[:, :2], np.stack([tip, tip], axis=1)], axis=2),
+        ],
+        axis=1,
+    )
+    return lines.reshape(-1, 2, 3)
+
+
+def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
+    """Return a whole set as a cloud. length: of the frusta, relative to what suits the set."""
+    size = length * poses.length
+    lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
+    points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
+    origins = poses.origins[poses.outer]
+    ends = origins + size * poses.ways[poses.outer]
+    around = np.concatenate([origins, ends]).reshape(-1, 3)
+    if with_points:
+        around = np.concatenate([around, poses.hull])
+    return Cloud(lines, poses.origin, points, colors, around)
+
+
+def looked_from(up: Floats, back: Floats) -> Floats:
+    """Return the unit vector towards an eye that sees a set from the right of a camera, from behind
+    it and from above. up: of the set. back: of the camera.
+    """
+    level = back - (back @ up) * up
+    if np.linalg.norm(level) < 0.05 * np.linalg.norm(back):
+        level = np.eye(3)[int(np.argmin(np.abs(up)))]
+        level = level - (level @ up) * up
+    level = level / np.linalg.norm(level)
+    way = FROM_RIGHT * np.cross(up, level) + FROM_ABOVE * up + FROM_BEHIND * level
+    return way / np.linalg.norm(way)
+
+
+def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:
+    """Return the state with a set. scene: seen by the set's first camera; None for the present
+    one, with its camera.
+    """
+    file = stored(str(poses.path))
+    if scene is None:
+        return state.with_options(poses={"file": file, "pose": -1})
+    seen = state.with_scene(scene, poses.view(0))
+    return seen.with_options(poses={"file": file, "pose": 0})
+
+
+def with_set_framed(state: AppState, poses: PoseSet, size: Size | None) -> AppState:
+    """Return the state in which the outside view, of `size`, sees all of the set."""
+    options = state.of(PosesOptions)
+    points = cloud(poses, options.length, options.points).around
+    way = looked_from(poses.up, np.asarray(state.camera.w))
+    width, height = size or (4, 3)
+    camera = framed(points, way, width / height, up=poses.up)
+    return state.with_options(outside={"camera": camera})
+
+
+# The list.
+
+
+def matching(names: Sequence[str], query: str) -> list[int]:
+    """Return the indices of the names that contain all words of a query, ignoring case."""
+    words = query.lower().split()
+    return [n for n, name in enumerate(names) if all(word in name.lower() for word in words)]
+
+
+def walked(shown: Sequence[int], chosen: int, steps: int) -> int:
+    """Return the camera that is this many steps further in the list, clamped to its ends; -1 for an
+    empty list. If the selected one is not in the list, return the first.
+    """
+    if not shown:
+        return -1
+    if chosen not in shown:
+        return shown[0] if steps >= 0 else shown[-1]
+    return shown[min(max(shown.index(chosen) + steps, 0), len(shown) - 1)]

@@ -1,0 +1,30 @@
+"""The options of the view "Poses": the open set, the selected camera, and how the set is drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from app.state.bounds import Beside, Range
+
+
+@dataclass(frozen=True)
+class PosesOptions:
+    """The options of the view "Poses".
+
+    file: of the set, an absolute path, as app.state.paths.stored() writes it, "" for none; in a
+    lecture, a file or folder next to the lecture's.
+    pose: the number of the selected camera, from 0; -1 for none.
+    length: of the frusta, relative to what suits the set.
+    points: draw a reconstruction's points.
+    reprojected: draw them on the photographs.
+    """
+
+    file: Annotated[str, Beside(("",))] = ""
+    pose: Annotated[int, Range(-1, 10_000_000)] = -1
+    length: Annotated[float, Range(0.05, 20.0)] = 1.0
+    points: bool = True
+    reprojected: bool = False
+
+
+OPTIONS = PosesOptions

@@ -1,0 +1,232 @@
+"""The panel of the view "Poses": the set and its commands, its list, the photograph.
+
+Takes values and returns requests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import moderngl
+from imgui_bundle import ImVec2, imgui
+
+from app.instruments.poses.model import PoseSet
+from app.instruments.poses.options import PosesOptions
+from app.state.bounds import range_of
+from app.ui import theme
+from app.ui.checks import checkbox
+from app.ui.lettering import fitting_words, lettering
+from app.ui.messages import SHOWN_AFTER_S, progress, wrapped
+from app.ui.rows import follow, tip
+from app.ui.sliders import slider_float
+from app.ui.theme import Fonts, framebuffer_scale
+from renderer.system.errors import one_line
+
+PoseWish = Literal[
+    "", "open", "close", "frame", "cancel", "next", "previous", "first", "last", "lay"
+]
+INVITATION = (
+    "Open the cameras of a data set or of a reconstruction: a transforms.json (NeRF, nerfstudio),"
+    " or a COLMAP model's folder, such as sparse/0. Each becomes a frustum in the outside view."
+)
+LAY = "on the images"
+LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
+LISTED = imgui.ChildFlags_.borders | imgui.ChildFlags_.nav_flattened
+BESIDE = 1.2  # width / height from which the photograph is next to the list
+PHOTO_PART = 0.52  # of the room's width, next to the list
+BELOW_PART = 0.45  # of its height, below it
+
+
+def invitation() -> PoseWish:
+    """Draw the panel if no set is open."""
+    wrapped(INVITATION)
+    wish: PoseWish = "open" if imgui.button("Open cameras...") else ""
+    wrapped("Or drop the file or the folder, or: lucida transforms.json", theme.DIM)
+    return wish
+
+
+def failed(name: str, problem: str) -> PoseWish:
+    """Draw a set that cannot be read, in one line."""
+    wrapped(problem, theme.ERROR)
+    return _buttons(
+        ("open", "Open cameras...", ""),
+        ("close", "Close", f"Remove {one_line(name)} from the list"),
+    )
+
+
+def waiting(name: str, time_s: float) -> PoseWish:
+    """Draw a set that is being read."""
+    if time_s < SHOWN_AFTER_S:
+        return ""
+    imgui.text_colored(theme.DIM, f"reading {one_line(name)} ...")
+    return "cancel" if progress(time_s, 6) else ""
+
+
+def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish, dict[str, Any]]:
+    """Draw the set and its commands. Return the changed options."""
+    changes: dict[str, Any] = {}
+    with lettering(fonts.bold):
+        imgui.align_text_to_frame_padding()
+        imgui.text(fitting_words(one_line(poses.title), imgui.get_content_region_avail().x))
+    tip(one_line(str(poses.path)))
+    counts = poses.counts
+    follow(imgui.calc_text_size(counts).x)
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(theme.DIM, counts)
+    if poses.told:
+        tip("\n".join(poses.told))
+    wish = _buttons(
+        ("frame", "Frame the set", "the outside view sees all of its cameras and points"),
+        ("open", "Open...", "another set"),
+        ("close", "Close", "no cameras but the window's own"),
+    )
+    width = 7.5 * imgui.get_font_size()
+    follow(width)
+    imgui.set_next_item_width(width)
+    changed, length = slider_float(
+        "##length", options.length, *range_of(PosesOptions, "length"), "length %.2f",
+        imgui.SliderFlags_.logarithmic,
+    )  # fmt: skip
+    tip("how long the frusta are drawn: 1 fits the set")
+    if changed:
+        changes["length"] = length
+    aligned = "the points as each camera sees them: they should line up with the photograph"
+    for name, label, said in (
+        ("points", "points", "the reconstruction's points"),
+        ("reprojected", "on photographs", aligned),
+    ):
+        if len(poses.points):
+            follow(imgui.calc_text_size(label).x + 1.5 * imgui.get_frame_height())
+            changed, on = checkbox(label, getattr(options, name))
+            tip(said)
+            if changed:
+                changes[name] = on
+    return wish, changes
+
+
+def _buttons(*entries: tuple[PoseWish, str, str]) -> PoseWish:
+    """Draw buttons in a row: request, label, tooltip. Return the request of the clicked one."""
+    wish: PoseWish = ""
+    for number, (name, label, said) in enumerate(entries):
+        if number:
+            follow(imgui.calc_text_size(label).x + 2 * imgui.get_style().frame_padding.x)
+        if imgui.button(f"{label}###{name}"):
+            wish = name
+        if said:
+            tip(said)
+    return wish
+
+
+def search(query: str, found: int, of: int) -> str:
+    """Draw the search field for names."""
+    imgui.set_next_item_width(-1)
+    _, query = imgui.input_text_with_hint("##search", f"search {of} names", query)
+    if query:
+        tip(f"{found} of {of}")
+    return str(query)
+
+
+def found(poses: PoseSet) -> None:
+    """Draw how many of the photographs are there."""
+    if poses.found:
+        lacking = poses.photographs is not None and len(poses.photographs) < len(poses.names)
+        wrapped(poses.found, theme.legible(theme.MARK) if lacking else theme.DIM)
+        tip(f"looked for from {one_line(str(poses.folder))}")
+
+
+def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
+    """Return the rooms for the list and the photograph, and whether they are side by side."""
+    room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
+    room = ImVec2(max(room.x, 1.0), max(room.y, 1.0))
+    if not has_photo:
+        return room, ImVec2(0, 0), False
+    if room.x > BESIDE * room.y:
+        photo = PHOTO_PART * room.x
+        return ImVec2(room.x - photo - gap.x, room.y), ImVec2(photo, room.y), True
+    photo = BELOW_PART * room.y
+    return ImVec2(room.x, max(room.y - photo - gap.y, 1.0)), ImVec2(room.x, photo), False
+
+
+def rows(
+    poses: PoseSet, shown: Sequence[int], chosen: int, scroll: bool, room: ImVec2
+) -> int | None:
+    """Draw the list. Return the number of the clicked row. Only visible rows are made.
+
+    Cameras without a photograph are dim, if others have one. shown: the numbers of those that the
+    search found. chosen: the number of the selected one, -1 for none. scroll: scroll to it; without
+    a selection, to the first.
+    """
+    clicked = None
+    if imgui.begin_child("list", room, LISTED):
+        height = imgui.get_text_line_height_with_spacing()
+        if scroll and chosen not in shown:
+            imgui.set_scroll_y(0.0)
+        elif scroll:
+            top = height * shown.index(chosen)
+            seen, tall = imgui.get_scroll_y(), imgui.get_window_height()
+            if not seen <= top <= seen + tall - 3 * height:
+                imgui.set_scroll_y(max(top - 0.4 * tall, 0.0))
+        clipper = imgui.ListClipper()
+        clipper.begin(len(shown), height)
+        while clipper.step():
+            for number in shown[clipper.display_start : clipper.display_end]:
+                on = number == chosen
+                lacks = poses.photographs and number not in poses.photographs
+                imgui.push_style_color(imgui.Col_.text, theme.DIM if lacks else theme.TEXT)
+                if on:  # distinct from the one under the mouse
+                    imgui.push_style_color(imgui.Col_.header, theme.FILL)
+                    imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
+                if imgui.selectable(f"{one_line(poses.names[number])}###{number}", on)[0]:
+                    clicked = number
+                imgui.pop_style_color(3 if on else 1)
+        if not shown:
+            imgui.text_colored(theme.DIM, "no name has that in it")
+    imgui.end_child()
+    return clicked
+
+
+def photograph(
+    texture: moderngl.Texture | None, caption: str, laid: bool | None, room: ImVec2
+) -> PoseWish:
+    """Draw the picture as large as it fits, keeping its proportions, above its caption; without a
+    picture, only the caption.
+
+    laid: True if it is laid over the images; None if it cannot be.
+    """
+    wish: PoseWish = ""
+    if imgui.begin_child("photograph", room, imgui.ChildFlags_.nav_flattened):
+        if laid is not None:
+            if checkbox(LAY, laid)[0]:
+                wish = "lay"
+            tip(LAY_TOLD)
+            room = imgui.get_content_region_avail()
+        if texture is not None:
+            size = ImVec2(*texture.size)
+            lines = imgui.calc_text_size(caption, False, room.x).y
+            high = max(room.y - lines - imgui.get_style().item_spacing.y, 1.0)
+            scale = min(room.x / size.x, high / size.y, 2.0 / framebuffer_scale())
+            extent = ImVec2(max(scale * size.x, 1.0), max(scale * size.y, 1.0))
+            imgui.image(imgui.ImTextureRef(texture.glo), extent)
+        wrapped(caption, theme.DIM)
+    imgui.end_child()
+    return wish
+
+
+def keys() -> PoseWish:
+    """Return what the keys ask for while the current window has them.
+
+    They are taken from ImGui's navigation, which keeps Tab.
+    """
+    key, focused = imgui.Key, int(imgui.InputFlags_.route_focused)
+    repeated = focused | int(imgui.InputFlags_.repeat)
+    table: tuple[tuple[PoseWish, tuple[imgui.Key, ...], int], ...] = (
+        ("next", (key.down_arrow, key.right_arrow), repeated),
+        ("previous", (key.up_arrow, key.left_arrow), repeated),
+        ("first", (key.home,), focused),
+        ("last", (key.end,), focused),
+    )
+    pressed = [
+        wish for wish, chords, flags in table for one in chords if imgui.shortcut(int(one), flags)
+    ]
+    return pressed[0] if pressed and not imgui.is_any_item_active() else ""

@@ -1,0 +1,146 @@
+"""The photographs of a set's cameras: their paths, and small pictures of them, made on a thread.
+
+The last pictures are cached, at the size of the panel.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.instruments.poses.model import PoseSet
+from app.instruments.poses.reprojected import bare, with_points
+from app.ui.background import Background
+from renderer.system.errors import one_line
+
+SIDE_PX = 800  # a picture's longer side, at most
+KEPT = 24  # pictures: at most 50 MB
+
+PhotoKey = tuple[PoseSet, int, bool]
+
+
+@dataclass(frozen=True, eq=False)
+class Photograph:
+    """A photograph.
+
+    path: None if there is no file.
+    pixels: uint8 (height, width, 3), row 0 at the top; None if there is nothing to show.
+    problem: the reason why there is no photograph; pixels then only show the points.
+    size: the file's own, (width, height).
+    """
+
+    path: Path | None = None
+    pixels: NDArray[np.uint8] | None = None
+    size: tuple[int, int] = (0, 0)
+    problem: str = ""
+
+
+class Photographs:
+    """Reads photographs on a thread."""
+
+    def __init__(self) -> None:
+        self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs")
+        self._kept: OrderedDict[PhotoKey, Photograph] = OrderedDict()
+        self._asked: PhotoKey | None = None
+
+    @property
+    def busy(self) -> bool:
+        """True while a picture that is still wanted is to come."""
+        return self._asked is not None and self._work.busy
+
+    def of(self, poses: PoseSet, number: int, dotted: bool = False) -> Photograph | None:
+        """Return the photograph of a camera; None while it is being read. dotted: draw the set's
+        points on it, if there are any.
+        """
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            read, photograph = outcome.value
+            self._kept[read] = photograph
+            self._asked = None if read == self._asked else self._asked
+            while len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
+        key = poses, number, dotted
+        found = self._kept.get(key)
+        if found is not None:
+            self._kept.move_to_end(key)
+        elif self._asked != key:
+            self._asked = key
+            self._work.submit(lambda: (key, pictured(*key)))
+        return found
+
+    def forget(self) -> None:
+        """Discard all pictures, for another set."""
+        self._kept.clear()
+        self.want_none()
+
+    def want_none(self) -> None:
+        """Wait for no picture any more."""
+        self._asked = None
+
+    def close(self) -> None:
+        self._work.close()
+
+
+def photo_path(poses: PoseSet, number: int) -> Path | None:
+    """Return the expected path of a camera's photograph; None if the file names none."""
+    image = poses.cameras[number].image
+    return poses.folder / image if image else None  # an absolute path stays unchanged
+
+
+def with_photographs(poses: PoseSet) -> PoseSet:
+    """Return the set, with the photographs that are there."""
+    paths = [photo_path(poses, number) for number in range(len(poses.names))]
+    if poses.format != "colmap" and not any(paths):  # COLMAP's cameras always have one
+        return poses
+    found = frozenset(number for number, path in enumerate(paths) if path and _is_there(path))
+    return replace(poses, photographs=found)
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.is_file()  # a pipe might never end
+    except (OSError, ValueError):
+        return False
+
+
+def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
+    """Return a camera's photograph; if there is none, the set's points as the camera sees them."""
+    found = read_photograph(poses, number)
+    if not len(poses.points) or not (dotted or found.pixels is None):
+        return found
+    pixels = bare(poses, number, SIDE_PX) if found.pixels is None else found.pixels
+    return replace(found, pixels=with_points(poses, number, pixels))
+
+
+def read_photograph(poses: PoseSet, number: int) -> Photograph:
+    """Return a small picture of it, or the reason why there is none. Never raises because of a
+    file.
+    """
+    from PIL import Image
+
+    path, name = photo_path(poses, number), poses.cameras[number].name
+    if path is None and not name:
+        return Photograph(problem="The file names no photograph.")
+    if path is None or not _is_there(path):
+        return Photograph(problem=f"{one_line(_shown(poses, path, name))} is not there.")
+    try:
+        with Image.open(path) as opened:
+            size = opened.size
+            opened.draft("RGB", (SIDE_PX, SIDE_PX))  # decodes no more of a JPEG than needed
+            opened.thumbnail((SIDE_PX, SIDE_PX))
+            pixels = np.asarray(opened.convert("RGB"))
+    except (OSError, ValueError, SyntaxError, MemoryError, Image.DecompressionBombError):
+        return Photograph(path, problem=f"{one_line(path.name)} is no picture that can be read.")
+    return Photograph(path, pixels, size)
+
+
+def _shown(poses: PoseSet, path: Path | None, name: str) -> str:
+    """Return a path that is as short as possible, but clear."""
+    if path is None:
+        return name
+    inside = path.is_relative_to(poses.folder)
+    return str(path.relative_to(poses.folder) if inside else Path(*path.parts[-2:]))

@@ -1,0 +1,376 @@
+"""The view "Poses": a set of cameras, listed, shown in the outside view, taken one after another.
+
+The view also shows the set elsewhere, and finds the camera under the mouse. model.py prepares a
+set, panel.py draws the panel.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import moderngl
+from imgui_bundle import imgui
+
+from app.images.photograph.model import closed, with_photograph
+from app.images.photograph.options import PhotographOptions
+from app.instruments.outside.diagram import Dot, Face, Item, Label, Role, Segments
+from app.instruments.outside.looking import nearest
+from app.instruments.outside.mouse import Scope
+from app.instruments.outside.screen import OutsideScreen
+from app.instruments.outside.view import OutsideView
+from app.instruments.poses import panel
+from app.instruments.poses.model import (
+    PoseSet,
+    cloud,
+    frusta,
+    matching,
+    walked,
+    with_set,
+    with_set_framed,
+)
+from app.instruments.poses.options import PosesOptions
+from app.instruments.poses.panel import PoseWish
+from app.instruments.poses.photographs import Photograph, Photographs, photo_path
+from app.instruments.poses.picking import picked
+from app.instruments.poses.reading import PosesReader
+from app.state.app_state import AppState
+from app.state.paths import restored
+from app.ui import layout, theme
+from app.ui.action import Window
+from app.ui.theme import framebuffer_scale
+from app.ui.uploads import Uploads
+from app.ui.view import DockedView, Host
+from renderer.camera.camera import Camera, Size
+from renderer.scene import Scene
+from renderer.system.errors import one_line
+from renderer.system.memo import Memo
+
+POSES = "Poses"
+PHOTO = "photograph"
+BEYOND = 1 << 30  # more steps than a set has cameras
+
+
+class PosesView(DockedView):
+    """The view "Poses".
+
+    poses: the open set; None if there is none, or it is being read.
+    problem: the reason why it could not be read.
+    hovered: the number of the camera under the mouse in the outside view.
+    """
+
+    name = POSES
+    title = "Poses"
+    space = layout.INSTRUMENTS
+
+    def __init__(self, outside: OutsideView) -> None:
+        self._outside = outside
+        self._reader = PosesReader()
+        self._photographs = Photographs()
+        self._uploads: Uploads | None = None
+        self.poses: PoseSet | None = None
+        self.problem = ""
+        self._mistake = ""
+        self.hovered: int | None = None
+        self._picked = Memo(_picked)
+        self._query = ""
+        self._matching = Memo(_matching)
+        self._cloud = Memo(cloud)
+        self._items = Memo(_outside_items)
+        self._upload = Memo(_upload)
+        self._scrolled: int | None = None  # the chosen one that was brought into sight
+        self._seen = False
+        self._asked: PoseWish = ""
+
+    def give(self, window: Window, poses: PoseSet) -> None:
+        """Show the set that the state names."""
+        self._reader.give(poses)  # so that nothing waits
+        self._query = ""
+        window.shell.stage.show_in(POSES, layout.OUTSIDE)
+
+    def open(self, window: Window, poses: PoseSet, scene: Scene | None) -> None:
+        """Open a set for the user, with its first camera. scene: to show it in; None for the
+        present one, with its camera.
+        """
+        state = with_set(window.state, poses, scene)
+        if scene is not None:
+            state = with_set_framed(state, poses, self._outside.size_px)
+        window.change(state)
+        self.give(window, poses)
+
+    def ask(self, wish: PoseWish) -> None:
+        """Ask for what a button or a key would do, in the next frame in which the view is drawn."""
+        self._asked = wish
+
+    @property
+    def settled(self) -> bool:
+        return not self._seen or not (self._reader.busy or self._photographs.busy)
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._uploads = Uploads(context)
+
+    def end(self) -> None:
+        self._reader.close()
+        self._photographs.close()
+        if self._uploads is not None:
+            self._uploads.release()
+
+    def unseen(self, host: Host) -> None:
+        self._seen = False
+        self._asked = ""
+        self._hide()
+
+    def draw(self, host: Host) -> None:
+        assert self._uploads is not None
+        self._uploads.begin_frame()
+        self._seen = True
+        path = restored(host.state.of(PosesOptions).file)
+        name = Path(path).name
+        poses = self._reader.of(path)
+        if self._reader.waiting:
+            host.animate()
+        if poses is not self.poses:
+            if self.poses is not None and poses is not None and poses.path == self.poses.path:
+                self._follow_chosen(host, self.poses, poses)
+            self.poses = poses
+            self._forget_set()
+        self.problem = self._reader.problems.get(path, "")
+        mistake = self.problem if poses is not None else ""  # in a newer version of the file
+        if mistake != self._mistake and host.files.message in ("", self._mistake):
+            host.files.message = mistake
+        self._mistake = mistake
+        wish: PoseWish
+        if not path:
+            wish = panel.invitation()
+        elif poses is not None:
+            wish = self._of_set(host, poses)
+        elif self.problem:
+            wish = panel.failed(name, self.problem)
+        else:
+            wish = panel.waiting(name, self._reader.time_s)
+            host.animate()
+        self._grant(host, self._asked or panel.keys() or wish)
+        self._asked = ""
+        if self.poses is None:
+            self._hide()
+
+    def _of_set(self, host: Host, poses: PoseSet) -> PoseWish:
+        state = host.state
+        options = state.of(PosesOptions)
+        chosen = self.chosen(state)
+        wish, changes = panel.head(poses, options, host.fonts)
+        if changes:
+            host.apply(state.with_options(poses=changes))
+        shown = self._matching(poses, self._query)
+        self._query = panel.search(self._query, len(shown), len(poses.names))
+        panel.found(poses)
+        for_list, for_photo, beside = panel.rooms(chosen >= 0)
+        scroll = chosen != self._scrolled
+        clicked = panel.rows(poses, shown, chosen, scroll, for_list)
+        self._scrolled = chosen
+        if chosen >= 0:
+            if beside:
+                imgui.same_line()
+            wish = panel.photograph(*self._photo(host, poses, chosen), for_photo) or wish
+        else:
+            self._photographs.want_none()
+        if clicked is not None:
+            self.take(host, clicked)
+        self._show_outside(host, poses)
+        return wish
+
+    def _forget_set(self) -> None:
+        self._photographs.forget()
+        for memo in (self._matching, self._picked, self._cloud, self._items, self._upload):
+            memo.forget()
+        self._scrolled = self.hovered = None
+
+    def _follow_chosen(self, host: Host, old: PoseSet, new: PoseSet) -> None:
+        """Keep the selected camera, by its name, in a newer version of its file."""
+        number = host.state.of(PosesOptions).pose
+        if 0 <= number < len(old.names):
+            name = old.names[number]
+            number = new.names.index(name) if name in new.names else -1
+            host.amend(host.state.with_options(poses={"pose": number}))
+
+    # The list.
+
+    def chosen(self, state: AppState) -> int:
+        """Return the number of the selected camera; -1 if there is none."""
+        number = state.of(PosesOptions).pose
+        return number if self.poses is not None and number < len(self.poses.names) else -1
+
+    def take(self, host: Host, number: int) -> None:
+        """Move the window's camera to this one by a transition; at once if another transition is
+        under way, as in quick steps.
+        """
+        poses = self.poses
+        if poses is None or not 0 <= number < len(poses.names):
+            return
+        before = self.chosen(host.state)
+        target = host.state.with_options(poses={"pose": number}).with_view(poses.view(number))
+        if target.of(PhotographOptions).follows:
+            target = _photographed(target, poses, number)
+        if before >= 0 and host.travelling:  # to that one, which is a step of its own
+            host.amend(host.state.with_view(poses.view(before)))
+            host.change(target)
+        else:
+            host.travel(target)
+
+    def _grant(self, host: Host, wish: PoseWish) -> None:
+        poses = self.poses
+        if wish == "open":
+            host.files.open_dialog()
+        elif wish == "close":
+            self._reader.problems.clear()
+            host.change(host.state.with_options(poses={"file": "", "pose": -1}))
+        elif wish == "cancel":
+            self._reader.cancel()
+        elif poses is None or not wish:
+            return
+        elif wish == "frame":
+            self.frame(host, poses)
+        elif wish == "lay":
+            self.lay(host, poses)
+        else:
+            steps = {"next": 1, "previous": -1, "first": -BEYOND, "last": BEYOND}[wish]
+            number = walked(self._matching(poses, self._query), self.chosen(host.state), steps)
+            if number >= 0 and number != self.chosen(host.state):
+                self.take(host, number)
+
+    def frame(self, host: Host, poses: PoseSet) -> None:
+        """Frame the whole set in the outside view."""
+        host.travel(with_set_framed(host.state, poses, self._outside.size_px))
+
+    # The photograph.
+
+    def lay(self, host: Host, poses: PoseSet) -> None:
+        """Lay the selected camera's photograph over the images, and then that of each camera taken;
+        or stop that.
+        """
+        state, chosen = host.state, self.chosen(host.state)
+        if state.of(PhotographOptions).follows:
+            host.change(closed(state))
+        elif chosen >= 0:
+            laid = state.with_options(photograph={"follows": True, "shown": True})
+            host.change(_photographed(laid, poses, chosen))
+
+    def _photo(
+        self, host: Host, poses: PoseSet, number: int
+    ) -> tuple[moderngl.Texture | None, str, bool | None]:
+        """Return the picture, its caption, and whether it is laid over the images."""
+        assert self._uploads is not None
+        dotted = host.state.of(PosesOptions).reprojected
+        follows = host.state.of(PhotographOptions).follows
+        found = self._photographs.of(poses, number, dotted)
+        if found is None:  # the last one stays until then
+            return self._uploads.get(PHOTO), "", follows or None
+        self._upload(self._uploads, found)
+        caption = found.problem
+        if found.problem and found.pixels is not None:
+            caption += " The points as it would see them."
+        elif found.path is not None and not found.problem:
+            caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
+        laid = follows if follows or found.path is not None else None
+        return self._uploads.get(PHOTO), caption, laid
+
+    # In the outside view.
+
+    def _hide(self) -> None:
+        self.hovered = None
+        self._cloud.forget()  # it may be large
+        self._outside.show(POSES, ())
+
+    def _show_outside(self, host: Host, poses: PoseSet) -> None:
+        options = host.state.of(PosesOptions)
+        chosen = self.chosen(host.state)
+        self._outside.show(
+            POSES,
+            self._items(poses, options.length, chosen, self.hovered),
+            cloud=self._cloud(poses, options.length, options.points),
+            draw=self._in_outside_view,
+        )
+
+    def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> bool:
+        """Handle the camera under the mouse, and the keys, inside the outside view's window. Return
+        True if there is such a camera: it then handles a double click.
+        """
+        poses = self.poses
+        if poses is None:
+            return False
+        wish = panel.keys()
+        if wish:
+            self._grant(host, wish)
+        hovered = self._under_mouse(host, poses, scope) if over else None
+        if hovered != self.hovered:
+            self.hovered = hovered
+            host.animate()
+        if hovered is None:
+            return False
+        imgui.set_tooltip(one_line(poses.names[hovered]))
+        if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+            self.take(host, hovered)
+        return True
+
+    def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
+        mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length
+        scale = framebuffer_scale()
+        size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
+        column, row = scope.part(mouse)
+        at = column * size[0], row * size[1]
+        near, unit_px = nearest(scope.shown, scope), theme.px(1) * scale
+        return self._picked(poses, length, scope.shown, size, near, unit_px, at)
+
+
+def _matching(poses: PoseSet, query: str) -> list[int]:
+    return matching(poses.names, query)
+
+
+def _picked(
+    poses: PoseSet,
+    length: float,
+    camera: Camera,
+    size: Size,
+    near: float,
+    unit_px: float,
+    at: tuple[float, float],
+) -> int | None:
+    screen = OutsideScreen(camera, size, near, unit_px)
+    return picked(poses, length * poses.length, screen, at)
+
+
+def _upload(uploads: Uploads, found: Photograph) -> None:
+    uploads.drop(PHOTO)
+    if found.pixels is not None:
+        uploads.put(PHOTO, found.pixels)
+
+
+def _outside_items(
+    poses: PoseSet, length: float, chosen: int, hovered: int | None
+) -> tuple[Item, ...]:
+    """Return the frusta of the chosen camera and of the one under the mouse."""
+    size = length * poses.length
+    items = [] if hovered in (None, chosen) else _frustum(poses, hovered, size, "mark")
+    if chosen >= 0:
+        corner, eye = poses.origins[chosen] + size * poses.ways[chosen], poses.origins[chosen]
+        name = one_line(poses.names[chosen])  # beyond a corner of the image
+        label = Label("other pose", "other", name, corner[poses.parts], away=eye.mean(axis=0))
+        items += [*_frustum(poses, chosen, size, "other"), label]
+    return tuple(items)
+
+
+def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:
+    """Return the state with a camera's photograph over the images; none if the file names none."""
+    path = photo_path(poses, number)
+    return with_photograph(state, str(path.absolute()) if path is not None else None)
+
+
+def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:
+    """Return the frustum of a camera, distinct from the others."""
+    lines = frusta(poses, size, [number])
+    ends = poses.origins[number] + size * poses.ways[number]
+    image = [Face(f"{role} pose", role, ends, 0.22)] if poses.parts == 1 else []
+    return [
+        *image,
+        Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
+        Dot(f"{role} pose", role, poses.origins[number].mean(axis=0), 3.5),
+    ]

@@ -1,0 +1,31 @@
+"""The probe's actions: its pins."""
+
+from __future__ import annotations
+
+from app.instruments.probe.options import ProbeOptions
+from app.state.app_state import AppState
+from app.ui.action import Action, changing
+
+
+def _pinned(state: AppState) -> AppState:
+    pins, pixel = state.of(ProbeOptions).pins, state.marked
+    if pixel is None or pixel in pins:
+        return state
+    return state.with_options(probe={"pins": (*pins, pixel)})
+
+
+PINNING = (
+    Action(
+        "Lecture",
+        "Pin the marked pixel",
+        changing(_pinned),
+        can=lambda w: w.state.marked is not None,
+        separated=True,
+    ),
+    Action(
+        "Lecture",
+        "Remove all pins",
+        changing(lambda state: state.with_options(probe={"pins": ()})),
+        can=lambda w: bool(w.state.of(ProbeOptions).pins),
+    ),
+)

@@ -1,0 +1,326 @@
+"""A pixel's viewing ray as the lecture writes it down, line by line, with the pixel's numbers.
+
+These are the lines from the pixel to the hit. color_formulas.py has those of the colour,
+notation.py the format of numbers.
+
+Symbols: i, j the pixel, H, W the image, u, v its position on the image plane (bold: the basis),
+d the distance of the viewport, bold d the direction, bold p the origin.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.instruments.probe.lens_formulas import lens_lines
+from app.instruments.probe.reading import Reading
+from app.ui.explaining.notation import (
+    Line,
+    Slot,
+    formula,
+    latex_number,
+    number,
+    scalar_slot,
+    vector_slot,
+)
+from app.ui.explaining.shading import SurfaceHit
+from renderer.camera.camera import Camera
+from renderer.images.pixels import Indexing
+
+LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
+LEAST_COSINE = (
+    1e-3  # to the viewer, of the light's normal, as renderer/trace/reference/shade.py has it
+)
+
+
+def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
+    """Return the lines for u, v; the direction in the camera's and in the world's coordinates; the
+    origin; the ray; the valid range of t.
+    """
+    camera = reading.camera
+    lines = [_on_plane(reading, indexing, axis) for axis in (0, 1)]
+    way = _direction_and_origin(reading)
+    lines += way if camera.lens is None else [*lens_lines(reading), way[-1]]
+    if reading.is_outside:
+        return lines[:-1]
+    p, d = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
+    ray = Line(
+        "ray",
+        "ray",
+        rf"\mathbf{{r}}(t) = {p.latex} + t\,{d.latex}",
+        rf"= {p.latex_value} + t\,{d.latex_value}",
+        f"vec(r)(t) = {p.text} + t {d.text}",
+        f"= {p.text_value} + t {d.text_value}",
+        (*reading.origin, *reading.direction),
+    )
+    return [*lines, ray, _range(camera)]
+
+
+def hit_lines(reading: Reading) -> list[Line]:
+    """Return the lines from the visible object to t, the hit and the normals. Empty for a miss."""
+    hit = reading.hit
+    if hit is None:
+        return []
+    found = _sphere_t(reading) if reading.sphere is not None else _triangle_t(reading)
+    t = scalar_slot("t", hit.t, factor=True)
+    p, d = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
+    point = formula(
+        "point",
+        "hit point",
+        (r"\mathbf{x} = \mathbf{r}(t)", "vec(x) = vec(r)(t)"),
+        (r"<p> + <t>\,<d>", "<p> + <t> <d>"),
+        {"p": p, "t": t, "d": d},
+        hit.point,
+    )
+    lines = [*found, point, _geometric_normal(reading)]
+    if hit.has_own_normal:
+        lines.append(_normal_for_light(hit))
+    return lines
+
+
+def pixel_text(reading: Reading, indexing: Indexing) -> str:
+    """Return `row 3, column 5 of 1280 x 720, from 1`, in this indexing."""
+    width, height = reading.size
+    return f"{indexing.words(reading.pixel)} of {width} x {height}, {indexing.told}"
+
+
+# The image plane.
+
+
+def _on_plane(reading: Reading, indexing: Indexing, axis: int) -> Line:
+    """Return the line for u (axis 0) or v (1) of the pixel's centre."""
+    low, high = reading.camera.viewport[2 * axis : 2 * axis + 2]
+    pixel, count = "ji"[axis], "WH"[axis]
+    ends = (r"\mathrm{left}", low, "left"), (r"\mathrm{right}", high, "right")
+    if axis:  # rows are counted from the top
+        ends = (r"\mathrm{top}", high, "top"), (r"\mathrm{bottom}", low, "bottom")
+    slots = {
+        "p": _count(pixel, reading.pixel[1 - axis] + indexing.value),
+        "n": _count(count, reading.size[axis]),
+        "a": scalar_slot(*ends[0]),
+        "b": scalar_slot(*ends[1], factor=bool(axis)),
+        "af": scalar_slot(*ends[0], factor=True),
+    }
+    part, plain = rf"\frac{{<p> {indexing.offset}}}{{<n>}}", f"(<p> {indexing.offset}) / <n>"
+    if reading.camera.viewport == LECTURE_VIEWPORT:
+        right = f"{part} - 0.5", f"{plain} - 0.5"
+        if axis:
+            right = rf"-\left({right[0]}\right)", f"-({right[1]})"
+    else:
+        extent = "(<a> - <b>)" if axis else "(<b> - <af>)"
+        sign = "-" if axis else "+"
+        right = rf"<a> {sign} {extent}\,{part}", f"<a> {sign} {extent} {plain}"
+    symbol = "uv"[axis]
+    value = reading.y if axis else reading.x
+    return formula(symbol, f"along {symbol}", (symbol, symbol), right, slots, value)
+
+
+def _count(symbol: str, value: int) -> Slot:
+    return Slot(symbol, symbol, str(value), str(value))
+
+
+# Direction and origin.
+
+
+def _direction_and_origin(reading: Reading) -> list[Line]:
+    camera, parallel = reading.camera, reading.camera.is_parallel
+    slots = {
+        **{name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")},
+        "e": vector_slot("e", camera.eye),
+        "x": scalar_slot("u", reading.x, factor=True),
+        "y": scalar_slot("v", reading.y, factor=True),
+        "d": scalar_slot("d", camera.distance, factor=True),
+    }
+    across = r"<x>\,<u> + <y>\,<v>", "<x> <u> + <y> <v>"
+    if parallel:
+        symbols, own = ("0", "0", "-1"), (0.0, 0.0, -1.0)
+        direction, origin = ("-<w>", "-<w>"), (f"<e> + {across[0]}", f"<e> + {across[1]}")
+    else:
+        symbols, own = ("u", "v", "-d"), (reading.x, reading.y, -camera.distance)
+        direction = rf"{across[0]} - <d>\,<w>", f"{across[1]} - <d> <w>"
+        origin = "<e>", "<e>"
+    d, p = (r"\mathbf{d}", "vec(d)"), (r"\mathbf{p}", "vec(p)")
+    in_camera = r"({},\ {},\ {})".format(*symbols), "({}, {}, {})".format(*symbols)
+    left = r"\mathbf{d}_{uvw}", "vec(d)_uvw"
+    return [
+        formula("camera direction", "direction, camera", left, in_camera, {}, own),
+        formula("direction", "direction, world", d, direction, slots, reading.direction),
+        formula("origin", "origin", p, origin, slots, reading.origin),
+    ]
+
+
+def _range(camera: Camera) -> Line:
+    """Return the line for the valid t: t > 0, or what near and far leave."""
+    low, high = camera.t_range
+    if camera.near is None and camera.far is None:
+        return Line("range", "half a line", "t > 0", "", "t > 0", "", (low, high))
+    over, plain_over = ("", "") if camera.is_parallel else ("d", "/d")
+    symbols, plain = [], []
+    for clip, name in ((camera.near, "near"), (camera.far, "far")):
+        symbol = rf"\mathrm{{{name}}}"
+        symbols.append(rf"\frac{{{symbol}}}{{{over}}}" if over else symbol)
+        plain.append(name + plain_over)
+        if clip is None:
+            symbols[-1], plain[-1] = (r"\infty", "inf") if name == "far" else ("0", "0")
+    return Line(
+        "range",
+        "clipped by near and far",
+        f"{symbols[0]} < t < {symbols[1]}",
+        f"{latex_number(low)} < t < {latex_number(high)}",
+        f"{plain[0]} < t < {plain[1]}",
+        f"{number(low)} < t < {number(high)}",
+        (low, high),
+    )
+
+
+# The hit on the visible object.
+
+
+def _sphere_t(reading: Reading) -> list[Line]:
+    """Return the lines for the quadratic a t^2 + 2 b t + c = 0 and its root."""
+    assert reading.hit is not None
+    assert reading.sphere is not None
+    center, radius = reading.sphere
+    d, f = np.array(reading.direction), np.subtract(reading.origin, center)
+    a, b, c = float(d @ d), float(f @ d), float(f @ f - radius * radius)
+    p, way = vector_slot("p", reading.origin), vector_slot("d", reading.direction)
+    middle, r = vector_slot("c", center), scalar_slot("R", radius, factor=True)
+    quadratic = Line(
+        "sphere",
+        "the sphere's points",
+        r"|\mathbf{p} + t\,\mathbf{d} - \mathbf{c}|^2 = R^2",
+        rf"|{p.latex_value} + t\,{way.latex_value} - {middle.latex_value}|^2 = {r.latex_value}^2",
+        "|vec(p) + t vec(d) - vec(c)|^2 = R^2",
+        f"|{p.text_value} + t {way.text_value} - {middle.text_value}|^2 = {r.text_value}^2",
+        (a, b, c),
+    )
+    coefficients = Line(
+        "coefficients",
+        "a quadratic equation in t",
+        r"a = \mathbf{d} \cdot \mathbf{d}, \quad b = \mathbf{d} \cdot (\mathbf{p} - \mathbf{c}),"
+        r" \quad c = |\mathbf{p} - \mathbf{c}|^2 - R^2",
+        "",
+        "a = vec(d) . vec(d), b = vec(d) . (vec(p) - vec(c)), c = |vec(p) - vec(c)|^2 - R^2",
+        "",
+        (a, b, c),
+    )
+    t = reading.hit.t
+    # The nearer root is -, and + where the ray begins inside the sphere, or is clipped there.
+    sign = "-" if t <= -b / a else "+"
+    slots = {
+        "a": scalar_slot("a", a, factor=True),
+        "b": scalar_slot("b", b, factor=True),
+        "c": scalar_slot("c", c, factor=True),
+    }
+    root = formula(
+        "t",
+        "its root",
+        ("t", "t"),
+        (rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}",
+         f"(-<b> {sign} sqrt(<b>^2 - <a> * <c>)) / <a>"),
+        slots,
+        t,
+    )  # fmt: skip
+    return [quadratic, coefficients, root]
+
+
+def _triangle_t(reading: Reading) -> list[Line]:
+    """Return the lines for the hit on the triangle's plane, and the test that it is inside."""
+    hit = reading.hit
+    assert hit is not None
+    slots = {
+        "n": vector_slot(_geometric_symbol(hit), hit.geometric),
+        "a": vector_slot("a", reading.corners[0]),
+        "p": vector_slot("p", reading.origin),
+        "d": vector_slot("d", reading.direction),
+    }
+    plane = formula(
+        "t",
+        f"the plane of triangle {hit.primitive}",
+        ("t", "t"),
+        (r"\frac{<n> \cdot (<a> - <p>)}{<n> \cdot <d>}", "<n> . (<a> - <p>) / (<n> . <d>)"),
+        slots,
+        hit.t,
+    )
+    weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
+    corners = [vector_slot(name, at) for name, at in zip("abc", reading.corners, strict=True)]
+    factors = [scalar_slot(f"b_{k}", weight, factor=True) for k, weight in enumerate(weights)]
+    sums = [
+        " + ".join(pair)
+        for pair in (
+            [rf"{f.latex}\,{c.latex}" for f, c in zip(factors, corners, strict=True)],
+            [rf"{f.latex_value}\,{c.latex_value}" for f, c in zip(factors, corners, strict=True)],
+            [f"{f.text} {c.text}" for f, c in zip(factors, corners, strict=True)],
+            [f"{f.text_value} {c.text_value}" for f, c in zip(factors, corners, strict=True)],
+        )
+    ]
+    inside = Line(
+        "inside",
+        "inside: no weight of a corner is negative",
+        rf"\mathbf{{x}} = {sums[0]}",
+        f"= {sums[1]}",
+        f"vec(x) = {sums[2]}",
+        f"= {sums[3]}",
+        weights,
+    )
+    return [plane, inside]
+
+
+def _geometric_normal(reading: Reading) -> Line:
+    hit = reading.hit
+    assert hit is not None
+    symbol = _geometric_symbol(hit)
+    if reading.sphere is not None:
+        center, _ = reading.sphere
+        slots = {"x": vector_slot("x", hit.point), "c": vector_slot("c", center)}
+        # 0 where a tiny sphere far away is rounded to its centre.
+        outside = np.dot(hit.geometric, np.subtract(hit.point, center)) >= 0
+        first, second = ("<x>", "<c>") if outside else ("<c>", "<x>")
+        return formula(
+            "geometric",
+            "normal" if outside else "normal, towards the viewer",
+            (rf"\mathbf{{{symbol}}}", f"vec({symbol})"),
+            (rf"\frac{{{first} - {second}}}{{|{first} - {second}|}}",
+             f"({first} - {second}) / |{first} - {second}|"),
+            slots,
+            hit.geometric,
+        )  # fmt: skip
+    a, b, c = (np.array(corner) for corner in reading.corners)
+    is_front = np.cross(b - a, c - a) @ np.array(hit.geometric) >= 0
+    sign = "" if is_front else "-"
+    product = (
+        r"\frac{(\mathbf{b} - \mathbf{a}) \times (\mathbf{c} - \mathbf{a})}{|\dots|}",
+        "(vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|",
+    )
+    name = "normal of the triangle, towards the viewer"
+    return _stated("geometric", name, symbol, (sign + product[0], sign + product[1]), hit.geometric)
+
+
+def _normal_for_light(hit: SurfaceHit) -> Line:
+    """Return the line for the normal used for lighting, if it is not the surface's own."""
+    if not hit.corner_normals:
+        g, d = r"\mathbf{g}", r"\hat{\mathbf{d}}"
+        right = (
+            rf"\frac{{{g} - ({g} \cdot {d} + {LEAST_COSINE:g})\,{d}}}{{|\dots|}}",
+            f"(vec(g) - (vec(g) . vec(d)/|vec(d)| + {LEAST_COSINE:g}) vec(d)/|vec(d)|) / |...|",
+        )
+        return _stated("normal", "normal for the light, bent to the viewer", "n", right, hit.normal)
+    weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
+    # Towards the viewer too, whichever side the corners' point to.
+    sign = "-" if np.dot(weights, hit.corner_normals) @ np.array(hit.normal) < 0 else ""
+    right = (
+        rf"{sign}\frac{{b_0 \mathbf{{n}}_a + b_1 \mathbf{{n}}_b + b_2 \mathbf{{n}}_c}}{{|\dots|}}",
+        f"{sign}(b_0 vec(n_a) + b_1 vec(n_b) + b_2 vec(n_c)) / |...|",
+    )
+    return _stated("normal", "normal for the light, between the corners'", "n", right, hit.normal)
+
+
+def _geometric_symbol(hit: SurfaceHit) -> str:
+    return "g" if hit.has_own_normal else "n"
+
+
+def _stated(
+    key: str, name: str, symbol: str, right: tuple[str, str], value: tuple[float, float, float]
+) -> Line:
+    """Return a line that shows only the result in numbers."""
+    slot = vector_slot(symbol, value)
+    return formula(key, name, (slot.latex, slot.text), right, {}, value)

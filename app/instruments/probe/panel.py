@@ -1,0 +1,360 @@
+"""The probe's panel: a pixel's formulas, the table of intersections, the origin of its colour.
+
+Takes a state and a reading, and returns a new state.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.instruments.outside.growing import lit_in
+from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
+from app.instruments.probe.options import ProbeOptions
+from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
+from app.state.app_state import AppState
+from app.state.options import Notation, Pixel
+from app.ui import theme
+from app.ui.checks import checkbox
+from app.ui.explaining.notation import Line, number
+from app.ui.formula import Formula, formula, lit
+from app.ui.lettering import lettering
+from app.ui.messages import wrapped
+from app.ui.rows import button_width, follow, tip
+from app.ui.theme import Fonts
+from renderer.camera.camera import Size
+from renderer.images.display import encode_srgb
+from renderer.images.pixels import Indexing
+from renderer.scene.model import Color
+
+WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
+SHORT_EM = 24.0  # a ray alone in less width, in which formulas take many rows, is without
+LEFT_OUT = "camera direction", "range"
+MOST_ALSO = 3  # further intersections of an object that are listed
+COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
+    ("Text", as_text),
+    ("LaTeX", as_latex),
+    ("Python", as_python),
+    ("Julia", as_julia),
+)
+SECTIONS = {
+    "ray": "Ray",
+    "objects": "Objects along the ray",
+    "hit": "Hit",
+    "colour": "Colour",
+}
+# Lines whose value is a colour, shown next to them.
+_SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
+
+
+Shown = tuple[tuple[int, int, int], Color]  # a pixel's bytes, and its colour, 0..1
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A pinned pixel with its current colour, 0..255; None while unknown."""
+
+    pixel: Pixel
+    color: tuple[int, int, int] | None
+
+
+# The tools above.
+
+
+def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
+    """Draw the pixel, its indexing, the copies. pixel: the marked one, or the one under
+    the mouse.
+    """
+    indexing = state.options.indexing
+    state = _pixel_fields(state, pixel, size, indexing)
+    follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
+    imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
+    changed, one_based = checkbox("from 1", state.options.one_based)
+    imgui.end_disabled()
+    tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
+    if changed:
+        state = state.with_options(one_based=one_based)
+    state = _section_field(state)
+    pins = state.of(ProbeOptions).pins
+    follow(button_width("Pin"))
+    imgui.begin_disabled(pixel is None or pixel in pins)
+    if imgui.button("Pin") and pixel is not None:
+        state = state.with_options(probe={"pins": (*pins, pixel)})
+    imgui.end_disabled()
+    imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
+    follow(button_width("Copy ..."))
+    imgui.begin_disabled(reading is None)
+    if imgui.button("Copy ..."):
+        imgui.open_popup("copy")
+    imgui.end_disabled()
+    if imgui.begin_popup("copy"):
+        for name, written in COPIES:
+            if imgui.menu_item_simple(name) and reading is not None:
+                imgui.set_clipboard_text(written(reading, indexing, state.options.notation))
+        imgui.end_popup()
+    return state
+
+
+def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppState:
+    """Draw the pinned pixels as buttons: a click goes to a pin, a right click removes it."""
+    indexing = state.options.indexing
+    for count, pin in enumerate(pins):
+        name = f"{count + 1}: {indexing.text(pin.pixel)}"
+        side = imgui.get_frame_height()
+        if count:
+            follow(button_width(name) + side)
+        if pin.color is not None:
+            _swatch(tuple(part / 255 for part in pin.color), side)
+            imgui.same_line(0, 0)
+        if pin.pixel == pixel:
+            imgui.push_style_color(imgui.Col_.text, theme.legible(theme.MARK))
+        if imgui.button(f"{name}###pin{count}"):
+            state = state.with_options(marked=pin.pixel)
+        if pin.pixel == pixel:
+            imgui.pop_style_color()
+        if imgui.is_item_clicked(imgui.MouseButton_.right):
+            kept = tuple(one for one in state.of(ProbeOptions).pins if one != pin.pixel)
+            state = state.with_options(probe={"pins": kept})
+        imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
+    return state
+
+
+def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: Indexing) -> AppState:
+    first = indexing.value
+    shown = indexing.numbers(pixel or (0, 0))
+    width = imgui.calc_text_size("00000").x + 2 * imgui.get_style().frame_padding.x
+    chosen = list(shown)
+    edited = False
+    imgui.begin_disabled(pixel is None)
+    for k, name in enumerate(("row i", "column j")):
+        if k:
+            follow(width + imgui.calc_text_size(name).x + theme.px(12))
+        imgui.align_text_to_frame_padding()
+        imgui.text(name)
+        imgui.same_line()
+        imgui.set_next_item_width(width)
+        changed, value = imgui.drag_int(
+            f"##{name}", shown[k], 0.2, first, size[1 - k] - 1 + first, "%d",
+            imgui.SliderFlags_.always_clamp,
+        )  # fmt: skip
+        tip("drag or double-click to type; the arrow keys walk, Shift: 10 pixels")
+        if changed:
+            chosen[k], edited = value, True
+    imgui.end_disabled()
+    if not edited:
+        return state
+    row, column = (
+        min(max(part - first, 0), most - 1)
+        for part, most in zip(chosen, (size[1], size[0]), strict=True)
+    )
+    return state.with_options(marked=(row, column))
+
+
+def _section_field(state: AppState) -> AppState:
+    names = {"all": "all", **SECTIONS}
+    now = state.of(ProbeOptions).section
+    widest = button_width(f"Show: {names['all']}")
+    follow(widest)
+    if imgui.button(f"Show: {now}###section", ImVec2(max(widest, button_width(f"Show: {now}")), 0)):
+        imgui.open_popup("section")
+    imgui.set_item_tooltip("which part of the reading is shown")
+    if imgui.begin_popup("section"):
+        for key, text in names.items():
+            if imgui.menu_item(text, "", key == now)[0]:
+                state = state.with_options(probe={"section": key})
+        imgui.end_popup()
+    return state
+
+
+# The reading.
+
+_written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
+
+
+def reading_panel(
+    reading: Reading,
+    indexing: Indexing,
+    notation: Notation,
+    fonts: Fonts,
+    stage: str = "",
+    section: str = "all",
+) -> None:
+    """Draw the reading.
+
+    stage: of the growing formula, whose term is pointed out. section: the only one to draw.
+    """
+    alone = section != "all"
+
+    def shown(key: str) -> bool:
+        return section == key if alone else _section(SECTIONS[key], fonts)
+
+    ray, hit, color = _written(reading, indexing, notation)
+    if shown("ray"):
+        em = imgui.get_font_size()
+        is_short = alone and imgui.get_content_region_avail().x < SHORT_EM * em
+        lines = (
+            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
+            for one in ray
+            if not (is_short and one.key in LEFT_OUT)
+        )
+        _lines(lines, named=not alone)
+    if reading.is_outside:
+        wrapped(OUTSIDE, theme.legible(theme.MARK))
+        return
+    if shown("objects"):
+        _table(reading, fonts)
+    if reading.hit is not None and shown("hit"):
+        _lines(hit)
+    if shown("colour"):
+        _lines(color, swatches=reading)
+
+
+def _section(name: str, fonts: Fonts) -> bool:
+    imgui.push_font(fonts.bold, 0.0)
+    opened = imgui.collapsing_header(name, imgui.TreeNodeFlags_.default_open)
+    imgui.pop_font()
+    return opened
+
+
+def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool = True) -> None:
+    """Draw the lines. Names go next to the formulas if there is room, else above them, if named."""
+    size_px = imgui.get_font_size()
+    beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
+    if not beside:
+        for number, line in enumerate(lines):
+            if number:
+                imgui.dummy(ImVec2(0, 0))
+            if named:
+                _name(line, swatches)
+            imgui.indent(0.6 * size_px)
+            _formula(line, size_px)
+            imgui.unindent(0.6 * size_px)
+        return
+    flags = imgui.TableFlags_
+    if not imgui.begin_table("lines", 2, flags.no_saved_settings):
+        return
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, NAMES_EM * size_px)
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+    for line in lines:
+        imgui.table_next_row()
+        imgui.table_next_column()
+        _name(line, swatches)
+        imgui.table_next_column()
+        _formula(line, size_px)
+        imgui.dummy(ImVec2(0, 0.2 * size_px))
+    imgui.end_table()
+
+
+def _name(line: Line, swatches: Reading | None) -> None:
+    """Draw the line's name and, if it results in one, its colour."""
+    wrapped(line.name, theme.DIM)
+    if swatches is not None and line.key.split(" ")[0] in _SWATCHED and len(line.value) == 3:
+        light = np.array(line.value) * 2.0**swatches.exposure_ev
+        side = 0.85 * imgui.get_text_line_height()
+        imgui.same_line()
+        _swatch(tuple(float(part) for part in encode_srgb(light)), side)
+
+
+def _formula(line: Line, size_px: float) -> None:
+    parts = [Formula(line.latex, line.text)]
+    if line.latex_numbers:
+        parts.append(Formula(line.latex_numbers, line.text_numbers))
+    formula(parts, size_px, line.key)
+
+
+def _table(reading: Reading, fonts: Fonts) -> None:
+    met = [meeting for meeting in reading.meetings if meeting.nearest is not None]
+    flags = imgui.TableFlags_
+    several = any(len(meeting.crossings) > 1 for meeting in met)
+    if met and imgui.begin_table(
+        "objects",
+        3 + several,
+        flags.sizing_fixed_fit | flags.borders_inner_h | flags.no_host_extend_x,
+    ):
+        for name in ("object", "        t", "", "also at")[: 3 + several]:
+            imgui.table_setup_column(name)
+        imgui.table_headers_row()
+        for meeting in met:
+            _row(meeting, fonts)
+        imgui.end_table()
+    missed = [meeting.name for meeting in reading.meetings if meeting.nearest is None]
+    if missed:
+        count = "no object is" if not met else f"{len(missed)} other{'s' * (len(missed) > 1)}"
+        text = "The ray meets no object." if not met else f"{count} not met by the ray"
+        imgui.text_colored(theme.DIM, text)
+        imgui.set_item_tooltip("\n".join(missed[:40]) + ("\n..." if len(missed) > 40 else ""))
+    elif not reading.meetings:
+        imgui.text_colored(theme.DIM, "The scene has no objects.")
+
+
+def _row(meeting: Meeting, fonts: Fonts) -> None:
+    nearest = meeting.nearest
+    assert nearest is not None
+    wins = nearest.standing == SEEN
+    color = theme.legible(theme.MARK) if wins else theme.TEXT if meeting.is_on_ray else theme.DIM
+    imgui.table_next_row()
+    imgui.table_next_column()
+    imgui.push_font(fonts.bold if wins else None, 0.0)
+    imgui.text_colored(color, meeting.name)
+    imgui.pop_font()
+    imgui.table_next_column()
+    _parameter(nearest, color, meeting.is_on_ray, fonts)
+    imgui.table_next_column()
+    imgui.text_colored(color, "nearest" if wins else nearest.standing)
+    if len(meeting.crossings) < 2:
+        return
+    imgui.table_next_column()
+    others = [one for one in meeting.crossings if one is not nearest]
+    for count, crossing in enumerate(others[:MOST_ALSO]):
+        if count:
+            imgui.same_line()
+        on_ray = crossing.standing not in ("behind", "before near", "beyond far")
+        _parameter(crossing, theme.DIM, on_ray, fonts)
+    if len(others) > MOST_ALSO:
+        imgui.same_line()
+        imgui.text_colored(theme.DIM, f"and {len(others) - MOST_ALSO} more")
+
+
+def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) -> None:
+    """Draw a t, nine characters wide; crossed out if it does not count."""
+    text = f"{number(crossing.t, fixed=True):>9}"
+    imgui.push_font(fonts.mono, 0.0)
+    imgui.text_colored(color, text)
+    blank = imgui.calc_text_size(text[: len(text) - len(text.lstrip())]).x
+    imgui.pop_font()
+    if not on_ray:
+        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+        y = 0.5 * (low.y + high.y) + theme.px(1)
+        imgui.get_window_draw_list().add_line(
+            ImVec2(low.x + blank - theme.px(2), y), ImVec2(high.x + theme.px(2), y),
+            theme.u32(theme.ERROR), theme.line_px(1.6),
+        )  # fmt: skip
+
+
+# Parts.
+
+
+def color_row(shown: Shown | None, fonts: Fonts) -> None:
+    """Draw a pixel's colour as displayed, and its red, green and blue. None: there is no pixel."""
+    side = imgui.get_text_line_height()
+    _swatch(shown[1] if shown is not None else (0, 0, 0), side)
+    with lettering(fonts.mono):
+        for k, name in enumerate("RGB"):
+            text = f"{name} {shown[0][k]:3d}" if shown is not None else f"{name}   -"
+            imgui.same_line()
+            imgui.text_colored(theme.legible(theme.CHANNELS[k]), text)
+
+
+def _swatch(color: Iterable[float], side: float) -> None:
+    """Draw a square of a colour, 0..1."""
+    red, green, blue = color
+    at = imgui.get_cursor_screen_pos()
+    far = ImVec2(at.x + side, at.y + side)
+    draw = imgui.get_window_draw_list()
+    draw.add_rect_filled(at, far, theme.u32(ImVec4(red, green, blue, 1.0)))
+    draw.add_rect(at, far, theme.u32(theme.PLAIN))
+    imgui.dummy(ImVec2(side, side))

@@ -1,0 +1,226 @@
+"""The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
+
+The view computes the readings, and its lines in the outside view.
+probe/panel.py draws a reading, probe/model.py computes it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+
+from app.images.pair.marks import walked
+from app.images.pair.view import Linked
+from app.images.request import MIRROR_DEPTH
+from app.instruments.outside.diagram import Arrow, Dot, Item, Segments
+from app.instruments.outside.extent import end_parameter
+from app.instruments.outside.growing import stage_at, stages_of
+from app.instruments.outside.options import OutsideOptions
+from app.instruments.outside.view import OutsideView
+from app.instruments.probe import panel
+from app.instruments.probe.model import Probe
+from app.instruments.probe.options import ProbeOptions
+from app.instruments.probe.reading import Reading
+from app.state.app_state import AppState
+from app.state.options import Pixel
+from app.ui import formula, theme
+from app.ui.background import Background
+from app.ui.messages import wrapped
+from app.ui.view import DockedView, Host
+from renderer.camera.camera import Camera, Size
+from renderer.system.errors import describe
+from renderer.system.memo import Memo
+
+PROBE = "Probe"
+ARROWS = (
+    imgui.Key.left_arrow,
+    imgui.Key.right_arrow,
+    imgui.Key.up_arrow,
+    imgui.Key.down_arrow,
+)
+NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
+HINT = "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys walk."
+
+
+class ProbeView(DockedView):
+    name = PROBE
+    title = "Probe"
+
+    def __init__(self, outside: OutsideView, images: Linked) -> None:
+        self._outside = outside
+        images.pins = lambda state: state.of(ProbeOptions).pins
+        self._making: Background[Probe] | None = None
+        self._probe: Probe | None = None
+        self._wanted: Any = None  # the scene that is being prepared, or is
+        self._error = ""
+        self._seen = False
+        self.reading: Reading | None = None  # the one that is shown
+        self._readings = Memo(Probe.at)
+        self._items = Memo(_outside_items)
+
+    @property
+    def settled(self) -> bool:
+        return not self._seen or self._making is None or not self._making.busy
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._making = Background("lucida-probe", host.animate)
+
+    def end(self) -> None:
+        if self._making is not None:
+            self._making.close()
+        formula.release()
+
+    def unseen(self, host: Host) -> None:
+        self._seen = False
+        self._outside.show(PROBE, ())
+
+    def draw(self, host: Host) -> None:
+        state, size = host.state, host.renderers.size
+        self._seen = True
+        if min(size) < 1:
+            return
+        self._prepare(state)
+        self._walk(host, size)
+        pixel = self._pixel(host, size)
+        reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
+        self.reading = reading
+        host.apply(panel.toolbar(host.state, pixel, size, reading))
+        pins = self._pins(host, size)
+        if pins:
+            host.apply(panel.pin_row(host.state, pins, pixel))
+        shown = None
+        if reading is not None and not reading.is_outside:
+            shown = reading.bytes, reading.display
+        section = host.state.of(ProbeOptions).section
+        if section in ("all", "colour"):
+            panel.color_row(shown, host.fonts)
+        imgui.separator()
+        # Formulas keep their rows whether the scrollbar is there or not.
+        wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
+        imgui.set_next_window_content_size((max(1.0, wide), 0.0))
+        imgui.begin_child("reading", (0, 0), imgui.ChildFlags_.nav_flattened)
+        if self._error:
+            wrapped(self._error, theme.ERROR)
+        elif pixel is None:
+            wrapped(HINT, theme.DIM)
+        elif reading is None:
+            wrapped("preparing the scene for the probe ...", theme.DIM)
+        else:
+            options, position = host.state.options, host.state.of(OutsideOptions).formula
+            stages = stages_of(host.renderers.camera(host.state))
+            stage = stage_at(position, stages) if position is not None else ""
+            panel.reading_panel(
+                reading, options.indexing, options.notation, host.fonts, stage, section
+            )
+        imgui.end_child()
+        self._show_outside(host, reading, size)
+
+    # The readings.
+
+    def _prepare(self, state: AppState) -> None:
+        """Build the scene's index in the background, once per scene."""
+        assert self._making is not None
+        outcome = self._making.poll()
+        if outcome is not None:
+            if outcome.value is not None and outcome.value.scene is self._wanted:
+                self._probe, self._error = outcome.value, ""
+            elif outcome.error is not None:
+                self._error = describe(outcome.error)
+        self._wanted = state.scene
+        self._making.ask(Probe, state.scene)
+
+    def _pixel(self, host: Host, size: Size) -> Pixel | None:
+        """Return the marked pixel, else the one under the mouse."""
+        pixel = host.state.marked
+        if pixel is None and host.hovered is not None:
+            pixel = host.hovered[1]
+        if pixel is None or not (0 <= pixel[0] < size[1] and 0 <= pixel[1] < size[0]):
+            return None
+        return pixel
+
+    def _reading(
+        self, state: AppState, pixel: Pixel | None, camera: Camera, size: Size
+    ) -> Reading | None:
+        """Return the pixel's reading, recomputed if anything in it has changed."""
+        probe = self._probe
+        if pixel is None or probe is None or probe.scene is not state.scene:
+            return None
+        images, options = state.images, state.options
+        depth = MIRROR_DEPTH if options.mirrors else 0
+        self._readings.most = 1 + len(options.of(ProbeOptions).pins)
+        return self._readings(
+            probe, pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
+        )
+
+    def _pins(self, host: Host, size: Size) -> list[panel.Pin]:
+        state, camera = host.state, host.renderers.camera(host.state)
+        pins = []
+        for pixel in state.of(ProbeOptions).pins:
+            inside = pixel[0] < size[1] and pixel[1] < size[0]
+            reading = self._reading(state, pixel if inside else None, camera, size)
+            pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
+        return pins
+
+    def _walk(self, host: Host, size: Size) -> None:
+        """Handle the arrow keys while the panel has them. They are taken from ImGui's navigation,
+        which keeps Tab.
+        """
+        shift = int(imgui.Key.mod_shift)
+        flags = int(imgui.InputFlags_.repeat | imgui.InputFlags_.route_focused)
+        taken = [
+            imgui.shortcut(modifier | int(key), flags) for key in ARROWS for modifier in (0, shift)
+        ]
+        if not any(taken) or imgui.is_any_item_active():
+            return
+        start = self._pixel(host, size) or (size[1] // 2, size[0] // 2)
+        pixel = walked(host.state.marked, size, start)
+        if pixel is not None:
+            host.apply(host.state.with_options(marked=pixel), (PROBE, "walk"))
+
+    # In the outside view.
+
+    def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
+        state, camera = host.state, host.renderers.camera(host.state)
+        pins = [self._reading(state, pin, camera, size) for pin in state.of(ProbeOptions).pins]
+        pinned = tuple(pin for pin in pins if pin is not None)
+        end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
+        self._outside.show(PROBE, self._items(reading, pinned, end, length))
+
+
+def _outside_items(
+    reading: Reading | None,
+    pinned: tuple[Reading, ...],
+    end: float,
+    normal: float,
+) -> tuple[Item, ...]:
+    """Return the lines of a reading and of the pins.
+
+    end: ray parameter at which a ray that hits nothing ends. normal: length of the arrow.
+    """
+    items: list[Item] = []
+    for pin in pinned:
+        t = pin.hit.t if pin.hit is not None else end
+        items.append(_ray(pin, t))
+        if pin.hit is not None:
+            items.append(Dot("pinned hit", "mark", np.array(pin.hit.point), 3.5))
+    if reading is not None and reading.hit is not None:
+        items += _normal(reading, normal)
+    return tuple(items)
+
+
+def _ray(pin: Reading, t: float) -> Segments:
+    """Return the viewing ray of a pin as far as t."""
+    origin = np.array(pin.origin)
+    segment = np.array([[origin, origin + t * np.array(pin.direction)]])
+    return Segments("pin", "ray", segment, 1.2, 0.9, hidden=0.2, dashed=True, layer=2)
+
+
+def _normal(reading: Reading, length: float) -> Sequence[Item]:
+    assert reading.hit is not None
+    point = np.array(reading.hit.point)
+    tip = point + length * np.array(reading.hit.normal)
+    return [Arrow("normal", "extra", point, tip, width=2.2, head=10.0)]

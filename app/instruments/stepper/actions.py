@@ -1,0 +1,25 @@
+"""The loop stepper's actions.
+
+Its keys work while it has the keyboard, and are read by its panel. They are listed here for
+display, and so that no key has two meanings.
+"""
+
+from __future__ import annotations
+
+from app.instruments.stepper.controls import STEPS, Step
+from app.instruments.stepper.view import STEPPER, StepperView
+from app.ui.action import Action
+
+
+def _stepping(step: Step) -> Action:
+    return Action(
+        "Lecture/Loop stepper",
+        f"Stepper: {step.told}",
+        lambda window: window.view(StepperView).ask(step.wish),
+        step.shown,
+        can=lambda window: STEPPER in window.shell.stage.rects,
+        separated=step is STEPS[0],
+    )
+
+
+STEPPING = tuple(map(_stepping, STEPS))

@@ -1,0 +1,166 @@
+"""A program and the canvas that it fills: as large as the room allows, no line of code wrapped."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from imgui_bundle import ImVec2, imgui
+
+from app.instruments.stepper.source import shown_lines
+from app.state.app_state import AppState
+from app.ui import theme
+from app.ui.canvas import Marks, canvas_unit, draw_canvas
+from app.ui.code import LINE, code, code_size
+from app.ui.explaining.breaking import narrowed
+from app.ui.explaining.languages import julia
+from app.ui.lettering import lettering
+from app.ui.theme import Fonts
+from renderer.camera.camera import Size
+from renderer.images.pixels import Indexing
+
+GAP_EM = 0.9
+MOST_CODE = 0.68  # of the width or height
+LARGEST = 1.3  # the code's type size, in the window's
+NUMBERED = 12  # the most rows or columns that all have numbers
+Lit = Mapping[int, float]  # for the numbers of lines, the opacity of their highlight
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What is drawn of a program.
+
+    in_words: the program is prose.
+    """
+
+    lines: tuple[str, ...]
+    lit: Lit
+    texture: int
+    size: Size
+    marks: Marks
+    base: int
+    in_words: bool = False
+
+
+def written(lines: tuple[str, ...], lit: Lit, state: AppState) -> tuple[tuple[str, ...], Lit]:
+    """Return a program in the window's notation, language and indexing."""
+    notation, indexing = state.options.notation, state.options.indexing
+    if state.options.language == "python":
+        return shown_lines(lines, notation, indexing), lit
+    loops = _julia(shown_lines(lines, notation), indexing)
+    return loops.lines, {loops.line_of[n]: part for n, part in lit.items()}
+
+
+@functools.cache
+def _julia(lines: tuple[str, ...], indexing: Indexing) -> julia.Loops:
+    found = julia.loops("\n".join(lines), indexing)
+    return replace(found, lines=tuple(line.replace(" * ", "*") for line in found.lines))
+
+
+def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
+    """Draw a program and its canvas in the middle of a room."""
+    em = imgui.get_font_size()
+    lines = narrowed(drawn.lines)
+    font = fonts.text if drawn.in_words else fonts.mono
+    with lettering(font):
+        needed = code_size(lines) * ImVec2(1.05, 1)  # letters have whole widths in each size
+    both = [_arranged(needed, drawn.size, room, em, beside) for beside in (False, True)]
+    best = max(both, key=lambda one: (one.fits, one.larger * one.canvas_px.x))
+    total = best.total_px
+    spare, canvas_at = total - best.code_px, total - best.canvas_px
+    low = low + (room - total) * 0.5
+    if best.beside:
+        code_at, canvas_at.y = ImVec2(0, 0.5 * spare.y), 0.5 * canvas_at.y
+    else:
+        code_at, canvas_at.x = ImVec2(0.5 * spare.x, 0), 0.5 * canvas_at.x
+        if drawn.in_words:  # as on a slide, they are below the canvas
+            code_at.y, canvas_at.y = spare.y, 0
+    _canvas(drawn, low + canvas_at, best.unit, fonts)
+    imgui.set_cursor_screen_pos(low + code_at)
+    imgui.begin_child(
+        f"code at {low.x}, {low.y}", best.code_px, 0, imgui.WindowFlags_.horizontal_scrollbar
+    )
+    with lettering(font, best.larger):
+        if best.code_px.y < best.larger * needed.y - 1:  # a small window: around the lit line
+            lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
+            imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
+        code(lines, drawn.lit, max(best.code_px.x, best.larger * needed.x))
+    imgui.end_child()
+    imgui.set_cursor_screen_pos(low)
+    imgui.dummy(total)
+
+
+@dataclass(frozen=True)
+class Arranged:
+    """A program and its canvas, side by side or one above the other.
+
+    fits: the code is shown whole. larger: its type size, in the window's. unit: the side of the
+    canvas's pixels. code_px, canvas_px: the sizes of both, the canvas with its numbers. gap:
+    between them.
+    """
+
+    beside: bool
+    fits: bool
+    larger: float
+    unit: float
+    code_px: ImVec2
+    canvas_px: ImVec2
+    gap: float
+
+    @property
+    def total_px(self) -> ImVec2:
+        a, b = self.code_px, self.canvas_px
+        if self.beside:
+            return ImVec2(a.x + self.gap + b.x, max(a.y, b.y))
+        return ImVec2(max(a.x, b.x), a.y + self.gap + b.y)
+
+
+def _arranged(needed: ImVec2, size: Size, room: ImVec2, em: float, beside: bool) -> Arranged:
+    """Arrange a program that needs some room, and a canvas of some pixels."""
+    most = ImVec2(MOST_CODE * room.x, room.y) if beside else ImVec2(room.x, MOST_CODE * room.y)
+    largest = min(most.x / needed.x, most.y / needed.y, LARGEST)
+    larger = max(theme.whole_px(largest * em - 0.5) / em, 1.0)
+    code_px = ImVec2(min(larger * needed.x, most.x), min(larger * needed.y, most.y))
+    gap, margin = GAP_EM * em, _margin(size, em)
+    rest = room - (ImVec2(code_px.x + gap, 0) if beside else ImVec2(0, code_px.y + gap))
+    unit = canvas_unit(size, rest - margin)
+    canvas_px = margin + ImVec2(*size) * unit
+    return Arranged(beside, largest >= 1, larger, unit, code_px, canvas_px, gap)
+
+
+def _margin(size: Size, em: float) -> ImVec2:
+    """Return the room of the rows' numbers and of the columns'."""
+    return ImVec2(0.5 * em * len(str(size[1])) + 0.5 * em, 1.1 * em)
+
+
+def _canvas(drawn: Drawn, low: ImVec2, unit: float, fonts: Fonts) -> None:
+    """Draw a canvas with the numbers of its rows and columns."""
+    em, size = imgui.get_font_size(), drawn.size
+    corner = low + _margin(size, em)
+    draw_canvas(drawn.texture, size, corner, unit, drawn.marks)
+    draw, font = imgui.get_window_draw_list(), fonts.mono or imgui.get_font()
+    for axis, count in enumerate((size[1], size[0])):
+        marked = drawn.marks.pixel[axis] if drawn.marks.pixel else -1
+        needed = 0.5 * em * len(str(count)) + 0.15 * em if axis else em
+        for number in _numbered(count, marked, needed / unit):
+            text = str(number + drawn.base)
+            extent, middle = ImVec2(0.5 * em * len(text), em), (number + 0.5) * unit
+            at = corner + ImVec2(-0.3 * em - extent.x, middle - 0.5 * em)
+            if axis:
+                at = corner + ImVec2(middle - 0.5 * extent.x, -1.1 * em)
+            if number == marked:  # the mark's yellow is legible on dark only
+                draw.add_rect_filled(at, at + extent, theme.u32(theme.MARK), 2.0)
+            color = theme.rgb("#000000") if number == marked else theme.TEXT
+            draw.add_text(font, em, at, theme.u32(color), text)
+
+
+def _numbered(count: int, marked: int, needed: float) -> list[int]:
+    """Return the rows or columns that get a number: all, or the first, the last and the marked.
+
+    needed: the size of a number, in pixels of the canvas.
+    """
+    if count <= NUMBERED and needed <= 1:
+        return list(range(count))
+    ends = [n for n in (0, count - 1) if marked < 0 or abs(n - marked) > needed]
+    return [*ends, *([marked] if marked >= 0 else [])]

@@ -1,4 +1,0 @@
-"""A lecture as one self-contained HTML page, and its prints.
-
-page.py composes the page; its scripts are among the modules of app/page.
-"""

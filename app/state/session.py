@@ -1,0 +1,164 @@
+"""A session as the text of its file, and back.
+
+Defines the file's format: versioned JSON of the state and of the arrangement of the windows.
+session_store.py has its place. Options that an older session does not hold have their defaults.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import msgspec
+
+from app.state.all_options import AllOptions
+from app.state.app_state import AppState
+from app.state.bounds import check
+from app.state.kept_lecture import KeptLecture
+from app.state.kept_scene import KeptScene, kept_scene
+from app.state.paths import restored, stored
+from app.state.removed import without_removed
+from renderer.files import BUILTIN_SCENES, load_scene
+from renderer.files.tables import check_integers
+from renderer.scene import Scene, View
+from renderer.system.errors import LucidaError
+
+VERSION = 1  # of the format: the key `lucida_session`
+LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
+
+
+# Layouts that left, and the nearest of those that stay.
+NEAREST = {
+    **dict.fromkeys(("Presentation", "Images", "Detective"), "Side by side"),
+    **dict.fromkeys(("Your code", "Laboratory", "Mistakes"), "Loops"),
+    **dict.fromkeys(("Poses", "Film", "Results"), "Outside view"),
+    "Scene": "Four views",
+}
+
+
+class NewerVersionError(LucidaError):
+    """The file was written by a newer Lucida."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """The arrangement of the windows inside the window.
+
+    layout: its name. visible: the names of the shown views. windows: places and docks, as ImGui
+    writes them. sections: the unfolded parts of a view, by the view's name, if the user has changed
+    them. maximised: the name of the view that covers all others, focused: of the one that has the
+    keyboard, or "". parts: the docks' shares of their room, by layout and space.
+    """
+
+    layout: str = ""
+    visible: tuple[str, ...] = ()
+    windows: str = ""
+    sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    maximised: str = ""
+    focused: str = ""
+    parts: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Session:
+    """A session file.
+
+    scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
+    edited: the scene, if it is not what load_scene returns. notes: a line for each option in use
+    that has left; not written to the file. The rest as in AppState.
+    """
+
+    scene: str
+    view: View
+    keep_orthonormal: bool = True
+    options: AllOptions = field(default_factory=AllOptions)
+    arrangement: Arrangement = field(default_factory=Arrangement)
+    lecture: KeptLecture | None = None
+    edited: KeptScene | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def source(self) -> str:
+        """The argument of load_scene."""
+        return restored(self.scene)
+
+    def load_scene(self) -> Scene:
+        """Return the scene as it was left. Raises LucidaError."""
+        return load_scene(self.source) if self.edited is None else self.edited.scene()
+
+    def state(self, scene: Scene) -> AppState:
+        """Return the saved state, in the scene that was loaded for it."""
+        return AppState(scene, self.view, self.keep_orthonormal, self.options)
+
+
+def session_of(
+    state: AppState, arrangement: Arrangement, lecture: KeptLecture | None = None
+) -> Session:
+    """Return what to keep of a state. A scene from no file is replaced by the first built-in
+    one.
+    """
+    source, edited = stored(source_of(state.scene)), kept_scene(state.scene)
+    return Session(
+        source, state.view, state.keep_orthonormal, state.options, arrangement, lecture, edited
+    )
+
+
+def source_of(scene: Scene) -> str:
+    """Return the argument of load_scene for a scene; for one from no file, the first built-in one's
+    name.
+    """
+    origin = scene.origin
+    return origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
+
+
+def to_bytes(session: Session) -> bytes:
+    """Return the file's content: JSON, indented for human readers."""
+    table = {"lucida_session": VERSION, **msgspec.to_builtins(session)}
+    del table["notes"]
+    return msgspec.json.format(msgspec.json.encode(table), indent=1) + b"\n"
+
+
+def from_bytes(data: bytes, source: str = "") -> Session:
+    """Return the session in a file. Raises LucidaError, NewerVersionError for a newer file."""
+    try:
+        return _session(data)
+    except LucidaError as error:
+        error.source = error.source or source
+        raise
+
+
+def _session(data: bytes) -> Session:
+    remedy = "Lucida starts afresh"
+    if len(data) > LARGEST_BYTES:
+        raise LucidaError("", f"holds {len(data)} bytes, more than a session has", remedy)
+    try:
+        table = msgspec.json.decode(data)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError, ValueError) as error:
+        raise LucidaError("", f"is no session: {error}", remedy) from None
+    check_integers(table, remedy)
+    version = table.pop("lucida_session", None) if isinstance(table, dict) else None
+    if isinstance(version, bool) or not isinstance(version, int) or version < 1:
+        raise LucidaError("lucida_session", "is missing: this is no session", remedy)
+    if version > VERSION:
+        raise NewerVersionError(
+            "lucida_session",
+            f"the session is of version {version}, this program reads up to {VERSION}",
+            "update Lucida to go on with it",
+        )
+    options = table.get("options")
+    notes: list[str] = []
+    if isinstance(options, dict):
+        table["options"], notes = without_removed(options, is_session=True)
+    table.pop("notes", None)
+    try:
+        session = msgspec.convert(table, Session)
+        check(Session, session)
+    except LucidaError as error:
+        raise LucidaError(error.field, error.problem, remedy) from None
+    except (msgspec.ValidationError, RecursionError) as error:
+        raise LucidaError("", f"is damaged: {error}", remedy) from None
+    return replace(session, arrangement=_renamed(session.arrangement), notes=tuple(notes))
+
+
+def _renamed(found: Arrangement) -> Arrangement:
+    """Return an arrangement without layouts that left: their docks' shares are ignored."""
+    return replace(found, layout=NEAREST.get(found.layout, found.layout))

@@ -1,0 +1,72 @@
+"""The file of the window's layout.
+
+Finds the file's place and checks that it is usable. A settings file never keeps the window from
+opening: without a readable or writable one, there is none.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError
+
+SMALLEST_PX, LARGEST_PX = 64, 16384  # sides of a window that somebody could have left
+LARGEST_BYTES = 1 << 20
+
+
+def settings_file(fresh: bool = False) -> Path | None:
+    """Return the file for the layout, in the user's settings folder, which is created if necessary.
+
+    None if it cannot be kept, or if something that is no file has its place. A file that no window
+    can have written is moved aside; with `fresh` any is.
+    """
+    import platformdirs
+
+    try:
+        path = platformdirs.user_config_path("lucida", appauthor=False) / "window.ini"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists():
+            return path if os.access(path.parent, os.W_OK) else None
+        if not (path.is_file() and os.access(path, os.R_OK | os.W_OK)):
+            return None
+        if not _is_sane(path):
+            path.replace(path.with_suffix(".broken"))
+        elif fresh:
+            path.replace(path.with_suffix(".before"))
+        return path
+    except (OSError, RuntimeError):  # RuntimeError: there is no home
+        return None
+
+
+@contextlib.contextmanager
+def kept_whole(path: Path | None) -> Iterator[None]:
+    """Put a settings file back if the window, which does not look whether the disk is full, leaves
+    an unusable one behind."""
+    before = path.read_bytes() if path is not None and path.is_file() else None
+    try:
+        yield
+    finally:
+        if path is not None and path.is_file() and not _is_sane(path):
+            with contextlib.suppress(OSError, LucidaError):
+                path.unlink()
+                if before is not None:
+                    with atomic_write(path) as file:
+                        file.write(before)
+
+
+def _is_sane(path: Path) -> bool:
+    """Return True if it is text of a sensible size, with a window of a sensible size in it."""
+    if path.stat().st_size > LARGEST_BYTES:
+        return False
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return False
+    entry = re.search(r"^WindowSize=(.*)$", text, re.MULTILINE)
+    sides = re.fullmatch(r"(\d{1,6}),(\d{1,6})", entry[1].strip()) if entry else None
+    return sides is not None and all(SMALLEST_PX <= int(n) <= LARGEST_PX for n in sides.groups())

@@ -1,0 +1,71 @@
+"""A few lines of Python on the screen, some of them lit.
+
+Names have the same colours as in the formulas.
+"""
+
+from __future__ import annotations
+
+import functools
+import io
+import tokenize
+from collections.abc import Mapping, Sequence
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.ui import theme
+
+LINE = 1.18  # a line's height, in parts of the type's
+NAMED = ("ray", "hit", "closest")
+
+
+def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> None:
+    """Draw the lines in the current font.
+
+    lit: for the numbers of the highlighted lines, their opacity; one for the line about to run.
+    width_px: of the highlight.
+    """
+    draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
+    letter, line_px = imgui.calc_text_size("0").x, LINE * imgui.get_font_size()
+    bar, margin = 0.7 * letter, 0.5 * (line_px - imgui.get_text_line_height())
+    for number, text in enumerate(lines):
+        low = corner + ImVec2(0, number * line_px)
+        if part := lit.get(number, 0.0):
+            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE, part), theme.u32(theme.RAY, part)
+            draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
+            draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
+        for column, word in code_words(text):
+            at = low + ImVec2(2 * bar + imgui.calc_text_size(text[:column]).x, margin)
+            draw.add_text(at, theme.u32(_color(word)), word)
+    imgui.dummy((width_px, len(lines) * line_px))
+
+
+def code_size(lines: Sequence[str]) -> ImVec2:
+    """Return the room that code() needs for the lines, in the current font."""
+    width = max(imgui.calc_text_size(line).x for line in lines) + 2.4 * imgui.calc_text_size("0").x
+    return ImVec2(width, len(lines) * LINE * imgui.get_font_size())
+
+
+def _color(word: str) -> ImVec4:
+    if word not in NAMED:
+        return theme.TEXT
+    return theme.legible(theme.RAY if word == "ray" else theme.MARK)
+
+
+@functools.lru_cache(maxsize=256)
+def code_words(text: str) -> tuple[tuple[int, str], ...]:
+    """Split a line into parts, with the column of each: coloured names, and the text between
+    them.
+    """
+    try:
+        tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))
+    except tokenize.TokenError:  # a line that goes on in the next one
+        return ((0, text),)
+    indent = len(text) - len(text.lstrip())
+    words, after = [], 0
+    for token in tokens:
+        if token.type == tokenize.NAME and token.string in NAMED:
+            start = indent + token.start[1]
+            words += [(after, text[after:start]), (start, token.string)]
+            after = start + len(token.string)
+    words.append((after, text[after:]))
+    return tuple((column, word) for column, word in words if word)

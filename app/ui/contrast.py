@@ -1,0 +1,51 @@
+"""The contrast of two colours, and the colour that has enough of it (WCAG 2.1)."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+from renderer.images.shared_numbers import (
+    LUMINANCE,
+    SRGB_GAMMA,
+    SRGB_LINEAR_SHOWN,
+    SRGB_SCALE,
+    SRGB_SHIFT,
+    SRGB_SLOPE,
+)
+
+Rgb = tuple[float, float, float]  # sRGB, 0..1
+LEGIBLE = 4.5  # the least contrast of text with what is behind it (1.4.3)
+ENHANCED = 7.0  # of text in the high-contrast theme (1.4.6)
+SEEN = 3.0  # and of what is drawn (1.4.11)
+
+
+@functools.lru_cache(maxsize=256)
+def legible_on(color: Rgb, behind: Rgb, least: float = LEGIBLE) -> Rgb:
+    """Return the colour, mixed with black or white as far as the contrast needs."""
+    end = 0.0 if _luminance(behind) > 0.18 else 1.0
+    for step in range(21):
+        red, green, blue = (c + step / 20 * (end - c) for c in color)
+        mixed = red, green, blue
+        if contrast(mixed, behind) >= least:
+            return mixed
+    return (end, end, end)
+
+
+def contrast(one: Rgb, other: Rgb) -> float:
+    """Return the contrast ratio of two sRGB colours, 1 to 21 (WCAG 2.1)."""
+    dark, bright = sorted((_luminance(one), _luminance(other)))
+    return (bright + 0.05) / (dark + 0.05)
+
+
+def _luminance(color: Rgb) -> float:
+    return sum(w * _linear(c) for w, c in zip(LUMINANCE, color, strict=True))
+
+
+def _linear(value: float) -> float:
+    """Return the linear light of an sRGB value: display.from_srgb() without arrays, for frequent
+    calls.
+    """
+    if value <= SRGB_LINEAR_SHOWN:
+        return value / SRGB_SLOPE
+    return math.pow((value + SRGB_SHIFT) / SRGB_SCALE, SRGB_GAMMA)

@@ -1,0 +1,78 @@
+"""Views that fail: each shows its error and a button to retry, and the others go on."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable
+
+import moderngl
+from imgui_bundle import imgui
+
+from app.images.textures import FAILURES
+from app.ui.messages import failure_note
+from app.ui.view import DockedView, Host
+
+
+class FailedViews:
+    """The views that failed, until the user retries. errors: of each, by its name."""
+
+    def __init__(self) -> None:
+        self.errors: dict[str, Exception] = {}
+        self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
+
+    def begin(self, view: DockedView, host: Host, context: moderngl.Context) -> None:
+        """Prepare a view, which fails if a driver rejects its shader, for instance. Call once for
+        each, when there is a context.
+        """
+        try:
+            view.begin(host, context)
+        except FAILURES as error:
+            self.errors[view.name] = error
+            self._to_begin[view.name] = lambda: self.begin(view, host, context)
+
+    def retry(self) -> None:
+        """Retry what has failed."""
+        for name in list(self.errors):
+            self._retry(name)
+
+    def _retry(self, name: str) -> None:
+        del self.errors[name]
+        if begin := self._to_begin.pop(name, None):
+            begin()
+
+    def draw(self, view: DockedView, host: Host) -> None:
+        """Draw a view's content, or its error."""
+        failure = self.errors.get(view.name)
+        if failure is not None:
+            if failure_note(view.title, failure):
+                self._retry(view.name)
+            return
+        stacks = imgui.internal.ErrorRecoveryState()
+        imgui.internal.error_recovery_store_state(stacks)
+        try:
+            view.draw(host)
+        except Exception as error:  # whatever it is, the other views go on
+            if not isinstance(error, FAILURES):  # our own bug: include the traceback
+                traceback.print_exception(error, file=sys.stderr)
+            self.errors[view.name] = error
+            _unwind(stacks)
+
+
+def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
+    """End what a failed view had begun in ImGui, without reporting that as an error."""
+    io = imgui.get_io()
+    told = (
+        io.config_error_recovery_enable_assert,
+        io.config_error_recovery_enable_debug_log,
+        io.config_error_recovery_enable_tooltip,
+    )
+    io.config_error_recovery_enable_assert = False
+    io.config_error_recovery_enable_debug_log = False
+    io.config_error_recovery_enable_tooltip = False
+    imgui.internal.error_recovery_try_to_recover_state(stacks)
+    (
+        io.config_error_recovery_enable_assert,
+        io.config_error_recovery_enable_debug_log,
+        io.config_error_recovery_enable_tooltip,
+    ) = told

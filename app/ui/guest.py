@@ -1,0 +1,74 @@
+"""A guest: another instrument that draws over the 3D views and uses the mouse there.
+
+The views know no guest by name; each is passed to them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from imgui_bundle import ImVec2
+
+from app.state.app_state import AppState
+from renderer.camera.camera import Camera
+
+if TYPE_CHECKING:
+    from app.ui.view import Host
+
+
+@dataclass(frozen=True)
+class ShownIn:
+    """The image that a view shows.
+
+    name: of the view. camera: as it is drawn. origin, extent: of the whole image on the screen, in
+    ImGui's units; it may be larger than the view.
+    """
+
+    name: str
+    camera: Camera
+    origin: ImVec2
+    extent: ImVec2
+
+
+@dataclass(frozen=True)
+class Click:
+    """A click in a view.
+
+    number: of the object under the mouse in the id image; None for the background.
+    double: the second of two.
+    more: with Shift or Ctrl.
+    """
+
+    number: int | None
+    double: bool
+    more: bool
+
+
+class Guest(Protocol):
+    """The interface of a guest. All methods are called on the window's thread, in each frame of a
+    view.
+    """
+
+    def holds(self, view: str) -> bool:
+        """Return True if the mouse is on something of the guest's. The view then leaves it
+        alone.
+        """
+
+    def wants(self, host: Host, double: bool) -> bool:
+        """Return True if a click in a view is for the guest, not for the view."""
+
+    def click(self, host: Host, shown: ShownIn, click: Click) -> None:
+        """Handle a click that it wanted."""
+
+    def remedy(self, state: AppState, cause: str) -> str:
+        """Return the label of a button that helps if an image is black; "" for none.
+
+        cause: from renderer/compare/why_black.py.
+        """
+
+    def remedied(self, state: AppState, remedy: str) -> AppState:
+        """Return the state after that button. Raises LucidaError."""
+
+    def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
+        """Draw into the view's ImGui window. over: True if the mouse is over its picture."""

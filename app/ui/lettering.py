@@ -1,0 +1,62 @@
+"""Text in any of the window's fonts, at the window's type size or a larger one."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Iterator
+
+from imgui_bundle import ImVec4, imgui
+
+from app.ui import theme
+
+
+@contextlib.contextmanager
+def lettering(font: imgui.ImFont | None, larger: float = 1.0) -> Iterator[None]:
+    """Set the font of text inside. None: the current font.
+
+    larger: the type's size, in parts of the window's; for titles.
+    """
+    imgui.push_font(font, theme.TEXT_PX * larger)
+    try:
+        yield
+    finally:
+        imgui.pop_font()
+
+
+def underline(color: ImVec4) -> None:
+    """Underline the last item: what its colour says is to be seen without it."""
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    draw = imgui.get_window_draw_list()
+    draw.add_line((low.x, high.y), (high.x, high.y), theme.u32(color), theme.px(1.5))
+
+
+def fitting_letters(text: str, width_px: float) -> str:
+    """Return the text, or as many of its first letters as fit, in the current font: for names,
+    which users choose.
+    """
+    if imgui.calc_text_size(text).x <= width_px:
+        return text
+    low, high = 0, len(text)  # so many fit; so many do not
+    while high - low > 1:
+        middle = (low + high) // 2
+        fits = imgui.calc_text_size(text[:middle] + "...").x <= width_px
+        low, high = (middle, high) if fits else (low, middle)
+    return text[:low] + "..."
+
+
+def fitting_words(text: str, width_px: float) -> str:
+    """Return the text if it fits, in the current font; else its longest beginning that ends at a
+    comma or semicolon and fits; else as many of its first words as fit.
+    """
+    parts = [text[: found.start()] for found in re.finditer(r"[,;] |$", text)]
+    whole = [part for part in parts if part.count("(") == part.count(")")]
+    for shown in whole[::-1]:
+        if imgui.calc_text_size(shown).x <= width_px:
+            return shown
+    shown = text
+    words = text.split(" ")
+    while len(words) > 1 and imgui.calc_text_size(shown).x > width_px:
+        words.pop()
+        shown = " ".join(words) + " ..."
+    return shown

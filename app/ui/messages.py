@@ -1,0 +1,137 @@
+"""Boxes over the window: errors that must be answered, lines to read, progress; and a view's error.
+
+overlay() draws the boxes of other modules too.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.ui import theme
+from renderer.system.errors import describe
+
+SHOWN_AFTER_S = 0.4  # quick work has no progress bar
+LONG = 40  # letters of an answer
+LOADING = "##loading"
+
+
+@contextlib.contextmanager
+def overlay(
+    name: str, at: ImVec2, pivot: tuple[float, float], width: float, edge: ImVec4, flags: int = 0
+) -> Iterator[None]:
+    """Draw what is inside in a box without a title.
+
+    at, pivot: the place, and the part of the box that is there. edge: the colour of the border.
+    """
+    imgui.set_next_window_pos(at, imgui.Cond_.always, pivot)
+    imgui.set_next_window_size((width, 0))
+    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
+    imgui.push_style_color(imgui.Col_.border, edge)
+    fixed = imgui.WindowFlags_
+    flags |= fixed.no_decoration | fixed.no_docking | fixed.no_saved_settings | fixed.no_move
+    imgui.begin(name, None, flags)
+    imgui.pop_style_color(2)
+    try:
+        yield
+    finally:
+        imgui.end()
+
+
+def top_center(lines: float) -> ImVec2:
+    """Return the place this many lines below the middle of the window's upper edge."""
+    viewport = imgui.get_main_viewport()
+    return ImVec2(viewport.get_center().x, viewport.work_pos.y + lines * imgui.get_font_size())
+
+
+def box_width(most_em: float, part: float) -> float:
+    """Return a box's width: most_em in type sizes, at most this part of the window."""
+    return min(most_em * imgui.get_font_size(), part * imgui.get_main_viewport().work_size.x)
+
+
+def wrapped(text: str, color: ImVec4 | None = None) -> None:
+    """Draw a text in as many lines as it needs."""
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.TEXT if color is None else color, text)
+    imgui.pop_text_wrap_pos()
+
+
+def message_box(text: str, answers: Sequence[str] = ("Close",)) -> str:
+    """Draw a message with buttons, one below the other if they are long. Return the selected
+    answer, or "".
+    """
+    chosen, is_long = "", max(map(len, answers)) > LONG
+    with overlay("##message", top_center(3), (0.5, 0), box_width(40, 0.8), theme.ERROR):
+        wrapped(text)
+        for index, answer in enumerate(answers):
+            if index and not is_long:
+                imgui.same_line()
+            if imgui.button(answer):
+                chosen = answer
+    return chosen
+
+
+def loading_box(what: str, time_s: float) -> bool:
+    """Draw what is being done, for how long, and a button. Return True if the user cancels."""
+    if time_s < SHOWN_AFTER_S:
+        return False
+    flags = int(imgui.WindowFlags_.no_focus_on_appearing)
+    with overlay(LOADING, top_center(3), (0.5, 0), box_width(26, 0.8), theme.ACCENT, flags):
+        wrapped(f"{what} ...")
+        imgui.push_style_color(imgui.Col_.plot_histogram, theme.ACCENT)
+        cancelled = progress(time_s, 8)
+        imgui.pop_style_color()
+    return cancelled
+
+
+def progress(time_s: float, button_em: float) -> bool:
+    """Draw a moving bar, since nobody knows how long it takes. Return True for Cancel."""
+    imgui.progress_bar(-0.5 * time_s, (-button_em * imgui.get_font_size(), 0), f"{time_s:.0f} s")
+    imgui.same_line()
+    return bool(imgui.button("Cancel", (-1, 0)))
+
+
+@dataclass(frozen=True)
+class TextListing:
+    """Lines to read, with a title."""
+
+    title: str
+    lines: tuple[str, ...]
+
+
+def listing_box(listing: TextListing) -> bool:
+    """Draw the lines in the middle of the window, to scroll and copy. Return True while the box is
+    open.
+    """
+    viewport, width = imgui.get_main_viewport(), box_width(52, 0.86)
+    with overlay("##listing", viewport.get_center(), (0.5, 0.5), width, theme.LINE):
+        wrapped(listing.title)
+        imgui.set_next_window_size_constraints((0, 0), (width, 0.5 * viewport.work_size.y))
+        child = imgui.ChildFlags_
+        imgui.begin_child("##lines", (0, 0), child.borders | child.auto_resize_y)
+        for text in listing.lines:
+            imgui.bullet()
+            wrapped(text)
+        imgui.end_child()
+        if imgui.button("Copy"):
+            imgui.set_clipboard_text("\n".join((listing.title, *listing.lines)))
+        imgui.same_line()
+        return not imgui.button("Close")
+
+
+def failure_note(title: str, error: Exception) -> bool:
+    """Draw the error of a view that could not be drawn. Return True if the user wants a retry."""
+    place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()
+    margin = 0.5 * imgui.get_font_size()  # images have none
+    imgui.set_cursor_pos(place + ImVec2(margin, margin))
+    imgui.begin_group()
+    imgui.push_text_wrap_pos(place.x + room.x - margin)
+    imgui.text_colored(theme.ERROR, f"{' '.join(title.split())} could not be drawn.")
+    imgui.text(describe(error))
+    imgui.pop_text_wrap_pos()
+    again = bool(imgui.button("Try again"))
+    imgui.end_group()
+    return again

@@ -1,0 +1,157 @@
+"""Small pictures side by side, each below its heading: as large as fits, with sharp pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import moderngl
+from imgui_bundle import ImVec2, ImVec4, imgui
+
+from app.state.options import Pixel
+from app.ui import theme
+from app.ui.areas import press_area
+from app.ui.canvas import pressed_pixel, walked_pixel
+from app.ui.lettering import fitting_words, lettering
+from app.ui.rows import tip
+from app.ui.theme import Fonts, framebuffer_scale
+
+HEADING_EM = 1.3  # of each line
+GAP_EM = 0.7
+LEAST_PART = 0.8  # of their width that captions below titles may leave to pictures
+
+
+@dataclass(frozen=True)
+class GridPicture:
+    """A picture of the grid.
+
+    name: ImGui's id.
+    title, caption: the heading; the title is bold. The caption is next to it, or below.
+    texture: None while there is none.
+    frame: a colour for its frame; None for the usual line.
+    pixel: the marked one.
+    """
+
+    name: str
+    title: str
+    texture: moderngl.Texture | None
+    caption: str = ""
+    frame: ImVec4 | None = None
+    pixel: Pixel | None = None
+
+
+@dataclass(frozen=True)
+class GridAnswer:
+    """A click: the number of the picture, and its pixel."""
+
+    number: int
+    pixel: Pixel
+
+
+def columns_for(
+    count: int,
+    aspect: float,
+    room: tuple[float, float],
+    heading: float,
+    gap: float,
+    least: float = 0.0,
+) -> tuple[int, float]:
+    """Return the number of columns that makes the pictures largest, and the width of each.
+
+    aspect: width / height of a picture. heading: the height above each. least: the width of a
+    column, unless there is but one. Lengths are in the room's unit.
+    """
+    best = (1, 0.0)
+    for columns in range(1, count + 1):
+        rows = -(-count // columns)
+        across = (room[0] - gap * (columns - 1)) / columns
+        if columns > 1 and across < least:
+            break
+        down = ((room[1] - gap * (rows - 1)) / rows - heading) * aspect
+        width = min(across, down)
+        if width > best[1]:
+            best = (columns, width)
+    return best
+
+
+def picture_grid(
+    pictures: Sequence[GridPicture],
+    size: tuple[int, int],
+    room: ImVec2,
+    fonts: Fonts,
+) -> GridAnswer | None:
+    """Draw the pictures from the cursor on, in the room. size: (width, height) of the whole
+    grid.
+    """
+    em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
+    with lettering(fonts.bold):
+        titles = [float(imgui.calc_text_size(f"{picture.title} ").x) for picture in pictures]
+    widest, heading = max(titles), HEADING_EM * em
+    columns, extent = _extent(len(pictures), size, room, heading, gap, widest)
+    if any(
+        picture.caption and title + imgui.calc_text_size(picture.caption).x > max(extent.x, widest)
+        for picture, title in zip(pictures, titles, strict=True)
+    ):
+        below = _extent(len(pictures), size, room, 2 * heading, gap, widest)
+        if below[1].x >= LEAST_PART * extent.x:
+            heading *= 2
+            columns, extent = below
+    corner, answer = imgui.get_cursor_screen_pos(), None
+    width = max(extent.x, min(widest, (room.x - gap * (columns - 1)) / columns))
+    pitch = ImVec2(width, extent.y) + ImVec2(gap, heading + gap)
+    draw, is_below = imgui.get_window_draw_list(), heading > HEADING_EM * em
+    for number, picture in enumerate(pictures):
+        row, column = divmod(number, columns)
+        at = corner + pitch * (column, row)
+        with lettering(fonts.bold):
+            draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
+        shift = ImVec2(0, HEADING_EM * em) if is_below else ImVec2(titles[number], 0)
+        caption = fitting_words(picture.caption, width - shift.x)
+        draw.add_text(at + shift, theme.u32(theme.DIM), caption)
+        pixel = _picture(picture, size, at, extent, heading)
+        answer = answer if pixel is None else GridAnswer(number, pixel)
+    imgui.set_cursor_screen_pos(corner)
+    imgui.dummy((room.x, -(-len(pictures) // columns) * pitch.y - gap))
+    return answer
+
+
+def _extent(
+    count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float, least: float
+) -> tuple[int, ImVec2]:
+    """Return the number of columns and the size of each picture. least: the width of a column."""
+    scale = framebuffer_scale()
+    columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap, least)
+    unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
+    unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
+    return columns, ImVec2(*size) * unit / scale
+
+
+def _picture(
+    picture: GridPicture, size: tuple[int, int], at: ImVec2, extent: ImVec2, heading: float
+) -> Pixel | None:
+    """Draw one picture. Return the clicked pixel, or None."""
+    draw, scale = imgui.get_window_draw_list(), framebuffer_scale()
+    low = ImVec2(int(at.x * scale), int((at.y + heading) * scale)) / scale
+    high = low + extent
+    imgui.set_cursor_screen_pos(low)
+    clicked = press_area(picture.name, ImVec2(max(extent.x, 1.0), max(extent.y, 1.0)))
+    walked = walked_pixel(picture.pixel, size)
+    if picture.caption:
+        tip(picture.caption)
+    if picture.texture is not None:
+        draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
+    else:
+        draw.add_rect_filled(low, high, theme.u32(theme.FRAME))
+    color, width = picture.frame or theme.LINE, theme.px(4 if picture.frame else 1)
+    if imgui.is_item_hovered() or imgui.is_item_focused():
+        color, width = picture.frame or theme.ACCENT, theme.px(3)
+    outside = ImVec2(width, width) / 2
+    draw.add_rect(low - outside, high + outside, theme.u32(color), 0.0, width)
+    unit = extent.x / size[0]
+    if picture.pixel is not None:  # a frame that is visible however small the pixel is
+        half = ImVec2(1, 1) * max(unit, theme.px(6)) / 2
+        middle = low + ImVec2(picture.pixel[1] + 0.5, picture.pixel[0] + 0.5) * unit
+        near, far = middle - half, middle + half
+        draw.add_rect(near, far, theme.u32(theme.rgb("#000000", 0.8)), 0.0, theme.px(4))
+        draw.add_rect(near, far, theme.u32(theme.MARK), 0.0, theme.px(2))
+    return walked or (pressed_pixel(low, unit, size) if clicked else None)

@@ -1,0 +1,139 @@
+"""The recently opened files, the newest first; shared by all windows of a user.
+
+Each change reads the list's file again and rewrites it, so that two windows keep each other's
+entries.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from app.state.paths import restored, stored
+from app.ui.background import Background
+from renderer.files.reading import read_file
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError, one_line
+
+MOST = 12
+LAST_S = 5.0  # at the end, for what is being written
+LARGEST_BYTES = 1 << 18
+LONGEST = 4096  # characters of a path
+
+Change = Callable[[list[str]], list[str]]
+
+
+@dataclass(frozen=True)
+class Recent:
+    """A recent file. path: absolute. missing: it did not exist when it was last checked."""
+
+    path: str
+    missing: bool = False
+
+    @property
+    def name(self) -> str:
+        """The file's name for display."""
+        return one_line(Path(self.path).name)
+
+    @property
+    def folder(self) -> str:
+        return one_line(str(Path(self.path).parent))
+
+
+class RecentFiles:
+    """The list of recent files.
+
+    folder: of the list's file; None keeps the list for this run only.
+    wake: called from a thread.
+    Files are checked on a thread, so that a sleeping disk delays no frame.
+    """
+
+    def __init__(self, folder: Path | None, wake: Callable[[], None]) -> None:
+        self._file = folder / "recent.json" if folder is not None else None
+        self._work: Background[tuple[int, tuple[Recent, ...]]] = Background("lucida-recent", wake)
+        self._entries: tuple[Recent, ...] = ()
+        self._asked = 0  # how often: what an earlier question found is out of date
+        self._changes: deque[Change] = deque()
+        self._writing = threading.Lock()
+        self.look()
+
+    @property
+    def entries(self) -> tuple[Recent, ...]:
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            asked, found = outcome.value
+            if asked == self._asked:
+                self._entries = found
+        return self._entries
+
+    def add(self, path: str) -> None:
+        """Put a file at the top of the list."""
+        self._change(lambda paths: [path, *(other for other in paths if other != path)])
+
+    def clear(self) -> None:
+        self._change(lambda paths: [])
+
+    def look(self) -> None:
+        """Read the list again, and check which files exist."""
+        self._change(None)
+
+    def close(self) -> None:
+        self._work.close()
+        if self._writing.acquire(timeout=LAST_S):  # what the thread has begun is on the disk then
+            if self._changes:  # it did not come to these
+                self._changed([])
+            self._writing.release()
+
+    def _change(self, change: Change | None) -> None:
+        entries = self.entries
+        if change is not None:
+            self._entries = tuple(Recent(path) for path in change([e.path for e in entries])[:MOST])
+            self._changes.append(change)  # the thread may come later, for several at once
+        known = [entry.path for entry in self._entries]
+        self._asked = asked = self._asked + 1
+        self._work.submit(lambda: (asked, self._done(known)))
+
+    def _done(self, known: list[str]) -> tuple[Recent, ...]:
+        """Apply the waiting changes on the thread. Return the list.
+
+        Files are looked for after the writing: that may take as long as a disk sleeps.
+        """
+        with self._writing:
+            paths = self._changed(known)
+        return tuple(Recent(path, not _exists(path)) for path in paths)
+
+    def _changed(self, known: list[str]) -> list[str]:
+        """Read the list from its file again, apply the waiting changes, and write it."""
+        changed = False
+        paths = _read(self._file) if self._file is not None else known
+        while self._changes:
+            paths, changed = self._changes.popleft()(paths)[:MOST], True
+        if changed and self._file is not None:
+            with contextlib.suppress(LucidaError, OSError):
+                self._file.parent.mkdir(parents=True, exist_ok=True)
+                with atomic_write(self._file) as file:
+                    file.write(msgspec.json.encode([stored(path) for path in paths]))
+        return paths
+
+
+def _read(file: Path) -> list[str]:
+    """Return the paths in the list's file; none if it is unusable: it is only a convenience."""
+    try:
+        paths = msgspec.json.decode(read_file(file, LARGEST_BYTES), type=list[str])
+    except (LucidaError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return []
+    paths = [restored(path) for path in paths[:MOST]]
+    return [path for path in paths if 0 < len(path) <= LONGEST and "\0" not in path]
+
+
+def _exists(path: str) -> bool:
+    try:
+        return Path(path).exists()
+    except (OSError, ValueError):
+        return False

@@ -1,0 +1,345 @@
+"""The visibility of views: shown, hidden, in front, or one of them over all the others.
+
+Includes the views' ImGui windows and their transient state: the focus, the maximised one, the place
+of each.
+"""
+
+from __future__ import annotations
+
+from imgui_bundle import imgui
+
+from app.state.session import Arrangement
+from app.ui import docks, layout, theme
+from app.ui.failing import FailedViews
+from app.ui.view import DockedView, Host
+
+Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
+NARROW = ("Camera", "Lecture")  # whose columns no other view is opened in
+LAID_OUT = 3  # frames that it takes until every window has its place
+
+
+class Stage:
+    """All views of a window.
+
+    maximised: the name of the view that covers the others, or "".
+    focused: the name of the view that has the keyboard, or "".
+    rects: the content rectangles of the views drawn in this frame or the last one.
+    """
+
+    def __init__(self, views: list[DockedView]) -> None:
+        self.views = {view.name: view for view in views}
+        self.maximised = ""
+        self.focused = ""
+        self.rects: dict[str, Rect] = {}
+        self.failed = FailedViews()
+        self._next_focus = ""
+        self._by_key = False  # whether the next focus is to be seen
+        self._is_lost = False  # whether the control that had the keyboard is gone
+        self._next_shown = "", ""  # a view, and the layout that it is to be shown in
+        self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
+        self._hovered: DockedView | None = None
+        self._restoring: Arrangement | None = None
+        self._keyboard_for: str | None = None  # who gets it once all have their places
+        self._frames = 0
+        self._layout = ""  # that of the frame before
+        self._opened: set[tuple[str, str]] = set()  # layouts, and views that were opened in them
+        self._to_dock: set[str] = set()  # views that get the largest area
+        self._upright: dict[str, bool] = {}  # whether a layout's views are stacked
+        self._placing = LAID_OUT  # frames until the windows have their places
+
+    @property
+    def settled(self) -> bool:
+        """True if the views are laid out, and nothing visible will change by itself."""
+        if self._frames < LAID_OUT or self.failed.errors or self._next_shown[0]:
+            return False
+        return all(self.views[name].settled for name in self.rects)
+
+    def place(self) -> bool:
+        """Return True if windows are still on their way to their places. Call once a frame, after
+        layout.
+        """
+        name = layout.current().name
+        if name != self._layout or self._restoring is not None or layout.is_to_be_made():
+            self._placing = LAID_OUT
+        else:
+            self._placing = max(0, self._placing - 1)
+        self._layout = name
+        return self._placing > 0 or not all(layout.is_placed(view) for view in self.shown)
+
+    # What actions ask for.
+
+    @property
+    def shown(self) -> list[DockedView]:
+        """The views that are visible, or tabs behind others."""
+        return [view for view in self.views.values() if layout.window_of(view).is_visible]
+
+    def is_shown(self, name: str) -> bool:
+        return layout.window_of(self.views[name]).is_visible
+
+    def show(self, name: str, shown: bool = True) -> None:
+        """Show a view and focus it; or hide it.
+
+        A view that the layout has no space for gets the largest area, when it is first opened.
+        """
+        view, now = self.views[name], layout.current()
+        is_opened = shown and not self.is_shown(name)
+        has_space = bool(view.space or name in now.places)
+        if is_opened and not has_space and (now.name, name) not in self._opened:
+            self._opened.add((now.name, name))
+            self._to_dock.add(name)
+        layout.window_of(view).is_visible = shown
+        if shown:
+            self._next_focus = name
+        elif self.maximised == name:
+            self.maximised = ""
+
+    def show_in(self, name: str, wanted: str) -> None:
+        """Show a view in a layout that has room for it; in a lecture, next to the step's own."""
+        self._next_shown = name, wanted
+
+    def _show_next(self) -> None:
+        name, wanted = self._next_shown
+        if not name or self._restoring is not None:
+            return
+        if layout.current().name in (wanted, layout.LECTURE):
+            self._next_shown = "", ""
+            self.show(name)
+            self.give_keyboard(name)  # at the start, the windows have no places yet
+        else:
+            layout.switch(wanted)
+
+    def focus_next(self, step: int) -> None:
+        """Focus the next view, or the previous one (step -1)."""
+        names = [view.name for view in self.shown]
+        if names:
+            here = names.index(self.focused) if self.focused in names else -max(step, 0)
+            self._next_focus, self._by_key = names[(here + step) % len(names)], True
+
+    def maximise(self, name: str = "") -> None:
+        """Let a view cover all others, or end that. name: "" for the focused one."""
+        name = name or self.focused or self.maximised
+        was = self.maximised
+        self.maximised = "" if was or not name else name
+        self._next_focus = self.maximised or was
+
+    def follow(self) -> None:
+        """Follow the shape of the window, and move the focus. Call once a frame, before the
+        views.
+        """
+        self._frames += 1
+        self._restore()
+        self._turn()
+        self._show_next()
+        self._give_keyboard()
+        self._begin_tab()
+        if self._next_focus:
+            name, self._next_focus = self._next_focus, ""
+            if self.maximised and self.maximised != name:
+                self.maximised = name
+            view = self.views[name]
+            label = _large_label(view) if self.maximised else view.label
+            imgui.set_window_focus(label)
+            if self._by_key:
+                imgui.internal.nav_init_window(imgui.internal.find_window_by_name(label), False)
+                imgui.set_nav_cursor_visible(True)
+            self._by_key = False
+
+    def _begin_tab(self) -> None:
+        """Let Tab go into a view where ImGui knows of no control to go on from."""
+        nobody = not (self._keyboard or imgui.get_current_context().nav_id)
+        is_lost, self._is_lost, io = self._is_lost, False, imgui.get_io()
+        if not imgui.is_key_pressed(imgui.Key.tab) or io.key_ctrl or io.key_alt:
+            return
+        if nobody:
+            self.focus_next(1)
+        elif is_lost:
+            self._next_focus, self._by_key = self._keyboard, True
+
+    def _turn(self) -> None:
+        """Divide the layout for a window that has become taller than wide, or wider."""
+        size_px, name = layout.window_px(), layout.current().name
+        upright = layout.is_upright(size_px)
+        if self._upright.setdefault(name, self._frames > 1 and upright) == upright:
+            return
+        if self._restoring is None and not layout.is_to_be_made():
+            self._upright[name] = upright
+            layout.turn(size_px, theme.type_px())
+
+    @property
+    def keyboard(self) -> str:
+        """The view that has the keyboard, or will get it; "" for none."""
+        return self._keyboard if self._keyboard_for is None else self._keyboard_for
+
+    def give_keyboard(self, name: str) -> None:
+        """Focus a view, "" for none, once all windows have their places: ImGui focuses each window
+        that it docks.
+        """
+        self._keyboard_for, self._placing = name, max(self._placing, 1)
+
+    def _give_keyboard(self) -> None:
+        if self._keyboard_for is None or self._placing > 0:
+            return
+        name, self._keyboard_for = self._keyboard_for, None
+        if not name:
+            imgui.set_window_focus(None)
+        elif self.is_shown(name):
+            self._next_focus = name
+
+    def take_hovered(self) -> DockedView | None:
+        """Return the view that the mouse was over in the last frame. Call once a frame."""
+        hovered, self._hovered = self._hovered, None
+        self._keyboard, self._next_keyboard = self._next_keyboard, ""
+        return hovered
+
+    # Sessions.
+
+    def arrangement(self) -> Arrangement:
+        """Return the current arrangement."""
+        visible = tuple(view.name for view in self.shown)
+        kept = {view.name: view.sections for view in self.views.values()}
+        sections = {name: opened for name, opened in kept.items() if opened is not None}
+        windows = imgui.save_ini_settings_to_memory()
+        name, large = layout.current().name, self.maximised
+        return Arrangement(name, visible, windows, sections, large, self._keyboard)
+
+    def restore(self, arrangement: Arrangement) -> None:
+        """Restore an arrangement, in the next frames."""
+        self._restoring = arrangement
+        for name, opened in arrangement.sections.items():
+            if name in self.views:
+                self.views[name].open_sections(opened)
+
+    def begin_afresh(self) -> None:
+        """Start without a session.
+
+        HelloImGui shows the layout of the last window, which may be a lecture's.
+        """
+        is_lectures = layout.current().name == layout.LECTURE
+        if self._frames == 2 and self._restoring is None and is_lectures:
+            layout.switch(layout.LAYOUTS[0].name)
+
+    def _restore(self) -> None:
+        if self._restoring is None or self._frames < 2:
+            return
+        if self._frames == 2 and self._restoring.layout:
+            layout.switch(self._restoring.layout)
+            return
+        if layout.current().name == self._restoring.layout:
+            # A session may name views that this version does not have.
+            visible = self.views.keys() & set(self._restoring.visible)
+            for view in self.views.values():
+                layout.window_of(view).is_visible = view.name in visible
+            if self._restoring.maximised in visible:
+                self.maximised = self._restoring.maximised
+            focused = self._restoring.focused
+            self.give_keyboard(focused if focused in visible else "")
+        self._restoring = None
+
+    def before_frame(self) -> None:
+        """Prepare a frame. Call between two frames, when ImGui accepts settings."""
+        waiting = self._restoring
+        if waiting is not None and self._frames == 2:
+            own = imgui.save_ini_settings_to_memory()
+            if docks.are_sound(waiting.windows, own):
+                imgui.load_ini_settings_from_memory(waiting.windows)
+
+    # Drawing.
+
+    def leave_out_hidden(self, host: Host) -> None:
+        """Tell hidden views that they are unseen. Call once a frame: HelloImGui does not draw
+        hidden views.
+        """
+        for view in self.views.values():
+            if not layout.window_of(view).is_visible:
+                self._leave_out(view, host)
+
+    def draw(self, view: DockedView, host: Host) -> None:
+        """Draw a view's ImGui window, if it is visible."""
+        window = layout.window_of(view)
+        large = self.maximised == view.name
+        padding = view.padding
+        if padding is not None:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
+        if view.name in self._to_dock:
+            self._to_dock.discard(view.name)
+            around = [one for one in self.shown if one is not view and one.name not in NARROW]
+            if dock := layout.largest(around):
+                imgui.set_next_window_dock_id(dock, imgui.Cond_.always)
+        opened, visible = imgui.begin(view.label, True, view.flags)
+        if not visible:  # closed; does not overrule a simultaneous hide
+            window.is_visible = False
+        if padding is not None:
+            imgui.pop_style_var()
+        try:
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                self.maximise(view.name)  # the last item is the tab
+            self._note_focus(view)
+            if opened and not self.maximised:
+                self._draw_content(view, host)
+            elif not large:
+                self._leave_out(view, host)
+        finally:
+            imgui.end()
+        if large:
+            self._draw_large(view, host)
+
+    def _draw_large(self, view: DockedView, host: Host) -> None:
+        """Draw the view over all the others, with another id so that its dock stays unchanged."""
+        place = layout.whole()
+        if place is None:
+            return
+        imgui.set_next_window_pos(place[0])
+        imgui.set_next_window_size(place[1])
+        if view.padding is not None:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, view.padding)
+        imgui.push_style_var(imgui.StyleVar_.window_rounding, 0.0)
+        flags = imgui.WindowFlags_
+        _, still_open = imgui.begin(
+            _large_label(view),
+            True,
+            view.flags
+            | flags.no_docking
+            | flags.no_collapse
+            | flags.no_resize
+            | flags.no_move
+            | flags.no_saved_settings,
+        )
+        imgui.pop_style_var(1 if view.padding is None else 2)
+        try:
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                still_open = False
+            if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+                self.focused = self._next_keyboard = view.name
+            self._draw_content(view, host)
+        finally:
+            imgui.end()
+        if not still_open:
+            self.maximise()
+
+    def _draw_content(self, view: DockedView, host: Host) -> None:
+        corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
+            self._hovered = view
+        self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
+        self.failed.draw(view, host)
+        context = imgui.get_current_context()
+        if self._next_keyboard == view.name and context.nav_cursor_visible:
+            self._is_lost = bool(context.nav_id) and not context.nav_id_is_alive
+
+    def _leave_out(self, view: DockedView, host: Host) -> None:
+        """Tell a view that it is not visible in this frame, so that no image is fitted to it any
+        more.
+        """
+        self.rects.pop(view.name, None)
+        host.renderers.forget_pane(view.name)
+        view.unseen(host)
+
+    def _note_focus(self, view: DockedView) -> None:
+        if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+            self.focused = self._next_keyboard = view.name
+            if self.maximised and self.maximised != view.name:
+                self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
+
+
+def _large_label(view: DockedView) -> str:
+    return f"{view.title}###{view.name} maximised"

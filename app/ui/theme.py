@@ -1,0 +1,426 @@
+"""The window's theme: colours, fonts, spacing, type size.
+
+The colour language is the same everywhere: u, v, w after Okabe and Ito, rays in orange, hits and
+the marked pixel in yellow. There are dark and light palettes, each also for presentation, and one
+of high contrast. Colours are read as theme.RAY, theme.TEXT, ...: those of the current palette, so
+read them when you draw, never at import.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import os
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
+
+from app.state.options import Preferences
+from app.ui.contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
+
+TEXT_PX = 16.0
+ATLAS_PX = 1024  # the side of the letters' texture, at least
+CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least, in all our fonts
+# The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
+# it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
+HALL, LARGEST = 0.02 / CAPITAL, 0.0445
+
+
+def rgb(text: str, alpha: float = 1.0) -> ImVec4:
+    """Parse `#d55e00` as a colour."""
+    red, green, blue = (int(text[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return ImVec4(red, green, blue, alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class Palette:
+    """The colours of a theme.
+
+    ACCENT, FILL: of the outline and of the ground, under text, of what is chosen.
+    LINE_WIDTH: the factor for the width of lines that teach.
+    """
+
+    BASIS: dict[str, ImVec4]
+    RAY: ImVec4
+    MARK: ImVec4
+    PLAIN: ImVec4
+    TEXT: ImVec4
+    DIM: ImVec4
+    ERROR: ImVec4
+    GOOD: ImVec4
+    BACKGROUND: ImVec4
+    PANEL: ImVec4
+    POPUP: ImVec4
+    FRAME: ImVec4
+    FRAME_HOVERED: ImVec4
+    FRAME_ACTIVE: ImVec4
+    LINE: ImVec4
+    ACCENT: ImVec4
+    FILL: ImVec4
+    LINE_WIDTH: float = 1.0
+
+    def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
+        """Return a palette with other colours. u, v, w: of the basis."""
+        basis = {"u": rgb(u), "v": rgb(v), "w": rgb(w)}
+        parts: dict[str, Any] = {name: rgb(text) for name, text in colors.items()}
+        return replace(self, BASIS=basis, **parts)
+
+
+# Of a colour's channels, red, green and blue; legible() makes text of them.
+CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
+
+_BLACK: Any = [rgb("#000000")] * 16
+_NONE = Palette({}, *_BLACK)
+# Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
+DARK = _NONE.changed(
+    *("#d55e00", "#009e73", "#3f9be0"),
+    RAY="#e69f00",
+    MARK="#f0e442",
+    PLAIN="#9aa3ad",
+    TEXT="#e8eaed",
+    DIM="#a3abb5",
+    ERROR="#ff7391",
+    GOOD="#35c497",
+    BACKGROUND="#16181b",
+    PANEL="#1e2125",
+    POPUP="#24282d",
+    FRAME="#2b3036",
+    FRAME_HOVERED="#373d45",
+    FRAME_ACTIVE="#434b55",
+    LINE="#3a4048",
+    ACCENT="#4d6a86",
+    FILL="#4d6a86",
+)
+LIGHT = DARK.changed(
+    *("#d55e00", "#008a64", "#0072b2"),
+    PLAIN="#717a84",
+    TEXT="#16191c",
+    DIM="#545c65",
+    ERROR="#b0003a",
+    GOOD="#00704f",
+    BACKGROUND="#d9dde1",
+    PANEL="#f6f7f8",
+    POPUP="#ffffff",
+    FRAME="#e2e6ea",
+    FRAME_HOVERED="#d2d8de",
+    FRAME_ACTIVE="#bfc8d1",
+    LINE="#b9c0c8",
+    ACCENT="#3d78ad",
+    FILL="#a9cbe6",
+)
+# Projectors reduce contrast: use the ends of the scale, and brighter colours.
+PRESENTED_DARK = replace(DARK, LINE_WIDTH=2.0).changed(
+    *("#ff7a1a", "#1fc795", "#56b4e9"),
+    RAY="#ffb000",
+    TEXT="#ffffff",
+    DIM="#d0d5db",
+    BACKGROUND="#000000",
+    PANEL="#0e1012",
+    LINE="#68717c",
+)
+PRESENTED_LIGHT = replace(LIGHT, LINE_WIDTH=2.0).changed(
+    *("#c24e00", "#00704f", "#005c94"),
+    TEXT="#000000",
+    DIM="#33393f",
+    BACKGROUND="#e8ebee",
+    PANEL="#ffffff",
+    LINE="#8b949e",
+)
+# Text has 7:1 with what is behind it (WCAG 2.1, 1.4.6), and every control has an edge.
+CONTRAST = PRESENTED_DARK.changed(
+    *("#ff9a4d", "#4fe0b5", "#7cc8ff"),
+    MARK="#ffff00",
+    PLAIN="#ffffff",
+    DIM="#e2e6ea",
+    ERROR="#ffa3b8",
+    GOOD="#6ff0c4",
+    PANEL="#000000",
+    POPUP="#000000",
+    FRAME="#101316",
+    FRAME_HOVERED="#2b3036",
+    FRAME_ACTIVE="#3d444d",
+    LINE="#ffffff",
+    ACCENT="#9fd4ff",
+    FILL="#00457f",
+)
+
+
+@dataclass(frozen=True)
+class WindowLook:
+    """The settings of the style. scale: of type and spacing, on top of the display's own (DPI)."""
+
+    theme: str = "dark"
+    presentation: bool = False
+    scale: float = 1.0
+
+    @functools.cached_property
+    def palette(self) -> Palette:
+        if self.theme == "contrast":
+            return CONTRAST
+        if self.theme == "light":
+            return PRESENTED_LIGHT if self.presentation else LIGHT
+        return PRESENTED_DARK if self.presentation else DARK
+
+
+# Of ImGui's style, at 100 %.
+SIZES = {
+    "window_padding": (10, 8),
+    "frame_padding": (6, 4),
+    "item_spacing": (6, 5),
+    "item_inner_spacing": (6, 4),
+    "cell_padding": (4, 2),
+    "frame_rounding": 3,
+    "window_rounding": 4,
+    "popup_rounding": 4,
+    "tab_rounding": 3,
+    "grab_rounding": 2,
+    "window_border_size": 1,
+    "popup_border_size": 1,
+    "tab_bar_border_size": 1,
+    "tab_min_width_shrink": 14,  # tabs shrink to their first letter before any is out of sight
+    "docking_separator_size": 2,
+    "hover_stationary_delay": 0.3,
+}
+_NAMES = {field.name for field in fields(Palette)}
+UNSEEN = ImVec4(0, 0, 0, 0)
+# One entry: the look in use, of the one window of a process.
+_used: list[WindowLook] = [WindowLook()]
+
+
+def __getattr__(name: str) -> Any:
+    """Return the colours of the current palette, as attributes of the module."""
+    if name in _NAMES:
+        return getattr(_used[0].palette, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def look_of(
+    preferences: Preferences, height_px: float, dpi_scale: float = 1.0, in_lecture: bool = False
+) -> WindowLook:
+    """Return the look for the preferences and a window of this height, in ImGui's pixels.
+
+    Its scale is the one type size of all that is drawn: only titles are larger, and nothing is
+    smaller. In a lecture it is a hall's, in presentation mode or not.
+    """
+    wanted, usual, largest = preferences.font_scale, TEXT_PX * dpi_scale, LARGEST * height_px
+    size = max(usual * min(wanted, 1.0), min(usual * wanted, largest))
+    if preferences.presentation or in_lecture:
+        size = max(size, min(math.ceil(HALL * height_px) * max(wanted, 1.0), largest))
+    return WindowLook(preferences.theme, preferences.presentation, round(size / usual, 4))
+
+
+def used() -> WindowLook:
+    """Return the current look, from which colours are read; use it as a cache key.
+
+    Do not use the preferences: they change first, the look follows when a frame is drawn.
+    """
+    return _used[0]
+
+
+def follow(preferences: Preferences, in_lecture: bool = False) -> None:
+    """Apply changed preferences, or a changed height of the window. Call before a frame."""
+    style = imgui.get_style()
+    height_px = imgui.get_io().display_size.y
+    look = look_of(preferences, height_px, style.font_scale_dpi, in_lecture)
+    scale = style.font_scale_dpi * look.scale
+    # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
+    if height_px <= 0 or (
+        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)
+    ):
+        return
+    _used[0] = look
+    kept = style.font_scale_dpi, style.font_size_base
+    _set_style()
+    style.font_scale_dpi, style.font_size_base = kept
+    style.scale_all_sizes(scale)
+    style.font_scale_main = look.scale
+
+
+def begin(preferences: Preferences) -> None:
+    """Set the first style. HelloImGui scales it to the display's DPI, follow() to the
+    preferences.
+    """
+    _used[0] = WindowLook(preferences.theme)
+    _set_style()
+
+
+# The system's fonts for letters that the window's own lack: Chinese, Japanese and Korean; Arabic,
+# combining marks and others. The first of each that exists is used.
+SYSTEM_FONTS = (
+    (
+        "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/noto-cjk/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/google-noto-sans-cjk-fonts/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
+        "/System/Library/Fonts/Supplemental/Arial Unicode.ttf",
+        "C:/Windows/Fonts/msyh.ttc",
+    ),
+    (
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "C:/Windows/Fonts/segoeui.ttf",
+    ),
+)
+
+
+def _load_font(file: str, params: hello_imgui.FontLoadingParams | None = None) -> imgui.ImFont:
+    """Return a font of the window's own, with the system's for the letters that it lacks."""
+    font = hello_imgui.load_font(f"fonts/{file}", TEXT_PX, params)
+    merged = hello_imgui.FontLoadingParams()
+    merged.inside_assets, merged.merge_to_last_font = False, True
+    for files in SYSTEM_FONTS:
+        if found := next(filter(os.path.isfile, files), ""):
+            hello_imgui.load_font(found, TEXT_PX, merged)
+    return font
+
+
+@dataclass
+class Fonts:
+    """The window's fonts, once loaded: text, bold for headings, fixed width for numbers."""
+
+    text: imgui.ImFont | None = None
+    bold: imgui.ImFont | None = None
+    mono: imgui.ImFont | None = None
+
+    def load(self) -> None:
+        """Load the fonts. Called by HelloImGui.
+
+        The atlas has room for all sizes from the beginning. When it grows, ImGui discards sizes and
+        moves the others in memory, and its FreeType loader then draws some letters too small.
+        """
+        atlas = imgui.get_io().fonts
+        atlas.tex_min_width = atlas.tex_min_height = ATLAS_PX
+        self.text = _load_font("Roboto/Roboto-Regular.ttf")
+        self.bold = _load_font("Roboto/Roboto-Bold.ttf")
+        raised = hello_imgui.FontLoadingParams()
+        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit lower than Roboto's
+        raised.font_config.extra_size_scale = 1.03  # and its capitals would be lower
+        self.mono = _load_font("Inconsolata-Medium.ttf", raised)
+
+
+@functools.cache
+def _scaled_sizes() -> tuple[str, ...]:
+    """Return the names of the sizes that scale_all_sizes() scales, found by experiment.
+
+    They include _main_scale, the product of all scales so far, which is the thickness of the lines
+    of a tab's x.
+    """
+    style, before = imgui.Style(), {}
+    for name in dir(style):
+        value = None if name.startswith("__") else getattr(style, name)
+        if isinstance(value, ImVec2):
+            setattr(style, name, ImVec2(8, 8))
+        elif isinstance(value, float):
+            setattr(style, name, 8.0)
+        else:
+            continue
+        before[name] = str(getattr(style, name))
+    style.scale_all_sizes(2.0)
+    return tuple(name for name, old in before.items() if str(getattr(style, name)) != old)
+
+
+def _set_style() -> None:
+    """Set ImGui's style for the current palette: flat, aligned; at 100 %."""
+    look = _used[0]
+    colors = look.palette
+    # Reset all sizes, since a theme does not set all of them. Scaled again at each change, the
+    # smallest window would soon be larger than the screen, and the x of a tab as thick as wide.
+    fresh = imgui.Style()
+    for name in _scaled_sizes():
+        setattr(imgui.get_style(), name, getattr(fresh, name))
+    base = hello_imgui.ImGuiTheme_
+    hello_imgui.apply_theme(
+        base.imgui_colors_light if look.theme == "light" else base.darcula_darker
+    )
+    style, col = imgui.get_style(), imgui.Col_
+    for name, size in SIZES.items():
+        setattr(style, name, ImVec2(*size) if isinstance(size, tuple) else size)
+    style.frame_border_size = float(look.theme == "contrast")
+    style.window_menu_button_position = imgui.Dir.none
+    accent = colors.ACCENT * (1, 1, 1, 0.5)
+    for color, slots in (
+        (colors.TEXT, (col.text, col.check_mark)),
+        (colors.DIM, (col.text_disabled,)),
+        (colors.BACKGROUND, (col.menu_bar_bg, col.docking_empty_bg, col.title_bg)),
+        (colors.BACKGROUND, (col.title_bg_active, col.title_bg_collapsed)),
+        (colors.BACKGROUND, (col.tab, col.tab_dimmed)),
+        (colors.PANEL, (col.window_bg, col.child_bg, col.scrollbar_bg)),
+        (colors.PANEL, (col.tab_selected, col.tab_dimmed_selected)),
+        (colors.POPUP, (col.popup_bg,)),
+        (colors.LINE, (col.border, col.separator, col.tab_dimmed_selected_overline)),
+        (colors.LINE, (col.table_border_light, col.table_border_strong)),
+        (colors.FRAME, (col.frame_bg, col.button, col.header, col.table_header_bg)),
+        (colors.FRAME_HOVERED, (col.frame_bg_hovered, col.tab_hovered)),
+        (colors.FRAME_HOVERED, (col.button_hovered, col.header_hovered)),
+        (colors.FRAME_ACTIVE, (col.frame_bg_active, col.button_active, col.header_active)),
+        (colors.FRAME_ACTIVE, (col.scrollbar_grab,)),
+        (colors.PLAIN, (col.scrollbar_grab_hovered, col.scrollbar_grab_active)),
+        (colors.ACCENT, (col.tab_selected_overline, col.slider_grab)),
+        (accent, (col.text_selected_bg,)),
+        (colors.RAY * (1, 1, 1, 0), (col.nav_cursor,)),  # focus_frame.py draws one
+    ):
+        for slot in slots:
+            style.set_color_(slot, color)
+
+
+def u32(color: ImVec4, alpha: float = 1.0) -> int:
+    """Return a colour in the form that draw lists take."""
+    return imgui.get_color_u32(color if alpha == 1.0 else color * (1, 1, 1, alpha))
+
+
+def type_px() -> float:
+    """Return the window's type size, in ImGui's pixels."""
+    style = imgui.get_style()
+    return float(TEXT_PX * style.font_scale_main * style.font_scale_dpi)
+
+
+def px(at_100_percent: float) -> float:
+    """Return a length in ImGui's pixels that grows with the type: 16 is the height of a line of
+    text.
+    """
+    return at_100_percent * imgui.get_font_size() / TEXT_PX
+
+
+def whole_px(size: float) -> float:
+    """Return the nearest type size of whole framebuffer pixels.
+
+    ImGui stretches the letters of any other size, and shows parts of their neighbours at their
+    edges.
+    """
+    scale = framebuffer_scale()
+    return max(1.0, round(size * scale)) / scale
+
+
+def line_px(at_100_percent: float = 1.0) -> float:
+    """Return the width of a line that teaches: scaled, and thicker in presentation mode."""
+    style = imgui.get_style()
+    width: float = at_100_percent * _used[0].palette.LINE_WIDTH
+    return width * style.font_scale_main * style.font_scale_dpi
+
+
+def legible(color: ImVec4) -> ImVec4:
+    """Return the colour for text on a panel: yellow and orange are darkened on light panels."""
+    least = ENHANCED if _used[0].theme == "contrast" else LEGIBLE
+    return _contrasting(color, _rgb(_used[0].palette.PANEL), least)
+
+
+def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
+    """Return the colour for a background that is not the theme's: lighter or darker if it would not
+    stand out.
+    """
+    return _contrasting(color, ground, SEEN)
+
+
+def _contrasting(color: ImVec4, ground: Rgb, least: float) -> ImVec4:
+    return ImVec4(*legible_on(_rgb(color), ground, least), color.w)
+
+
+def _rgb(color: ImVec4) -> Rgb:
+    return color.x, color.y, color.z
+
+
+def framebuffer_scale() -> float:
+    """Return the number of framebuffer pixels in one unit of ImGui's coordinates."""
+    return imgui.get_io().display_framebuffer_scale.x or 1.0

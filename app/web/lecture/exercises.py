@@ -1,0 +1,228 @@
+"""A step's exercise as a form, and the data that its answers are judged by.
+
+The replies are in templates, so that a page's script never makes HTML of a text.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.lecture.exercises import (
+    CORRECT,
+    ChoiceExercise,
+    RayExercise,
+    TypedExercise,
+    VectorExercise,
+    hint,
+)
+from app.lecture.hidden_pixels import ids_seen
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Exercise, Step
+from app.lecture.text import Math, Paragraph, escaped, parse
+from app.state.kept_lecture import Judgement
+from app.state.options import Notation
+from app.ui.explaining import symbols
+from app.web.lecture.drawn import depth_of, paper, upright_paper, volume
+from app.web.lecture.mathml import VECTORS
+from app.web.lecture.text import plain, written
+from renderer.camera.camera import Size
+from renderer.files.views import view_from_table, view_table
+from renderer.scene.focus import scene_focus
+
+BOLD = frozenset("uvwepdx")
+
+
+def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
+    """Return what modules/exercise.js judges answers by; None for a step without an exercise.
+
+    explained_by: the step before the exercise that explains it. size: of the step's images.
+    """
+    match step.exercise:
+        case RayExercise() as task:
+            data = _ray(task)
+        case VectorExercise() as task:
+            data = _vectors(task) | {"paper": paper(step.view.camera)}
+        case ChoiceExercise() as task:
+            data = _choice(task, step)
+        case HideExercise() as task:
+            data = _hiding(task, size)
+        case _:
+            return None
+    data |= {"step": step.title, "read": explained_by}
+    return data | {"replies": {text: n for n, text in enumerate(dict.fromkeys(_texts(data)))}}
+
+
+def _choice(task: ChoiceExercise, step: Step) -> dict[str, Any]:
+    """Return the options, and the view volumes of those that have a camera."""
+    options = [_option(task.check(place)) for place in range(len(task.options))]
+    camera = step.view.camera
+    depth = depth_of(camera, scene_focus(step.scene).framed)
+    for data, option in zip(options, task.options, strict=True):
+        if option.camera is not None:
+            data["volume"] = volume(view_from_table(option.camera).camera, depth)
+    if not any("volume" in data for data in options):
+        return {"options": options}
+    return {
+        "options": options,
+        "volume": volume(camera, depth),
+        "paper": upright_paper(camera),
+    }
+
+
+def _hiding(task: HideExercise, size: Size) -> dict[str, Any]:
+    ids = ids_seen(task.without, task.view.for_size(size), size)
+    return {
+        "hiding": {
+            "moved": task.ids(task.moved),
+            "hidden": task.ids(task.hidden),
+            "name": escaped(task.hidden),
+            "behind": task.middle(task.hidden).tolist(),
+            "alone": task.pixels(task.without, ids),
+            "atMost": task.at_most,
+            "size": size,
+            "camera": view_table(task.view),
+        },
+        "texts": task.told,
+    }
+
+
+def _option(verdict: Judgement) -> dict[str, Any]:
+    names = ("right", "text", "mistake", "read")
+    return {name: getattr(verdict, name) for name in names}
+
+
+def _texts(data: Any) -> Iterator[str]:
+    """Yield all replies in an exercise's data."""
+    if isinstance(data, dict):
+        if "text" in data:
+            yield data["text"]
+        yield from data.get("texts", {}).values()
+        data = list(data.values())
+    if isinstance(data, list):
+        for one in data:
+            yield from _texts(one)
+
+
+def _ray(task: RayExercise) -> dict[str, Any]:
+    ray = task.camera.ray(*task.pixel, task.size)
+    wrong = [
+        {
+            "origin": numbers(one.origin),
+            "direction": numbers(one.direction),
+            "mistake": mistake.name,
+            "text": hint(mistake),
+            "read": mistake.part,
+        }
+        for mistake, one in task.wrong_rays()
+    ]
+    return {
+        "ray": {"origin": numbers(ray.origin), "direction": numbers(ray.direction)},
+        "fields": list(task.fields),
+        "scaled": task.scaled,
+        "tolerance": task.tolerance,
+        "wrong": wrong,
+        "texts": {"right": CORRECT} | task.replies,
+        "paper": paper(task.camera),
+    }
+
+
+def _vectors(task: VectorExercise) -> dict[str, Any]:
+    answers = [
+        {
+            "name": wanted.name,
+            "value": numbers(wanted.value),
+            "scaled": wanted.scaled,
+            "draw": wanted.drawn,
+            "wrong": [{"value": numbers(one.value), "text": one.feedback} for one in wanted.wrong],
+            "texts": wanted.replies,
+        }
+        for wanted in task.answers
+    ]
+    return {
+        "answers": answers,
+        "fields": list(task.fields),
+        "tolerance": task.tolerance,
+        "texts": {"right": CORRECT},
+    }
+
+
+def numbers(values: ArrayLike) -> list[float | None]:
+    """Return numbers as JSON has them: null for what is not finite."""
+    return [one if math.isfinite(one) else None for one in np.ravel(values).astype(float).tolist()]
+
+
+def form(
+    number: str, task: Exercise, data: dict[str, Any], notation: Notation, answers: bool
+) -> str:
+    """Return an exercise of a step as HTML.
+
+    data: as data_of() returns it. answers: with its solution.
+    """
+    asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
+    if isinstance(task, ChoiceExercise):
+        options = (
+            f'<li><button type="button" data-option="{place}" aria-pressed="false"'
+            f"{_name(option.text)}>"
+            f"{_inside(written(option.text, notation))}</button></li>\n"
+            for place, option in enumerate(task.options)
+        )
+        asked += f'<ol class="options">{"".join(options)}</ol>\n'
+    elif not isinstance(task, HideExercise):
+        asked += _fields(number, task, notation)
+    solution = ""
+    if answers:
+        solution = (
+            '<details class="solution"><summary>Show the solution</summary>'
+            f"{written(task.solution(), notation)}</details>\n"
+        )
+    replies = "".join(
+        f'<template data-reply="{place}">{written(text, notation)}</template>\n'
+        for text, place in data["replies"].items()
+    )
+    return (
+        f'<form class="exercise" data-step="{number}" novalidate>\n'
+        f'{asked}<div class="reply" role="status"></div>\n<div class="drawing"></div>\n'
+        f"{replies}{solution}</form>\n"
+    )
+
+
+def _fields(number: str, task: TypedExercise, notation: Notation) -> str:
+    rows = []
+    for place, name in enumerate(task.fields):
+        shown = symbols.answer(name, notation)
+        word, _, letter = shown.rpartition(" ")
+        if letter in BOLD and word in ("", "origin", "direction"):
+            color = f' class="vector-{letter}"' if letter in VECTORS else ""
+            label = f"{plain(word)} <strong{color}>{plain(letter)}</strong>"
+        else:
+            label = plain(shown)
+        field = f"field-{number}-{place}"
+        rows.append(
+            f'<label for="{field}">{label}</label><input id="{field}" name="{plain(name)}" '
+            'type="text" maxlength="200" placeholder="( , , )" autocomplete="off" '
+            'autocapitalize="off" spellcheck="false">\n'
+        )
+    return f'<div class="fields">{"".join(rows)}<button>Check</button></div>\n'
+
+
+def _name(text: str) -> str:
+    """Return an attribute that names a button of formulas only, for which browsers find no name."""
+    blocks = parse(text)
+    if not all(isinstance(block, Paragraph) for block in blocks):
+        return ""
+    spans = [span for block in blocks if isinstance(block, Paragraph) for span in block.line]
+    if not all(isinstance(span, Math) for span in spans):
+        return ""
+    return (
+        f' aria-label="{plain(" ".join(span.latex for span in spans if isinstance(span, Math)))}"'
+    )
+
+
+def _inside(html: str) -> str:
+    """Return a paragraph's content, because a button holds no paragraphs."""
+    return html.replace("<p>", "<span>").replace("</p>", "</span>")

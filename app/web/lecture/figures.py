@@ -1,0 +1,167 @@
+"""The live figures of a lecture's steps, where a step shows what modules/figure.js can draw."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from app.images.compare.options import CompareOptions
+from app.images.pair.options import PairOptions
+from app.images.photograph.model import path_of
+from app.images.photograph.options import PhotographOptions
+from app.images.photograph.reading import decoded
+from app.images.request import MIRROR_DEPTH
+from app.instruments.outside.options import OutsideOptions
+from app.lecture.hiding import HideExercise
+from app.lecture.model import Step
+from app.state.app_state import AppState
+from app.web.lecture.pictures import data_uri
+from app.web.scene_page import packed_scene
+from renderer.files.views import view_table
+from renderer.scene.model import Scene, View
+from renderer.system.errors import LucidaError
+
+IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
+# What a figure shows of a view.
+SHOWN = {
+    "raster": ("raster",),
+    "ray": ("ray",),
+    "outside": ("outside",),
+    "compare": ("raster", "ray", "wipe"),
+    "probe": ("probe",),
+    "camera": ("controls",),
+}
+# Parts of the outside view that modules/outside.js draws; it draws no others.
+DRAWN = (
+    *("camera", "volume", "image", "basis", "grid", "ray", "gizmo"),
+    *("target", "up", "answers", "pixels"),
+)
+
+
+class Figures:
+    """The figures of a page, and their scenes, each packed once.
+
+    scenes: packed, by their numbers, and in them the number of their shaders instead of these.
+    shaders: each once.
+    """
+
+    def __init__(self) -> None:
+        self.scenes: list[dict[str, Any]] = []
+        self.shaders: list[Any] = []
+        self._numbers: dict[int, int | None] = {}  # by the scenes' ids
+        self._kept: list[Scene] = []  # so that no id is used twice
+
+    def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
+        """Return a step's figure as JSON; None if there is none to try.
+
+        A figure that draws less than the step's pictures must have something to drag. state: the
+        step's. Its field "open": the step's exercise is answered in the figure.
+        """
+        shows = [name for view in step.views for name in SHOWN.get(view, ())]
+        outside = state.of(OutsideOptions)
+        drags = "controls" in shows or "wipe" in shows
+        if "outside" in shows:
+            drags = drags or outside.gizmo != "none" or outside.pixels
+        is_open = isinstance(step.exercise, HideExercise) or (
+            step.exercise is not None and "controls" in shows
+        )
+        if set(shows) <= {"controls"} or not (is_open or drags or _is_whole(step, state)):
+            return None
+        number = self._number(step.scene)
+        if number is None:
+            return None
+        mirrors = MIRROR_DEPTH if state.options.mirrors else 0
+        effects = {
+            "shadows": state.options.shadows,
+            "mirrors": mirrors,
+            "exposure": state.images.exposure_ev,
+        }
+        options: dict[str, Any] = {"effects": effects, "from": int(state.options.one_based)}
+        if state.images.resolution is not None:
+            options["size"] = state.images.resolution
+            if state.marked is not None:
+                options["mark"] = state.marked
+        if "compare" in step.views and state.of(CompareOptions).mode == "wipe":
+            options["mode"] = "wipe"
+        if "outside" in step.views:
+            options["outside"] = _outside(step, state)
+        return {
+            "scene": number,
+            "camera": _camera_table(step),
+            "shows": shows,
+            "options": options,
+            "lens": "lens" in step.highlight,
+            "photograph": _photograph(state),
+            "open": is_open,
+        }
+
+    def _number(self, scene: Scene) -> int | None:
+        """Return a scene's number; None if it is too large for a page."""
+        if id(scene) not in self._numbers:
+            self._kept.append(scene)
+            try:
+                self.scenes.append(self._shared(packed_scene(scene)))
+                self._numbers[id(scene)] = len(self.scenes) - 1
+            except LucidaError:  # its pictures are in the page in any case
+                self._numbers[id(scene)] = None
+        return self._numbers[id(scene)]
+
+    def _shared(self, scene: dict[str, Any]) -> dict[str, Any]:
+        if scene["shaders"] not in self.shaders:
+            self.shaders.append(scene["shaders"])
+        return scene | {"shaders": self.shaders.index(scene["shaders"])}
+
+
+def _outside(step: Step, state: AppState) -> dict[str, Any]:
+    """Return the camera of a step's outside view, and what that draws, as JSON."""
+    options = state.of(OutsideOptions)
+    drawn: dict[str, Any] = {
+        "basis": options.basis,
+        "image": options.image,
+        "volume": options.volume,
+        "ray": options.ray,
+        "handles": "pixels" if options.pixels else options.gizmo,
+    }
+    if isinstance(task := step.exercise, HideExercise):
+        middle = task.middle(task.moved).tolist()
+        drawn["object"] = {"objects": task.ids(task.moved), "place": middle, "name": task.moved}
+    if options.target is not None:
+        drawn |= {"target": options.target, "up": options.up}
+    looking = options.camera
+    return drawn if looking is None else drawn | {"camera": view_table(View(looking))}
+
+
+def _camera_table(step: Step) -> dict[str, Any]:
+    """Return a step's camera as JSON, with the numbers of a lens that the step is about."""
+    table = view_table(step.view)
+    if "lens" in step.highlight and table.get("lens", {}).get("model") == "brown":
+        table["lens"] = {"k1": 0.0, "k2": 0.0} | table["lens"]
+    return table
+
+
+def _photograph(state: AppState) -> dict[str, Any] | None:
+    """Return the picture that is laid over a step's images, as JSON; None for none."""
+    options = state.of(PhotographOptions)
+    path = path_of(state)
+    if path is None or not options.shown or options.lay != "over":
+        return None
+    pixels = decoded(path, IMAGE).pixels[..., :3]
+    return {"src": data_uri(pixels), "opacity": options.opacity}
+
+
+def is_live(view: str, shows: Sequence[str]) -> bool:
+    """Return True if a figure with these shows has a view."""
+    return SHOWN.get(view, ("",))[-1] in shows
+
+
+def _is_whole(step: Step, state: AppState) -> bool:
+    """Return True if a figure draws all that a step's pictures show."""
+    outside, images = state.of(OutsideOptions), state.images
+    drawn = {name: getattr(outside, name) for name in DRAWN}
+    return (
+        set(step.views) <= SHOWN.keys()
+        and outside == OutsideOptions(**drawn)
+        and state.of(PairOptions) == PairOptions()
+        and not state.of(PhotographOptions).file
+        and (images.dissolved, images.channel, images.samples) == (0, "color", 1)
+    )

@@ -1,0 +1,53 @@
+"""Print a page as PDF, by a browser that is installed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from renderer.system.errors import LucidaError
+
+BROWSERS = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge"),
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    r"C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe",
+)
+OPTIONS = (
+    *("--headless", "--disable-gpu", "--disable-extensions", "--no-first-run"),
+    *("--no-pdf-header-footer", "--generate-pdf-document-outline", "--virtual-time-budget=10000"),
+)
+LIMIT_S = 300.0
+
+
+def browser() -> str:
+    """Return the program that prints. Raises LucidaError if there is none."""
+    for name in BROWSERS:
+        if found := shutil.which(name):
+            return found
+    raise LucidaError(
+        "--export", "as PDF needs Chromium or Chrome", "install it, or print lecture.html yourself"
+    )
+
+
+def pdf(html: str, program: str) -> bytes:
+    """Return a page as PDF. program: as browser() returns it. Raises LucidaError."""
+    with tempfile.TemporaryDirectory(prefix="lucida-print-", ignore_cleanup_errors=True) as folder:
+        page, printed = Path(folder, "page.html"), Path(folder, "page.pdf")
+        page.write_text(html, encoding="utf-8")
+        command = [program, *OPTIONS, f"--user-data-dir={Path(folder, 'profile')}"]
+        if sys.platform == "linux" and os.geteuid() == 0:
+            command.append("--no-sandbox")  # it has none for root; the page loads nothing
+        command += [f"--print-to-pdf={printed}", page.as_uri()]
+        try:
+            subprocess.run(command, capture_output=True, timeout=LIMIT_S, check=False)
+            return printed.read_bytes()
+        except (OSError, subprocess.TimeoutExpired):
+            raise LucidaError(
+                "--export", f"{Path(program).name} did not print", "print lecture.html yourself"
+            ) from None

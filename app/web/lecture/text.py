@@ -1,0 +1,92 @@
+"""A lecture's text as HTML. All of it is escaped."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from html import escape
+
+from app.lecture.notation import in_notation
+from app.lecture.text import (
+    Block,
+    Code,
+    DisplayedFormula,
+    Heading,
+    ItemList,
+    Line,
+    Math,
+    Paragraph,
+    Question,
+    Words,
+    parse,
+)
+from app.state.options import Notation
+from app.ui.explaining.languages import LANGUAGES
+from app.web.lecture.mathml import VECTORS, displayed, inline
+from renderer.system.errors import visible
+
+
+def plain(text: str) -> str:
+    """Return text, escaped for a page."""
+    return escape(visible(text))
+
+
+def written(text: str, notation: Notation) -> str:
+    """Return a lecture's text, such as a reply, as HTML."""
+    return blocks_html(parse(text), notation)
+
+
+# A formula, and what must not begin the next line.
+BEFORE_STOP = re.compile(r"(<math\b.*?</math>)([.,;:?!)]+)", re.DOTALL)
+
+
+def blocks_html(blocks: tuple[Block, ...], notation: Notation) -> str:
+    """Return a text as HTML. Neighbouring programs are one group."""
+    parts = []
+    for is_program, group in itertools.groupby(in_notation(blocks, notation), _is_program):
+        html = [_block(block) for block in group]
+        inside = "".join(html)
+        is_choice = is_program and len(html) > 1
+        parts.append(f'<div class="programs">{inside}</div>\n' if is_choice else inside)
+    return "".join(parts)
+
+
+def _is_program(block: Block) -> bool:
+    return isinstance(block, Code) and block.language in LANGUAGES
+
+
+def _block(block: Block) -> str:
+    match block:
+        case Heading(level=level, line=line):
+            name = f"h{min(level + 2, 6)}"
+            return f"<{name}>{_line(line)}</{name}>\n"
+        case Paragraph(line=line):
+            return f"<p>{_line(line)}</p>\n"
+        case Question(line=line):
+            return f'<div class="question"><p>{_line(line)}</p>\n</div>\n'
+        case ItemList():
+            name = "ol" if block.numbered else "ul"
+            items = "".join(f"<li>{_line(item)}</li>" for item in block.items)
+            return f"<{name}>{items}</{name}>\n"
+        case Code(text=text, language=language):
+            of = f' data-language="{language}"' if language in LANGUAGES else ""
+            return f'<pre tabindex="0"{of}><code>{plain(text)}</code></pre>\n'
+        case DisplayedFormula(latex=latex):
+            return displayed(latex)
+    raise AssertionError(block)
+
+
+def _line(line: Line) -> str:
+    html = "".join(inline(span.latex) if isinstance(span, Math) else _words(span) for span in line)
+    return BEFORE_STOP.sub(r'<span class="kept">\1\2</span>', html)
+
+
+def _words(words: Words) -> str:
+    html = plain(words.text)
+    if words.code:
+        html = f"<code>{html}</code>"
+    if words.bold:
+        name = words.text.strip(".,:;()")
+        color = f' class="vector-{name}"' if name in VECTORS else ""
+        html = f"<strong{color}>{html}</strong>"
+    return f"<em>{html}</em>" if words.italic else html

@@ -1,0 +1,58 @@
+"""A scene as one HTML page: both images, from a camera that its reader moves."""
+
+from __future__ import annotations
+
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from app.web import ENDINGS
+from app.web.document import document
+from app.web.formulas import templates
+from app.web.glsl import shaders
+from app.web.packing import packed
+from renderer.files.export import check_export_path
+from renderer.files.views import view_table
+from renderer.scene.flat import flatten
+from renderer.scene.focus import scene_focus
+from renderer.scene.model import Scene, View
+from renderer.system.atomic import atomic_write
+
+SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
+
+
+def packed_scene(scene: Scene) -> dict[str, Any]:
+    """Return a scene as figures take it, a JSON value: arrays, shaders and name.
+
+    Raises LucidaError if it has too many triangles or texels.
+    """
+    flat = flatten(scene)
+    names = [entry.name for entry in scene.objects]
+    programs = {"pinhole": shaders(flat, False), "lens": shaders(flat, True)}
+    return packed(flat, scene_focus(scene).framed) | {
+        "shaders": programs,
+        "name": scene.name,
+        "names": names,
+    }
+
+
+def scene_page(scene: Scene, view: View) -> str:
+    """Return the page. view: the camera to begin with. Raises LucidaError."""
+    title = scene.name or "A scene"
+    content = {"scene": packed_scene(scene), "camera": view_table(view), "shows": SHOWS}
+    head = f'<main>\n<h1>{escape(title)}</h1>\n<div id="lucida-figure"></div>\n</main>\n'
+    body = head + templates()
+    return document(f"{title}: Lucida", "scene_page.js", body, {"lucida-data": content})
+
+
+def write_scene_page(path: str | Path, scene: Scene, view: View) -> int:
+    """Write the page atomically, and return its size in bytes. Raises LucidaError."""
+    page = scene_page(scene, view).encode("utf-8", "replace")
+    with atomic_write(path) as file:
+        file.write(page)
+    return len(page)
+
+
+def check_page_path(path: str | Path) -> Path:
+    """Return the path. Raises LucidaError if it cannot be written, or is no page's."""
+    return check_export_path(path, ENDINGS)

@@ -1,0 +1,136 @@
+"""Pictures of the window or of one view, into a file or the clipboard, encoded on a thread."""
+
+from __future__ import annotations
+
+import datetime
+import io
+import os
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from app.ui.background import Background
+from app.ui.surface import Target
+from app.window.clipboard import copy_png
+from renderer.system.atomic import atomic_write
+from renderer.system.errors import LucidaError
+
+Rect = tuple[float, float, float, float]  # left, top, right, bottom
+
+
+@dataclass(frozen=True)
+class CaptureRequest:
+    """A request for a picture.
+
+    rect: the part to cut out, in framebuffer pixels; None for the whole window.
+    path: the file; None for the clipboard.
+    """
+
+    rect: Rect | None
+    path: Path | None
+
+
+class Captures:
+    """Takes pictures while the window is open.
+
+    wake: called on a thread when a picture has been saved or copied.
+    folder: for pictures without a given path; None for the user's folder of pictures.
+    """
+
+    def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
+        self._work: Background[str] = Background("lucida-capture", wake, every=True)
+        self._asked: CaptureRequest | None = None
+        self._promised: set[Path] = set()  # to pictures that may not be written yet
+        self.folder = folder
+
+    @property
+    def busy(self) -> bool:
+        return self._asked is not None or self._work.busy
+
+    def ask(self, rect: Rect | None, path: Path | None) -> None:
+        """Ask for a picture of the next frame."""
+        self._asked = CaptureRequest(rect, path)
+
+    def default_path(self, what: str) -> Path:
+        """Return a free name for a picture: lucida raster 2026-01-31 10.15.59.png. Raises
+        LucidaError.
+        """
+        folder = self.folder or pictures_folder()
+        now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
+        name = f"lucida {what} {now}".replace("  ", " ")
+        path = free_path(folder / f"{name}.png", " ", self._promised)
+        self._promised.add(path)
+        return path
+
+    def after_drawing(self, target: Target) -> None:
+        """Take the requested picture. Call when the frame is drawn, before the swap."""
+        if self._asked is None:
+            return
+        asked, self._asked = self._asked, None
+        pixels = target.read()
+        self._work.submit(lambda: _finish(pixels, asked))
+
+    def poll(self) -> tuple[str, bool] | None:
+        """Return the result of the last picture: a message, and True if it was taken."""
+        outcome = self._work.poll()
+        if outcome is None:
+            return None
+        if outcome.error is not None:
+            return str(outcome.error), False
+        return outcome.value or "", True
+
+    def close(self) -> None:
+        self._work.close(5.0)
+
+
+def free_path(path: Path, before_number: str = "-", taken: Collection[Path] = ()) -> Path:
+    """Return the path, or the first free one with a number from 2 on: lucida.png, lucida-2.png.
+
+    taken: paths that will exist.
+    """
+    found, number = path, 2
+    while os.path.lexists(found) or found in taken:
+        found = path.with_name(f"{path.stem}{before_number}{number}{path.suffix}")
+        number += 1
+    return found
+
+
+def pictures_folder() -> Path:
+    """Return the user's folder of pictures, created if necessary. Raises LucidaError."""
+    import platformdirs
+
+    try:
+        folder = platformdirs.user_pictures_path()
+        folder.mkdir(parents=True, exist_ok=True)
+        return folder
+    except (OSError, RuntimeError) as error:
+        raise LucidaError("pictures", f"cannot be kept: {error}", "save to a named file") from None
+
+
+def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
+    """Cut out a part of a picture, uint8 (height, width, 3), of at least one pixel."""
+    if rect is None:
+        return pixels
+    height, width = pixels.shape[:2]
+    left, right = (min(max(round(x), 0), width) for x in (rect[0], rect[2]))
+    top, bottom = (min(max(round(y), 0), height) for y in (rect[1], rect[3]))
+    left, top = min(left, width - 1), min(top, height - 1)
+    return pixels[top : max(bottom, top + 1), left : max(right, left + 1)]
+
+
+def _finish(pixels: np.ndarray, asked: CaptureRequest) -> str:
+    """Encode the picture and put it in its place. Return a message."""
+    from PIL import Image
+
+    picture = np.ascontiguousarray(cut(pixels, asked.rect))
+    buffer = io.BytesIO()
+    Image.fromarray(picture).save(buffer, format="PNG")
+    size = f"{picture.shape[1]} x {picture.shape[0]}"
+    if asked.path is None:
+        copy_png(buffer.getvalue())
+        return f"Copied to the clipboard: a picture of {size} pixels."
+    with atomic_write(asked.path) as file:
+        file.write(buffer.getvalue())
+    return f"Saved {asked.path} ({size})."

@@ -1,0 +1,184 @@
+"""The division of the room among a layout's dock spaces.
+
+Keeps the spaces' shares while the window is resized and from one start to the next. layout.py
+decides where the spaces are and what is in them.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+
+from imgui_bundle import imgui
+
+from app.ui import layout
+
+ARRANGING_FRAMES = 3  # until a layout's dock spaces exist again
+RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
+ROUNDED_PX = 1.5  # largest rounding of a dock space's size by ImGui
+LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
+
+
+@dataclass
+class _Share:
+    """The share of a space in the room that it was split from.
+
+    room: the size of that room when the share was last set.
+    size: the space's size at that time, which ImGui rounds. Shares from rounded sizes would drift.
+    settling: the frames until the new sizes are there.
+    again: the frames in which they are set again.
+    known: True if the share comes from a session, not from the layout.
+    """
+
+    part: float = 0.5
+    known: bool = False
+    room: float = 0.0
+    size: float = 0.0
+    settling: int = 0
+    again: int = 0
+
+    def keep(
+        self,
+        node: imgui.internal.DockNode,
+        parent: imgui.internal.DockNode,
+        other: imgui.internal.DockNode | None,
+        x: bool,
+    ) -> None:
+        """other: the node next to it, unless that has the rest by itself."""
+        size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
+        kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
+        if not self.room and not self.known and 0 < kept[0] < kept[1]:
+            self.part = kept[0] / kept[1]  # the layout's, or about what ImGui has saved
+        if room != self.room or self.again:
+            self.again = max(0, self.again - 1)
+            size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
+            left = max(1.0, room - size)
+            for one, side in ((node, size), (other, left)):
+                if one is not None:
+                    new = (side, one.size.y) if x else (one.size.x, side)
+                    imgui.internal.dock_builder_set_node_size(one.id_, new)
+            self.room, self.size, self.settling = room, size, 2
+        elif self.settling:
+            self.settling -= 1
+        elif room > LEAST_ROOM_PX and abs(size - self.size) > ROUNDED_PX:  # moved by the user
+            self.part, self.size = size / room, size
+
+
+class Proportion:
+    """Keeps the spaces' shares when the window is resized, and the camera's panel as wide as its
+    numbers.
+
+    ImGui alone would resize only one of the spaces. The user's own division stays, also when the
+    views are rearranged.
+    """
+
+    def __init__(self) -> None:
+        self._layout = ""
+        self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
+        self._cameras: dict[str, float] = {}  # by layout: the camera panel's width, in em
+        self._camera_px = 0.0  # its last one
+        self._around_camera = (0.0, 0.0)  # the width of the room that it is part of, and the type
+        self._anew = 0  # frames in which it is set again
+        self._arranged = 0
+        self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
+
+    def parts(self) -> dict[str, float]:
+        """Return the spaces' shares, for a session. ImGui saves whole pixels, and the room may have
+        another size at the next start.
+        """
+        return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
+
+    def restore(self, parts: dict[str, float]) -> None:
+        """Restore a session's shares, before the first frame. Invalid ones are ignored."""
+        for one, upright in itertools.product(layout.LAYOUTS, (False, True)):
+            for _, space, _, _ in one.splits:
+                key = _key(one, space, upright)
+                part = parts.get("/".join(key), 0.0)
+                if 0.0 < part < 1.0:
+                    self._shares[key] = _Share(part, known=True)
+        self._restoring = RESTORING_FRAMES
+
+    def keep(self, arranged: int = 0) -> None:
+        """Update the shares. Call once a frame. arranged: a number that changes with each call of
+        arrange().
+        """
+        if min(layout.window_px()) < LEAST_ROOM_PX:
+            self._layout = ""  # ImGui divides a window without room; all is set again after that
+            return
+        shown = layout.current()
+        anew = arranged != self._arranged or shown.name != self._layout or self._restoring > 0
+        self._arranged, self._layout = arranged, shown.name
+        self._restoring = max(0, self._restoring - 1)
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            self._keep_camera(shown.name, anew)
+        upright = layout.is_upright(layout.window_px())
+        for whole, space, direction, _ in shown.splits:
+            if space == layout.CAMERA_SPACE:  # whose width follows its numbers
+                continue
+            across = direction in (layout.LEFT, layout.RIGHT) and not upright
+            axis = imgui.internal.Axis.x if across else imgui.internal.Axis.y
+            node = _side(layout.node_of(space), axis)
+            parent = node.parent_node if node is not None else None
+            if node is None or parent is None or min(*parent.size, *node.size) <= 0:
+                continue
+            if tuple(node.size) == tuple(parent.size):  # nothing is next to it
+                continue
+            key = _key(shown, space, upright)
+            share = self._shares.setdefault(key, _Share())
+            if anew and share.room:
+                share.again = ARRANGING_FRAMES
+            other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
+            share.keep(node, parent, other, across)
+
+    def _keep_camera(self, name: str, anew: bool) -> None:
+        """Keep the width of the camera's panel, in each layout: in multiples of the type's size,
+        and never too narrow for its numbers.
+        """
+        node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
+        parent = node.parent_node if node is not None else None
+        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
+            return
+        now, before = (parent.size.x, imgui.get_font_size()), self._around_camera
+        em_px, width = now[1], node.size.x
+        again = anew or now[0] != before[0]
+        self._around_camera, self._anew = now, ARRANGING_FRAMES if again else max(0, self._anew - 1)
+        if name not in self._cameras:
+            self._cameras[name] = width / em_px
+        elif now == before and not self._anew and abs(width - self._camera_px) > ROUNDED_PX:
+            self._cameras[name] = width / em_px  # moved by the user
+        least = math.floor(layout.camera_width_px(parent.size.x, em_px))
+        wanted = max(min(self._cameras[name] * em_px, 0.5 * parent.size.x), least)
+        is_off = self._anew or now[1] != before[1] or width < least
+        if least >= 1 and is_off and abs(width - wanted) >= 1:
+            imgui.internal.dock_builder_set_node_size(node.id_, (wanted, node.size.y))
+            width = wanted
+        self._camera_px = width
+
+
+def _key(shown: layout.Layout, space: str, upright: bool) -> tuple[str, str]:
+    """Return a layout's name and a space; in a window that is taller than wide, another name."""
+    return f"{shown.name}{', upright' * upright}", space
+
+
+def _child(
+    node: imgui.internal.DockNode | None, parent: imgui.internal.DockNode
+) -> imgui.internal.DockNode | None:
+    """Return the node, or the one around it, that is a child of `parent`."""
+    while node is not None and (node.parent_node is None or node.parent_node.id_ != parent.id_):
+        node = node.parent_node
+    return node
+
+
+def _side(
+    node: imgui.internal.DockNode | None, axis: imgui.internal.Axis
+) -> imgui.internal.DockNode | None:
+    """Return the node, or the one around it, that is next to (x), or above or below (y),
+    another.
+    """
+    while node is not None:
+        parent = node.parent_node
+        if parent is None or parent.split_axis == axis:
+            return node
+        node = parent
+    return None

@@ -1,0 +1,479 @@
+"""The camera: from pixels to rays, and the same rays as a rasterizer's matrices.
+
+Pixels are (i, j) = (row, column), 0-based, row 0 at the top. Sizes are (width, height).
+Matrices are float64 (4, 4) for column vectors, named destination_from_source.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from importlib import import_module
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from pyrr import matrix44
+
+from renderer.camera.checks import (
+    SMALLEST,
+    Floats,
+    Vector,
+    arrays_text,
+    check_basis,
+    check_clip,
+    check_projection,
+    check_viewport,
+    cross,
+    dot,
+    listed,
+    number,
+    numbers,
+    positive,
+    three,
+    volume,
+)
+from renderer.camera.intrinsics import (
+    Intrinsics,
+    as_camera_from_world,
+    camera_fields,
+    check_for_lens,
+    decomposed,
+)
+from renderer.camera.lenses import Lens, check_lens
+from renderer.images.frame import DISPLAY, check_size
+from renderer.system.errors import LucidaError, not_together
+
+Size = tuple[int, int]
+
+# The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
+# float32: with a nearer plane, the rest of a long triangle might be behind the eye.
+NEAREST = 1e-6
+LARGEST_KEPT = 1 << 21  # pixels of a lens's directions that are kept: 48 MB
+
+
+class Ray(NamedTuple):
+    """A half-line: r(t) = origin + t * direction, t > 0. The direction is not normalised."""
+
+    origin: Floats
+    direction: Floats
+
+    def __repr__(self) -> str:
+        return arrays_text(self)
+
+
+class Projected(NamedTuple):
+    """The positions of points in the image; see Camera.project."""
+
+    row: Floats
+    column: Floats
+    parameter: Floats
+
+    def __repr__(self) -> str:
+        return arrays_text(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """An eye, a basis, a viewport and a projection (the contract: README, "The camera").
+
+    eye: position, world units. u, v, w: right, up and back; any three independent vectors.
+    distance: from the eye to the viewport along -w, in units of w. viewport: (left, right,
+    bottom, top) in units of u and v. near, far: clip planes along -w in units of w, or None.
+    lens: None for a pinhole; a perspective camera may have one (renderer/camera/lenses.py). Raises
+    LucidaError naming the field, its value and the remedy.
+    """
+
+    eye: Vector = (0.0, 0.0, 0.0)
+    u: Vector = (1.0, 0.0, 0.0)
+    v: Vector = (0.0, 1.0, 0.0)
+    w: Vector = (0.0, 0.0, 1.0)
+    distance: float = 1.0
+    viewport: tuple[float, float, float, float] = (-0.5, 0.5, -0.5, 0.5)
+    projection: str = "perspective"
+    near: float | None = None
+    far: float | None = None
+    lens: Lens | None = None
+
+    def __post_init__(self) -> None:
+        for name, count in (("eye", 3), ("u", 3), ("v", 3), ("w", 3), ("viewport", 4)):
+            given = getattr(self, name)
+            if (checked := numbers(name, given, count)) is not given:
+                object.__setattr__(self, name, checked)
+        for name in ("distance", "near", "far"):
+            if name == "distance" or getattr(self, name) is not None:
+                object.__setattr__(self, name, number(name, getattr(self, name)))
+        check_projection(self.projection)
+        check_basis(self.u, self.v, self.w)
+        positive("distance", self.distance, "1.0")
+        check_viewport(self.viewport)
+        check_clip(self.near, self.far)
+        if self.lens is not None:
+            check_lens(self.lens, self.projection)
+
+    @classmethod
+    def canonical(cls) -> Camera:
+        """Return the lecture's camera: eye at the origin, looking down -z, a 1 x 1 viewport at d =
+        1.
+        """
+        return cls()
+
+    @classmethod
+    def look_at(
+        cls,
+        eye: Iterable[float],
+        target: Iterable[float],
+        up: Iterable[float] = (0.0, 1.0, 0.0),
+        fov_y_deg: float | None = None,
+        distance: float | None = None,
+        aspect: float = 1.0,
+        projection: str = "perspective",
+    ) -> Camera:
+        """Return an orthonormal camera at `eye`, looking at `target`, with `up` upwards in the
+        image.
+
+        Give the vertical field of view, or the distance of a viewport 1 high; with neither, the
+        distance is 1. aspect: the viewport's width over its height. Source: Marschner and Shirley,
+        Fundamentals of Computer Graphics, "Constructing a basis".
+        """
+        position, toward, upward = (
+            np.array(numbers(name, value, 3))
+            for name, value in (("eye", eye), ("target", target), ("up", up))
+        )
+        back = position - toward
+        if not np.linalg.norm(back) >= SMALLEST:
+            at = listed(toward)
+            raise LucidaError("target", f"{at} is the eye itself", "look at another point")
+        if not np.linalg.norm(upward) >= SMALLEST:
+            remedy = "give a vector such as (0, 1, 0)"
+            raise LucidaError("up", f"{listed(upward)} has no direction", remedy)
+        w = back / np.linalg.norm(back)
+        right = np.cross(upward / np.linalg.norm(upward), w)
+        if not np.linalg.norm(right) > 1e-8:
+            problem = f"{listed(upward)} is along the view direction"
+            raise LucidaError("up", problem, "choose another up")
+        u = right / np.linalg.norm(right)
+        if fov_y_deg is not None:
+            if distance is not None:
+                raise not_together("fov_y_deg", "distance")
+            fov = number("fov_y_deg", fov_y_deg)
+            if not 0 < fov < 180:
+                raise LucidaError("fov_y_deg", f"{fov:g} is not between 0 and 180", "give e.g. 40")
+            distance = 0.5 / math.tan(math.radians(fov) / 2)
+        aspect = positive("aspect", aspect, "width / height")
+        return cls(
+            three(position),
+            three(u),
+            three(np.cross(w, u)),
+            three(w),
+            1.0 if distance is None else distance,
+            (-aspect / 2, aspect / 2, -0.5, 0.5),
+            projection,
+        )
+
+    @classmethod
+    def from_intrinsics(
+        cls,
+        K: ArrayLike,
+        *,
+        size: Size,
+        world_from_camera: ArrayLike | None = None,
+        camera_from_world: ArrayLike | None = None,
+        axes: str = "opencv",
+        pixel_origin: str = "center",
+        lens: Lens | None = None,
+    ) -> Camera:
+        """Return the camera of computer vision: K (3, 3) in pixels and a pose (3, 4) or (4, 4).
+
+        Give one of the two poses; with neither, the camera is at the origin. size: (width, height)
+        of the image that K is for. axes: the pose's, "opencv" (y down, z forward) or "opengl" (y
+        up, z back); K's are always the image's. pixel_origin: integers are at the pixels' "center"
+        (OpenCV) or "corner" (COLMAP). lens: K then has no skew and no mirror. Raises LucidaError.
+        Source: renderer/camera/intrinsics.py.
+        """
+        if world_from_camera is not None:
+            if camera_from_world is not None:
+                raise not_together("world_from_camera", "camera_from_world")
+            camera_from_world = as_camera_from_world(world_from_camera)
+        pose = np.eye(4) if camera_from_world is None else camera_from_world
+        fields = camera_fields(K, pose, check_size(size), axes, pixel_origin)
+        if lens is not None:
+            check_for_lens(np.asarray(K, float))
+        return cls(**fields, lens=lens)
+
+    def _repr_html_(self) -> str:
+        html: str = import_module(DISPLAY).camera_html(self)
+        return html
+
+    @property
+    def is_parallel(self) -> bool:
+        return self.projection == "parallel"
+
+    @property
+    def basis(self) -> Floats:
+        """The matrix with columns u, v, w; (3, 3)."""
+        return np.column_stack([self.u, self.v, self.w])
+
+    @property
+    def determinant(self) -> float:
+        """The signed volume of the basis: negative for a left-handed one."""
+        return volume(self.u, self.v, self.w)
+
+    @property
+    def fov_x_deg(self) -> float:
+        """Horizontal field of view in degrees, between the viewport's left and right edges."""
+        return self._angle_deg(0)
+
+    @property
+    def fov_y_deg(self) -> float:
+        """Vertical field of view in degrees, between the viewport's bottom and top edges."""
+        return self._angle_deg(1)
+
+    def _angle_deg(self, axis: int) -> float:
+        """Return the angle between two edges of the viewport, on its line x = 0 or y = 0.
+
+        With a lens, it is summed up along the part of the line that the lens sees.
+        """
+        low, high = self.viewport[2 * axis : 2 * axis + 2]
+        if self.lens is None:  # plain Python: the window asks in each frame
+            along = tuple(zip((self.u, self.v)[axis], self.w, strict=True))
+            a, b = ([x * e - self.distance * back for e, back in along] for x in (low, high))
+            return math.degrees(math.atan2(math.hypot(*cross(a, b)), dot(a, b)))
+        points = np.zeros((2, 129))
+        ends = sorted((1 - 2 * axis) * end * self.distance for end in self.lens.ends(axis))
+        low, high = max(low, ends[0]), min(high, ends[1])
+        points[axis] = np.linspace(low, high, points.shape[1])
+        ways = self.direction(*points)
+        ways = ways[np.isfinite(ways[:, 0])]
+        one, other = ways[:-1], ways[1:]
+        sines = np.linalg.norm(np.cross(one, other), axis=-1)
+        return math.degrees(np.arctan2(sines, (one * other).sum(axis=-1)).sum())
+
+    @property
+    def t_range(self) -> tuple[float, float]:
+        """(t_min, t_max): near and far as ray parameters; (0, inf) if they are not set."""
+        unit = 1.0 if self.is_parallel else self.distance
+        near = 0.0 if self.near is None else self.near / unit
+        return near, math.inf if self.far is None else self.far / unit
+
+    @property
+    def pinhole(self) -> Camera:
+        """This camera without its lens."""
+        return self if self.lens is None else replace(self, lens=None)
+
+    # Pixels to rays.
+
+    def image_point(self, i: ArrayLike, j: ArrayLike, size: Size) -> tuple[Floats, Floats]:
+        """Return (x, y) on the image plane, in units of u and v, of the centre of pixel (i, j).
+
+        i, j: row and column, any shape, may be fractional. size: (width, height).
+        """
+        width, height = size
+        left, right, bottom, top = self.viewport
+        x = left + (np.asarray(j, float) + 0.5) / width * (right - left)
+        y = top - (np.asarray(i, float) + 0.5) / height * (top - bottom)
+        return x, y
+
+    def ray(self, i: ArrayLike, j: ArrayLike, size: Size) -> Ray:
+        """Return the viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3).
+
+        Outside of the lens, the direction is NaN.
+        """
+        x, y = np.broadcast_arrays(*self.image_point(i, j, size))
+        if self.is_parallel:
+            origin = np.asarray(self.eye) + self._across(x, y)
+            return Ray(origin, np.broadcast_to(-np.asarray(self.w), origin.shape))
+        direction = self.direction(x, y)
+        return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
+
+    def rays(self, size: Size) -> Ray:
+        """Return the rays of all pixels: origin and direction float64 (height, width, 3)."""
+        if self.lens is None:
+            return self.ray(np.arange(size[1])[:, None], np.arange(size[0]), size)
+        direction = self.lens_directions(size) @ self.basis.T
+        return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
+
+    def lens_directions(self, size: Size) -> Floats:
+        """Return the directions of all pixels' rays in units of u, v and w: read-only float64
+        (height, width, 3), NaN outside of the lens. They do not depend on eye and basis, and are
+        computed once, up to LARGEST_KEPT pixels. Only for a camera with a lens.
+        """
+        assert self.lens is not None
+        is_kept = size[0] * size[1] <= LARGEST_KEPT
+        compute = _lens_directions if is_kept else _lens_directions.__wrapped__
+        return compute(self.lens, self.viewport, self.distance, size)
+
+    def direction(self, x: ArrayLike, y: ArrayLike) -> Floats:
+        """Return the directions (..., 3) of the rays through points of the image plane, in
+        perspective; NaN outside of the lens.
+
+        x, y: in units of u and v, any shape.
+        """
+        x, y = np.asarray(x, float), np.asarray(y, float)
+        if self.lens is None:
+            return self._across(x, y) - self.distance * np.asarray(self.w)
+        return _through(self.lens, x, y, self.distance) @ self.basis.T
+
+    def _across(self, x: Floats, y: Floats) -> Floats:
+        across: Floats = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
+        return across
+
+    # Points to pixels.
+
+    def intrinsics(self, size: Size, pixel_origin: str = "center") -> Intrinsics:
+        """Return K, R and t for an image of this size.
+
+        A world point p is at the pixel (x, y) given by K (R p + t), divided by its third component.
+        K has a skew if u and v are not at right angles, and K[0, 0] < 0 if the basis is
+        left-handed. A lens is disregarded. pixel_origin: as in from_intrinsics(). Raises
+        LucidaError for a parallel camera.
+        """
+        if self.is_parallel:
+            problem = "'parallel' has no focal length"
+            raise LucidaError("projection", problem, "give a perspective camera")
+        width, height = check_size(size)
+        left, right, bottom, top = self.viewport
+        image = np.array(
+            [
+                [(right - left) / width, 0, left],
+                [0, (bottom - top) / height, top],
+                [0, 0, -self.distance],
+            ]
+        )
+        return decomposed(self.basis @ image, self.eye, pixel_origin)
+
+    def project(self, points: ArrayLike, size: Size) -> Projected:
+        """Return pixel coordinates and ray parameters of world points (..., 3): the inverse of
+        ray().
+
+        row and column are 0-based, with the pixels' centres at integers. In perspective they are
+        NaN for points that are not in front of the eye (parameter <= 0), or that the lens does not
+        see.
+        """
+        matrix = self.camera_from_world
+        x, y, z = np.moveaxis(np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3], -1, 0)
+        if self.is_parallel:
+            parameter = -z
+        elif self.lens is not None:
+            parameter = self.lens.length(x, -y, -z) / self.distance
+            a, b = self.lens.image_point(x, -y, -z)
+            x, y = a * self.distance, -b * self.distance
+        else:
+            parameter = -z / self.distance
+            ahead = np.where(parameter > 0, parameter, np.nan)
+            x, y = x / ahead, y / ahead
+        left, right, bottom, top = self.viewport
+        column = (x - left) / (right - left) * size[0] - 0.5
+        row = (top - y) / (top - bottom) * size[1] - 0.5
+        return Projected(row, column, parameter)
+
+    # Matrices for the rasterizer.
+
+    @property
+    def camera_from_world(self) -> Floats:
+        """The inverse of world_from_camera, read-only; not simply a transpose, since the basis may
+        be skewed.
+        """
+        return _camera_from_world(self.eye, self.u, self.v, self.w)
+
+    def clip_from_camera(self, near: float, far: float) -> Floats:
+        """Return the projection matrix of the viewport's frustum (perspective) or box (parallel).
+
+        It maps near to -1 and far to +1. near, far: distances along -w in units of w; 0 < near <
+        far in perspective.
+        """
+        # pyrr uses row vectors, so transpose.
+        if self.is_parallel:
+            return matrix44.create_orthogonal_projection(*self.viewport, near, far).T
+        edges = (edge * near / self.distance for edge in self.viewport)
+        return matrix44.create_perspective_projection_from_bounds(*edges, near, far).T
+
+    # Cameras derived from this one.
+
+    def orthonormalized(self) -> Camera:
+        """Return the camera with its basis orthonormalised by Gram-Schmidt.
+
+        w keeps its direction, and the basis its handedness.
+        """
+        w = np.asarray(self.w) / np.linalg.norm(self.w)
+        v = np.asarray(self.v) - (w @ self.v) * w
+        v /= np.linalg.norm(v)
+        u = np.asarray(self.u) - (w @ self.u) * w
+        u -= (v @ u) * v
+        u /= np.linalg.norm(u)
+        return replace(self, u=three(u), v=three(v), w=three(w))
+
+    def fitted(self, size: tuple[float, float]) -> Camera:
+        """Return this camera with its viewport enlarged about its centre, in one direction, to the
+        image's aspect ratio. Nothing inside the old viewport is lost.
+
+        size: (width, height). Raises LucidaError for an invalid one.
+        """
+        left, right, bottom, top = self.viewport
+        half_width, half_height = (right - left) / 2, (top - bottom) / 2
+        try:
+            width, height = (positive("size", side, 720) for side in size)
+        except (TypeError, ValueError):  # LucidaError is a ValueError
+            problem = f"{size!r} is not a width and a height"
+            raise LucidaError("size", problem, "give e.g. (1280, 720)") from None
+        aspect = width / height
+        x, y = (left + right) / 2, (bottom + top) / 2
+        dx, dy = max(half_width, half_height * aspect), max(half_height, half_width / aspect)
+        viewport = (x - dx, x + dx, y - dy, y + dy)
+        return replace(self, viewport=viewport)
+
+    def cropped(self, rows: tuple[int, int], size: Size) -> Camera:
+        """Return the camera of some rows of an image: from rows[0] up to, not including, rows[1].
+
+        Their pixels' rays are the same, to the rounding of the viewport's edges.
+        """
+        left, right, bottom, top = self.viewport
+        first, end = (top - row / size[1] * (top - bottom) for row in rows)
+        return replace(self, viewport=(left, right, end, first))
+
+    def shifted(self, rows: float, columns: float, size: Size) -> Camera:
+        """Return this camera shifted: it sees at pixel (i, j) what it saw at (i + rows, j +
+        columns). For several samples per pixel.
+        """
+        left, right, bottom, top = self.viewport
+        dx, dy = columns / size[0] * (right - left), -rows / size[1] * (top - bottom)
+        return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
+
+
+def _through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
+    """Return the directions, in units of u, v and w, of what points of the image plane show."""
+    right, down, ahead = lens.direction(x / distance, -y / distance)
+    return np.stack([right, -down, -ahead], axis=-1) * distance
+
+
+@lru_cache(maxsize=8)  # several views ask for the same camera's in a frame
+def _camera_from_world(eye: Vector, u: Vector, v: Vector, w: Vector) -> Floats:
+    linear = np.linalg.inv(np.array((u, v, w)).T)
+    matrix = np.zeros((4, 4))
+    matrix[:3, :3], matrix[:3, 3], matrix[3, 3] = linear, -linear @ eye, 1.0
+    matrix.flags.writeable = False
+    return matrix
+
+
+@lru_cache(maxsize=2)
+def _lens_directions(
+    lens: Lens, viewport: tuple[float, float, float, float], distance: float, size: Size
+) -> Floats:
+    camera = Camera(viewport=viewport, distance=distance)
+    x, y = camera.image_point(np.arange(size[1])[:, None], np.arange(size[0]), size)
+    directions = _through(lens, x, y, distance)
+    directions.flags.writeable = False
+    return directions
+
+
+def check_camera(camera: object) -> Camera:
+    """Return the camera. Raises LucidaError for anything else, such as a View, which needs an image
+    size to become a camera.
+    """
+    if isinstance(camera, Camera):
+        return camera
+    kind = type(camera).__name__
+    remedy = "give .for_size(size) of it" if hasattr(camera, "for_size") else "give a Camera"
+    raise LucidaError("camera", f"is of type {kind}, not a Camera", remedy)

@@ -1,0 +1,1 @@
+"""Raster against ray: where two images differ, and why."""

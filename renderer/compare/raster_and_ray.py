@@ -1,0 +1,310 @@
+"""Comparison of the two renderers' images: whether they agree, and if not, whether a line of the
+image explains it.
+
+This module defines parity: the tolerances, the causes and the errors. difference.py defines the
+differences, and their colours.
+
+Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below.
+why_different.py finds out whether a line of the image explains that they do not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera.camera import Camera
+from renderer.compare.why_black import hits_nothing, why_nothing_is_hit
+from renderer.compare.why_different import CAUSES, DEPTH_RELATIVE, NORMAL, Differing, explained
+from renderer.images.difference import (
+    CAUSE_COLORS,
+    SHADING_COLOR,
+    UNEXPLAINED_COLOR,
+    false_color,
+    most,
+    signed_difference,
+)
+from renderer.images.display import encode_srgb
+from renderer.images.frame import CHANNELS, Frame
+from renderer.images.pixels import ENLARGEMENT, Indexing, Pixel
+from renderer.images.shared_numbers import MUTED, SRGB_SLOPE
+from renderer.scene.flat import FlatScene, flatten
+from renderer.scene.model import Scene
+from renderer.scene.precision import check_precision
+
+COLOR = 2 / 255  # after the display transform
+
+# Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both with a
+# different colour, and no line explains it.
+AGREE, SHADING, UNEXPLAINED = 0, 254, 255
+MOST_EXAMINED = 1 << 20  # disagreeing pixels; more are not due to edges
+
+_NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a closer look
+
+
+@dataclass(frozen=True)
+class ChannelError:
+    """The differences of one channel over the whole image, in difference.py's units.
+
+    largest, rms: of the finite ones. infinite: the number of non-finite ones: hit in one image
+    only, or not a number. differing: the number beyond the tolerance. worst: (row, column) of the
+    largest one, infinite ones first.
+    """
+
+    largest: float
+    rms: float
+    infinite: int
+    differing: int
+    worst: Pixel
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Counts of pixels, the errors, and a label per pixel.
+
+    explained: pixels by cause, see why_different.py. unexplained: all others.
+    shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
+    among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
+    times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
+    that nothing was compared; empty if something is hit. outside: pixels outside of the lens, which
+    do not count.
+    """
+
+    size: tuple[int, int]
+    agree: int
+    explained: dict[str, int]
+    unexplained: int
+    shading: int
+    max_depth_error: float
+    max_normal_error: float
+    max_color_error: float
+    errors: dict[str, ChannelError]
+    times_s: dict[str, float]
+    labels: NDArray[np.uint8]
+    raster: Frame
+    ray: Frame
+    nothing_hit: str = ""
+    outside: int = 0
+
+    def __repr__(self) -> str:
+        counts = {"agree": self.agree} | self.explained | {"unexplained": self.unexplained}
+        told = ", ".join(f"{name} {count}" for name, count in counts.items() if count)
+        return f"Comparison({self.size[0]}x{self.size[1]} pixels: {told})"
+
+    @property
+    def pixels(self) -> int:
+        """The number of pixels that were compared."""
+        return self.size[0] * self.size[1] - self.outside
+
+    @property
+    def worst(self) -> Pixel:
+        """(row, column) of the largest colour difference."""
+        return self.errors["color"].worst
+
+    def to_dict(self, indexing: Indexing = Indexing.ARRAY) -> dict[str, object]:
+        """Return everything except the images, as plain numbers. indexing: the numbering of its
+        pixels.
+        """
+        return {
+            "size": list(self.size),
+            **{name: getattr(self, name) for name in _REPORTED},
+            "pixels_from": indexing.value,
+            "worst": list(indexing.numbers(self.worst)),
+            "errors": {
+                name: asdict(error) | {"worst": list(indexing.numbers(error.worst))}
+                for name, error in self.errors.items()
+            },
+            "nothing_hit": self.nothing_hit or None,
+            "times_s": dict(self.times_s),
+        }
+
+    def summary(self, indexing: Indexing = Indexing.ARRAY) -> str:
+        """Return a few lines for the command line. indexing: the numbering of its pixels."""
+        width, height = self.size
+        causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
+        color = self.errors["color"]
+        nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
+        return "\n".join(
+            [
+                *nothing,
+                f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
+                + (f"; {self.outside} are outside of the lens" if self.outside else ""),
+                f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
+                f"unexplained: {self.unexplained}"
+                + (f" ({self.shading} in the colour alone)" if self.shading else ""),
+                f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
+                f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
+                f"color everywhere: largest error {color.largest * 255:.1f}/255 "
+                f"at {indexing.words(self.worst)} ({indexing.told}), RMS {color.rms * 255:.3f}/255",
+                "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
+                    **{name: 1e3 * time for name, time in self.times_s.items()}
+                ),
+            ]
+        )
+
+    def summary_short(self) -> str:
+        """Return a summary for a status line."""
+        if self.unexplained:
+            return f"disagree: {_pixels(self.unexplained)}"
+        if self.nothing_hit:
+            return f"nothing is hit: {self.nothing_hit}"
+        edges = sum(self.explained.values())
+        if not edges:
+            return "agree: all pixels"
+        return f"agree: all but {_pixels(edges, 'edge ')}"
+
+    def difference_image(self) -> NDArray[np.uint8]:
+        """Return the raster image darkened, with differing pixels in their cause's colour
+        (difference.py) and unexplained ones in vermilion; uint8 (height, width, 3).
+        """
+        gray = MUTED * encode_srgb(self.raster.channel("color")).mean(axis=2, keepdims=True)
+        image = np.repeat((255 * gray).astype(np.uint8), 3, axis=2)
+        marked = self.labels != AGREE
+        image[marked] = LABEL_COLORS[self.labels[marked]]
+        return image
+
+    def false_color(
+        self, channel: str = "color", gain: float = 1.0, signed: bool = False
+    ) -> NDArray[np.uint8]:
+        """Return the difference of a channel as colours, uint8 (height, width, 3); see
+        difference.py.
+        """
+        difference = signed_difference(self.raster, self.ray, channel)
+        return false_color(difference, channel, gain, signed)
+
+
+_REPORTED = (
+    *("pixels", "outside", "agree", "explained", "unexplained", "shading"),
+    *("max_depth_error", "max_normal_error", "max_color_error"),
+)
+
+
+def _label_colors() -> NDArray[np.uint8]:
+    colors = np.zeros((256, 3), np.uint8)
+    for label, name in enumerate(CAUSES, start=1):
+        colors[label] = CAUSE_COLORS[name]
+    colors[SHADING], colors[UNEXPLAINED] = SHADING_COLOR, UNEXPLAINED_COLOR
+    return colors
+
+
+LABEL_COLORS = _label_colors()  # uint8 (256, 3), by label
+
+
+def compare(
+    scene: Scene,
+    camera: Camera,
+    size: tuple[int, int],
+    backend: str = "auto",
+    progress: Callable[[float], None] | None = None,
+    enlargement: int = ENLARGEMENT,
+) -> Comparison:
+    """Render the scene with both renderers and compare. progress is called with fractions 0 to 1.
+
+    enlargement: of a lens's faces, see Rasterizer.draw(). Raises LucidaError for a camera that sees
+    too little or too much for float32.
+    """
+    from renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
+    from renderer.trace import Tracer
+
+    flat = flatten(scene)
+    check_precision(camera, size, lambda: flat)
+    with Rasterizer(scene, backend=backend) as rasterizer:
+        raster = rasterizer.render(camera, size, channels=CHANNELS, enlargement=enlargement)
+    with Tracer(scene) as tracer:
+        ray = tracer.render(camera, size, channels=CHANNELS, progress=progress)
+    return compare_frames(flat, camera, size, raster, ray, enlargement=enlargement)
+
+
+def compare_frames(
+    flat: FlatScene,
+    camera: Camera,
+    size: tuple[int, int],
+    raster: Frame,
+    ray: Frame,
+    effects: bool = False,
+    enlargement: int | None = None,
+) -> Comparison:
+    """Compare two frames of the same view with all CHANNELS; size: (width, height).
+
+    effects: the ray image has shadows or mirrors, so that many colours differ. No line is searched
+    for pixels of which only the colour differs. enlargement: of the faces in which the
+    raster image of a lens was looked up; None if both images were made from the pixels' rays.
+    """
+    depth, normal, color = _differences(raster, ray)
+    same_hit = raster.channel("id") == ray.channel("id")
+    # Negated comparisons, so that NaN disagrees with everything.
+    same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
+    agree = same_hit & (color <= COLOR)
+    labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))
+    labels[same_hit & ~agree] = SHADING
+    i, j = np.nonzero(labels == UNEXPLAINED if effects else ~agree)
+    if 0 < len(i) <= MOST_EXAMINED:
+        causes = explained(flat, camera, size, Differing(raster, ray, i, j), enlargement)
+        labels[i, j] = np.where(causes == AGREE, labels[i, j], causes)
+    outside = 0
+    if camera.lens is not None:
+        beyond = np.isnan(camera.lens_directions(size)[..., 0])
+        outside = int(np.count_nonzero(beyond & agree))
+    counts = np.bincount(labels.ravel(), minlength=256)
+    return Comparison(
+        size=size,
+        agree=int(counts[AGREE]) - outside,
+        explained={name: int(counts[k]) for k, name in enumerate(CAUSES, start=1)},
+        unexplained=int(counts[UNEXPLAINED] + counts[SHADING]),
+        shading=int(counts[SHADING]),
+        max_depth_error=float(depth[agree].max(initial=0)),
+        max_normal_error=float(normal[agree].max(initial=0)),
+        max_color_error=float(color[agree].max(initial=0)),
+        errors={
+            "color": _channel_error(color, COLOR),
+            "depth": _channel_error(depth, DEPTH_RELATIVE),
+            "normal": _channel_error(normal, NORMAL),
+            "id": _channel_error(signed_difference(raster, ray, "id"), 0.0),
+        },
+        times_s={"raster": raster.time_s, "ray": ray.time_s},
+        labels=labels,
+        raster=raster,
+        ray=ray,
+        nothing_hit=why_nothing_is_hit(flat, camera).text if hits_nothing(raster, ray) else "",
+        outside=outside,
+    )
+
+
+def _differences(
+    raster: Frame, ray: Frame
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Return absolute differences of depth, normal and colour, float32 (height, width)."""
+    depth = np.abs(signed_difference(raster, ray, "depth"))
+    normal = np.abs(signed_difference(raster, ray, "normal"))
+    color_a, color_b = raster.channel("color"), ray.channel("color")
+    with np.errstate(invalid="ignore"):
+        color = np.abs(most(color_b - color_a)) * np.float32(SRGB_SLOPE)
+    # The display transform is costly and shrinks most differences: use it only where needed.
+    near = color > _NEGLIGIBLE
+    color[near] = np.abs(most(encode_srgb(color_b[near]) - encode_srgb(color_a[near])))
+    return depth, normal, color
+
+
+def _channel_error(difference: NDArray[np.float32], tolerance: float) -> ChannelError:
+    """Return the errors of a channel. difference: absolute, (height, width)."""
+    finite = np.isfinite(difference)
+    infinite = difference.size - int(np.count_nonzero(finite))
+    values = difference if not infinite else difference[finite]
+    squares = float(np.square(values, dtype=np.float64).mean()) if values.size else 0.0
+    # argmax treats NaN as the largest.
+    row, column = np.unravel_index(int(np.argmax(difference)), difference.shape)
+    return ChannelError(
+        largest=float(values.max(initial=0)),
+        rms=math.sqrt(squares),
+        infinite=infinite,
+        differing=int(np.count_nonzero(~(difference <= tolerance))),
+        worst=(int(row), int(column)),
+    )
+
+
+def _pixels(count: int, kind: str = "") -> str:
+    return f"{count} {kind}pixel{'' if count == 1 else 's'}"

@@ -1,0 +1,71 @@
+"""Editing scenes: each function takes a scene and returns another one; see changing.py.
+
+    changing    a single change: items (objects and lights by their keys), fields, rebuilding
+    outline     the contents of a scene, as a list
+    objects     add, delete, duplicate, rename, hide
+    moving      conversion between matrices and the file's numbers, for handles
+    materials   change the objects' materials
+    documents   saved and unsaved: the file that a scene belongs to
+
+A scene is an immutable value: edits return a new one, and undo keeps the old one.
+"""
+
+from renderer.editing.changing import (
+    Item,
+    as_tables,
+    fields_of,
+    ids_of,
+    item_of,
+    present,
+    set_field,
+    set_scene_field,
+    table_of,
+)
+from renderer.editing.documents import ChangedOnDiskError, file_of, is_unsaved, save, suggested_file
+from renderer.editing.materials import set_material, set_single_sided
+from renderer.editing.moving import bounds_of, matrix_of, transform
+from renderer.editing.objects import (
+    LIGHTS,
+    SHAPES,
+    add,
+    delete,
+    duplicate,
+    hide,
+    model_table,
+    new_table,
+    rename,
+)
+from renderer.editing.outline import OutlineRow, outline
+
+__all__ = [
+    "LIGHTS",
+    "SHAPES",
+    "ChangedOnDiskError",
+    "Item",
+    "OutlineRow",
+    "add",
+    "as_tables",
+    "bounds_of",
+    "delete",
+    "duplicate",
+    "fields_of",
+    "file_of",
+    "hide",
+    "ids_of",
+    "is_unsaved",
+    "item_of",
+    "matrix_of",
+    "model_table",
+    "new_table",
+    "outline",
+    "present",
+    "rename",
+    "save",
+    "set_field",
+    "set_material",
+    "set_scene_field",
+    "set_single_sided",
+    "suggested_file",
+    "table_of",
+    "transform",
+]

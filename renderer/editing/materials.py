@@ -1,0 +1,68 @@
+"""Change the materials of objects.
+
+An object that is changed gets a material of its own: the scene file shares a material between
+several objects by its name.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from typing import Any
+
+from renderer.editing.changing import (
+    Item,
+    as_tables,
+    entry_of,
+    find,
+    listed,
+    origin_of,
+    set_field,
+    with_listed,
+)
+from renderer.files.saving import material_table
+from renderer.scene.model import Scene
+
+
+def set_material(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Scene:
+    """Return the scene with one field of the items' materials changed, such as "diffuse" or
+    "checker.size".
+
+    value: as in set_field(). The items get materials of their own; all parts of a model get the
+    same one. Raises LucidaError.
+    """
+    return set_field(own_material(scene, items), items, f"material.{field}", value)
+
+
+def set_single_sided(scene: Scene, items: Sequence[Item], value: bool) -> Scene:
+    """Return the scene with the items' backs hidden or visible.
+
+    A model's own materials stay unchanged: its object has a switch for all of them.
+    """
+    scene = as_tables(scene)
+    models = [item for item in items if entry_of(scene, item).table["type"] == "model"]
+    others = [item for item in items if item not in models]
+    if models:
+        scene = set_field(scene, models, "single_sided", value)
+    if others:
+        scene = set_material(scene, others, "single_sided", value or None)
+    return scene
+
+
+def own_material(scene: Scene, items: Sequence[Item]) -> Scene:
+    """Return the scene with the items' own materials, equal to their present ones."""
+    scene = as_tables(scene)
+    origin, all_tables = origin_of(scene)
+    tables = list(listed(scene, "objects"))
+    for item in items:
+        entry = entry_of(scene, item)
+        own = entry.table.get("material")
+        if isinstance(own, dict):
+            continue
+        if isinstance(own, str):
+            own = all_tables["materials"][own]
+        elif entry.table["type"] == "model":  # the first part's
+            own = material_table(entry.objects[0].material, origin.folder)
+        number = find(scene, item)[1]
+        tables[number] = {**tables[number], "material": copy.deepcopy(own or {})}
+    return with_listed(scene, {"objects": tables})

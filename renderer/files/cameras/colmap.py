@@ -1,0 +1,198 @@
+"""COLMAP's models: a folder of cameras, images and points, as text or binary files.
+
+K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
+forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
+ignored. This module writes text files, without points.
+Source: COLMAP's documentation, "Output Format".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from os.path import isdir, isfile  # unlike Path's methods, they never raise
+from pathlib import Path, PureWindowsPath
+from typing import TypeVar
+
+import numpy as np
+
+from renderer.camera.camera import Camera, Size
+from renderer.camera.intrinsics import viewport_of
+from renderer.files.cameras import colmap_binary, colmap_lenses, colmap_text
+from renderer.files.cameras.colmap_lenses import model_for
+from renderer.files.cameras.distortion import lens_of
+from renderer.files.cameras.entries import in_image
+from renderer.files.cameras.given import Given, Options
+from renderer.files.cameras.posed import CameraSet, PosedCamera
+from renderer.files.cameras.rigid import pinhole
+from renderer.files.cameras.rotations import quaternion_of, rotation_of
+from renderer.files.reading import naming, read_file
+from renderer.images.frame import check_size
+from renderer.system.errors import LucidaError, under
+
+LENSES = frozenset(colmap_lenses.LENSES.values())
+FILES = ("cameras", "images", "points3D")
+MORE_FILES = ("rigs", "frames")
+LARGEST_FILE_BYTES = 1 << 30
+BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder keeps its model
+FOLDERS_UP = 3  # from the model to the folder that holds images/
+_Content = TypeVar("_Content")
+_READERS = {
+    ".bin": (colmap_binary.cameras, colmap_binary.images, colmap_binary.points),
+    ".txt": (colmap_text.cameras, colmap_text.images, colmap_text.points),
+}
+
+
+def recognises(given: Given) -> bool:
+    return _model(given) is not None
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    model = _model(given)
+    if model is None:
+        problem = "has no cameras and images of COLMAP, .bin or .txt"
+        raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
+    folder, kind = model
+    for name in ("cameras", "images"):
+        if not isfile(folder / f"{name}{kind}"):
+            problem = f"has no {name}{kind}, which a model of COLMAP needs"
+            raise LucidaError("", problem, "copy it there", str(folder))
+    read_lenses, read_images, read_points = _READERS[kind]
+    lenses = _read(folder / f"cameras{kind}", read_lenses)
+    images = _read(folder / f"images{kind}", read_images)
+    points = folder / f"points3D{kind}"
+    # COLMAP's guide makes an empty points3D.txt for known poses.
+    has_points = isfile(points) and (kind == ".bin" or points.stat().st_size)
+    cloud = _read(points, read_points) if has_points else (None, None)
+    origin = options.pixel_origin or "corner"
+    optics = {}
+    for number, found in lenses.items():
+        (fx, _, cx), (_, fy, cy), _ = found.matrix.tolist()
+        viewport = viewport_of(fx, fy, cx, cy, check_size(found.size), origin)
+        optics[number] = viewport, lens_of(found.model, found.coefficients, options)
+    photographs = _photographs(folder)
+    poses = rotation_of(np.array([image.quaternion for image in images]).reshape(-1, 4))
+    moved = np.array([image.translation for image in images]).reshape(-1, 3, 1)
+    eyes = -(poses.swapaxes(1, 2) @ moved)[..., 0]
+    bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # y down and z forward become up and back
+    posed = []
+    for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
+        with naming(folder / f"images{kind}"), under(image.where, ": "):
+            if image.camera not in lenses:
+                problem = f"{image.camera} is not in cameras{kind}"
+                raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
+            u, v, w = basis
+            viewport, (lens, ignored) = optics[image.camera]
+            camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
+        photograph = _photograph(photographs, image.name)
+        size = lenses[image.camera].size
+        posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
+    others = [] if folder == given.path else _other_models(folder, kind)
+    taken = (
+        f"the {kind} files in {folder}",
+        "camera from world, y down, z forward",
+        "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
+    )
+    unseen = sorted(lenses.keys() - {image.camera for image in images})
+    notes = (
+        *(f"camera {number} is not used: no image has it" for number in unseen),
+        *(f"{other} is another model: give its folder to see it" for other in others),
+    )
+    return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
+
+
+def _other_models(folder: Path, kind: str) -> list[Path]:
+    """Return the models next to one: COLMAP numbers those that it could not connect."""
+    beside = sorted(folder.parent.glob("[0-9]*"))
+    return [other for other in beside if other != folder and isfile(other / f"images{kind}")]
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    lenses: dict[str, int] = {}  # ids by the text of their line
+    lines, names = [], set()
+    for number, posed in enumerate(cameras, 1):
+        name = posed.name or f"image_{number:04}.png"
+        with under(name):
+            if len(name.split()) != 1 or name in names or not name.isprintable():
+                fault = "is given twice" if name in names else "is no single word"
+                raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")
+            camera, size = in_image(posed, options, "COLMAP")
+            lens, pose = _lines_of(camera, size)
+        names.add(name)
+        lens_number = lenses.setdefault(lens, len(lenses) + 1)
+        lines.append(f"{number} {pose} {lens_number} {name}\n\n")
+    lens_lines = [f"{number} {lens}\n" for lens, number in lenses.items()]
+    counts = f"# Number of cameras: {len(lenses)}\n", f"# Number of images: {len(lines)}\n"
+    texts = {
+        "cameras.txt": (_CAMERAS_HEAD, counts[0], *lens_lines),
+        "images.txt": (_IMAGES_HEAD, counts[1], *lines),
+        "points3D.txt": (_POINTS_HEAD,),
+    }
+    return {name: "".join(parts).encode() for name, parts in texts.items()}
+
+
+_CAMERAS_HEAD = """\
+# Camera list with one line of data per camera:
+#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
+"""
+_IMAGES_HEAD = """\
+# Image list with two lines of data per image:
+#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
+#   POINTS2D[] as (X, Y, POINT3D_ID)
+"""
+_POINTS_HEAD = """\
+# 3D point list with one line of data per point:
+#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
+# Number of points: 0
+"""
+
+
+def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
+    """Return a camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
+    camera, focal = pinhole(camera, size, "COLMAP")
+    model, params = model_for(camera.lens, focal, size)
+    rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
+    pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
+    lens = " ".join([model, *map(str, size), *(f"{value:.15g}" for value in params)])
+    return lens, " ".join(map(repr, pose))
+
+
+def _model(given: Given) -> tuple[Path, str] | None:
+    """Return the folder of the model, and its files' ending; None if there is no model.
+
+    If a file was given, the ending is its own. Otherwise binary files have priority, as in COLMAP.
+    """
+    if given.path is None:
+        return None
+    if not given.is_folder:
+        kind = given.ending
+        known = given.path.stem in FILES + MORE_FILES and kind in _READERS
+        folder = given.path.parent
+        return (folder, kind) if known and isfile(folder / f"cameras{kind}") else None
+    for wanted in (all, any):  # if none is complete, one that lacks a file
+        for below in BELOW:
+            folder = given.path / below
+            for kind in _READERS:
+                if wanted(isfile(folder / f"{name}{kind}") for name in ("cameras", "images")):
+                    return folder, kind
+    return None
+
+
+def _read(path: Path, reader: Callable[[bytes], _Content]) -> _Content:
+    with naming(path):
+        return reader(read_file(path, LARGEST_FILE_BYTES))
+
+
+def _photographs(folder: Path) -> str | None:
+    """Return the folder of the photographs: the nearest one that is named images."""
+    above = [folder, *folder.absolute().parents][: FOLDERS_UP + 1]
+    return next((str(up / "images") for up in above if isdir(up / "images")), None)
+
+
+def _photograph(photographs: str | None, name: str) -> str:
+    """Return the path of a photograph; "" for a name that leads out of their folder."""
+    if photographs is None:
+        return ""
+    path = PureWindowsPath(name)  # accepts both slashes
+    if path.anchor or ".." in path.parts:
+        return ""
+    return "/".join([photographs, *path.parts])

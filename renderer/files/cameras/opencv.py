@@ -1,0 +1,290 @@
+"""Calibration files of OpenCV's family: OpenCV, ROS, ORB-SLAM, stella_vslam, VINS, Kalibr, and K, R
+and t as they are printed.
+
+storage.py parses the notations, opencv_keys.py knows the names.
+Source: OpenCV's documentation, "Camera calibration and 3D reconstruction".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from renderer.camera.camera import Camera, Size
+from renderer.camera.checks import Floats
+from renderer.camera.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
+from renderer.camera.lenses import Lens
+from renderer.files.cameras.entries import (
+    ORIGIN_TOLD,
+    affine,
+    flat,
+    in_image,
+    is_rotation,
+    number_of,
+    side_of,
+    single,
+    size_of,
+)
+from renderer.files.cameras.given import Given, Options
+from renderer.files.cameras.literals import NAME
+from renderer.files.cameras.opencv_keys import Keys, are_cameras, bare, cameras_in
+from renderer.files.cameras.opencv_lens import lens_in, lens_table
+from renderer.files.cameras.posed import CameraSet, PosedCamera
+from renderer.files.cameras.rigid import rigid
+from renderer.files.cameras.rotations import from_vector, to_vector
+from renderer.files.cameras.storage import MOST_BYTES, Table, is_ini, table_in, to_json, to_yaml
+from renderer.files.cameras.unused import entries_of, numbers_in
+from renderer.system.errors import LucidaError
+
+LENSES = ("brown", "fisheye", "equidistant")
+_FOCAL = ("fx", "fy", "cx", "cy")
+_NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
+# A matrix without a name in pasted text: its meaning is unknown.
+_NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
+_AGREE = 1e-4  # tolerance between poses, if a file has several for a camera
+
+_NO_POSE = 1e-9  # a smaller pose is rounding
+
+_Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
+_Entry = tuple[str, Any] | None  # a key of the file, and its value
+
+
+def recognises(given: Given) -> bool:
+    if len(given.data) > MOST_BYTES:
+        return given.ending in (".yml", ".yaml")  # read() checks the size
+    if isinstance(given.json, dict):
+        entries = entries_of(given.json)
+        names = [name for name, x in entries if isinstance(x, dict) or numbers_in(x).size]
+    elif given.is_text:
+        if "<opencv_storage" in given.text or is_ini(given.text):
+            return True
+        if given.path is None and _NAMELESS.search(given.text):
+            return False
+        names = _NAMED.findall(given.text)
+    else:
+        return False
+    return are_cameras({bare(name.rpartition(".")[2]) for name in names})
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    origin = options.pixel_origin or _origin_told(given)
+    return read_table(table_in(given), options, origin)
+
+
+def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet:
+    """Return the cameras of a table with any of the names in opencv_keys.py. Raises LucidaError."""
+    cameras: list[PosedCamera] = []
+    taken: dict[str, None] = {}
+    notes: dict[str, None] = {}
+    pose = np.eye(4)
+    found, unused = cameras_in(table)
+    for name, keys in found.items():
+        lens, ignored = lens_in(keys, options)
+        intrinsics = _intrinsics(keys)
+        size, sizing = _size(keys, intrinsics[1], options, origin)
+        poses, told = _poses(keys, pose)
+        pose = poses[0][1]
+        name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
+        for called, pose_of_one in poses:
+            camera = _camera(intrinsics, (called, pose_of_one), size, origin, lens)
+            own = name if len(poses) == 1 else called
+            cameras.append(PosedCamera(camera, size, own, ignored=ignored))
+        taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
+        if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
+            taken["R is no rotation, and held as it is"] = None
+        notes |= dict.fromkeys([sizing] if sizing else [])
+    notes |= dict.fromkeys(unused)
+    return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    camera, size = in_image(single(cameras, "a file of OpenCV"), options, "OpenCV")
+    if camera.lens is not None:
+        camera = rigid(camera, "OpenCV", size)
+    origin = options.pixel_origin or "center"
+    K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
+    notes = [
+        "A world point p is seen at the pixel K (R p + t), divided by its third part:",
+        f"x to the right, y down, z forward; {ORIGIN_TOLD[origin]}.",
+    ]
+    table: Table = {
+        "image_width": size[0],
+        "image_height": size[1],
+        "camera_matrix": K,
+        **lens_table(camera.lens),
+        "R": R,
+        "t": t[:, None],
+        "rvec": to_vector(R)[:, None],
+    }
+    if options.ending == ".json":
+        return {"": to_json({"conventions": " ".join(notes)} | table).encode()}
+    return {"": to_yaml(table, notes).encode()}
+
+
+def _origin_told(given: Given) -> PixelOrigin:
+    """Return the pixel origin that a file written by Lucida states; else OpenCV's own."""
+    return "corner" if ORIGIN_TOLD["corner"] in given.text else "center"
+
+
+def _intrinsics(keys: Keys) -> tuple[str, Floats]:
+    """Return the name of K, and K itself."""
+    if "K" in keys:
+        name, value = keys["K"]
+        numbers = flat(name, value, 9, 4)
+        return name, _focal(*numbers) if numbers.size == 4 else numbers.reshape(3, 3)
+    if "fx" in keys:
+        for part in _FOCAL:
+            if part not in keys:
+                raise LucidaError(part, "is missing", "give fx, fy, cx and cy")
+        K = _focal(*(number_of(*keys[part]) for part in _FOCAL))
+        if "skew" in keys:
+            K[0, 1] = number_of(*keys["skew"])
+        return keys["fx"][0], K
+    if "P" in keys:
+        return keys["P"][0], _projected(*keys["P"])[0]
+    raise LucidaError("camera_matrix", "is missing", "give it, K, or fx, fy, cx and cy")
+
+
+def _projected(name: str, value: ArrayLike) -> tuple[Floats, Floats]:
+    """Return K and the pose of a projection matrix."""
+    P = flat(name, value, 12).reshape(3, 4)
+    with np.errstate(all="ignore"):
+        try:
+            inverse = np.linalg.inv(P[:, :3])
+        except np.linalg.LinAlgError:
+            raise LucidaError(name, "has no inverse", "give K [R | t]") from None
+        sign = np.sign(np.linalg.det(inverse))  # the sign of P is arbitrary
+        K, R, t = decomposed(sign * inverse, -inverse @ P[:, 3], "corner")
+    return K, _rigid(R, t)
+
+
+def _focal(fx: float, fy: float, cx: float, cy: float) -> Floats:
+    return np.array([[fx, 0.0, cx], [0, fy, cy], [0, 0, 1]])
+
+
+def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, str]:
+    """Return the image's size, and its origin in words if the file does not state it."""
+    if "size" in keys:
+        name, value = keys["size"]
+        width, height = flat(name, value, 2).tolist()
+        return size_of(name, width, height), ""
+    wide, high = keys.get("width"), keys.get("height")
+    if wide and high:
+        return size_of(wide[0], side_of(*wide), side_of(*high)), ""
+    if wide or high:
+        missing = "image_height" if wide else "image_width"
+        raise LucidaError(missing, "is missing", "give both, or neither and --size WxH")
+    if options.size:
+        return options.size, ""
+    with np.errstate(all="ignore"):
+        middle = 2 * (K[:2, 2] / K[2, 2] + pixel_offset(origin))
+    if not ((middle > 0.5) & (middle < 1e9)).all():
+        raise LucidaError("image_width", "is missing", "give the image's size, or --size WxH")
+    size = size_of("image_width", *(float(np.round(side)) for side in middle))
+    told = f"no image size is given: {size[0]} x {size[1]}, whose middle is the principal point"
+    return size, told
+
+
+def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str]:
+    """Return the poses of a camera, and their origin in words.
+
+    previous: the pose of the camera before it. Raises LucidaError for two poses that disagree.
+    """
+    for role in ("from previous", "to previous"):
+        if found := keys.get(role):
+            change = affine(*found)
+            if role == "to previous":
+                change = as_camera_from_world(change)
+            return [(found[0], change @ previous)], f"{found[0]} places it at the camera before it"
+    poses = list(_single_poses(keys))
+    if found := keys.get("views"):
+        numbers = flat(*found)
+        if not numbers.size or numbers.size % 6:
+            problem = f"has {numbers.size} numbers"
+            raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
+        if poses:
+            raise _disagreeing(poses[0][0], found[0])
+        rows = numbers.reshape(-1, 6)
+        views = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
+        return views, f"{found[0]}: rvec and tvec of each picture of the calibration"
+    if not poses:
+        return [("", np.eye(4))], "no pose: the camera stands at the origin"
+    first, pose, told = poses[0]
+    for name, other, _ in poses[1:]:
+        if np.abs(other - pose).max() > _AGREE * max(1.0, np.abs(pose).max()):
+            raise _disagreeing(name, first)
+    return [(first, pose)], told
+
+
+def _disagreeing(name: str, other: str) -> LucidaError:
+    return LucidaError(name, f"is another pose than {other}", "give one of the two")
+
+
+def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
+    """Yield the name of each pose that a camera has, camera_from_world, and its origin in words."""
+    if found := keys.get("from world"):
+        yield found[0], affine(*found), f"{found[0]} takes world points to the camera"
+    if found := keys.get("to world"):
+        pose = as_camera_from_world(affine(*found))
+        yield found[0], pose, f"{found[0]} takes the camera's points to the world"
+    if {"R to world", "t to world"} & keys.keys():
+        what = "take the camera's points to the world"
+        name, pose, told = _parts(keys.get("R to world"), None, keys.get("t to world"), what)
+        yield name, as_camera_from_world(pose), told
+    turned, moved, rectified = keys.get("R"), keys.get("t"), keys.get("rectification")
+    has_K, in_pair = not {"K", "fx"}.isdisjoint(keys), np.eye(4)
+    if (found := keys.get("P")) and not (has_K and not numbers_in(found[1]).any()):
+        pose = _projected(*found)[1]
+        if has_K and not moved and np.allclose(pose[:3, :3], np.eye(3), rtol=0, atol=_AGREE):
+            # ROS: R rotates into the rectified image, which P is for.
+            in_pair, rectified, turned = pose, rectified or turned, None
+        else:
+            yield found[0], pose, f"K, R and t out of {found[0]}"
+    if rectified:
+        R = flat(*rectified, 9).reshape(3, 3)
+        in_pair = as_camera_from_world(_rigid(R, np.zeros(3))) @ in_pair
+    if not np.allclose(in_pair, np.eye(4), rtol=0, atol=_NO_POSE):
+        names = " and ".join(entry[0] for entry in (rectified, found) if entry)
+        yield names, in_pair, f"{names}: the world is the frame of the rectified images"
+    if turned or moved or "rvec" in keys:
+        yield _parts(turned, keys.get("rvec"), moved, "take world points to the camera")
+
+
+def _parts(turned: _Entry, vector: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
+    """Return the name, the matrix and the origin in words of a rotation and a translation."""
+    R = np.eye(3)
+    if turned:
+        numbers = flat(*turned, 9, 3)
+        R = numbers.reshape(3, 3) if numbers.size == 9 else from_vector(numbers)
+    if vector:
+        other = from_vector(flat(*vector, 3))
+        if turned and np.abs(other - R).max() > _AGREE:
+            problem = f"is another rotation than {turned[0]}"
+            raise LucidaError(vector[0], problem, "give one of the two")
+        R = R if turned else other
+    t = flat(*moved, 3) if moved else np.zeros(3)
+    used = [entry[0] for entry in (turned or vector, moved) if entry]
+    lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"
+    return used[0], _rigid(R, t), f"{' and '.join(used)} {what}{lacking}"
+
+
+def _rigid(R: Floats, t: Floats) -> Floats:
+    return np.vstack([np.column_stack([R, t]), [0, 0, 0, 1]])
+
+
+def _camera(
+    intrinsics: tuple[str, Floats], pose: _Pose, size: Size, origin: str, lens: Lens | None
+) -> Camera:
+    """Return the camera. Errors use the file's names for K and the pose."""
+    try:
+        return Camera.from_intrinsics(
+            intrinsics[1], size=size, camera_from_world=pose[1], pixel_origin=origin, lens=lens
+        )
+    except LucidaError as error:
+        fields = {"K": intrinsics[0], "camera_from_world": pose[0]}
+        field = fields.get(error.field, error.field)
+        raise LucidaError(field, error.problem, error.remedy) from None

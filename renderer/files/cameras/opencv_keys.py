@@ -1,0 +1,162 @@
+"""The key names of calibration files in OpenCV's family, in one table for all of its programs.
+
+A file's keys become roles, for each of its cameras. Sources: OpenCV's samples calibration.cpp and
+stereo_calib.cpp; ROS's CameraInfo and camera_calibration_parsers; ORB-SLAM3's
+Calibration_Tutorial; stella_vslam's configurations; VINS-Fusion's configurations; Kalibr's wiki,
+"Yaml formats".
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+
+from renderer.files.cameras.distortion import NAMES
+from renderer.files.cameras.storage import Table
+from renderer.files.cameras.unused import entries_of, notes_on, numbers_in, plain
+from renderer.system.errors import LucidaError
+
+Keys = dict[str, tuple[str, Any]]  # by role: the file's name for it, and its value
+
+# Roles, and the names that programs use, in lower case, letters and digits only. A name inside a
+# table counts with the table's name and without it: "Camera.type" is "cameratype".
+_NAMES = {
+    "K": "cameramatrix k intrinsics intrinsic intrinsicmatrix mtx",
+    "P": "projectionmatrix p",
+    **{"fx": "fx mu gamma1", "fy": "fy mv gamma2", "cx": "cx u0", "cy": "cy v0", "skew": "skew"},
+    "size": "imagesize size resolution",
+    "width": "imagewidth width w cameracols",
+    "height": "imageheight height h camerarows",
+    "R": "r rotation rotationmatrix",
+    "rectification": "rectificationmatrix rectification",
+    "rvec": "rvec rodrigues rotationvector",
+    "t": "t tvec translation translationvector",
+    "from world": "extrinsics extrinsic extrinsicmatrix rt camerafromworld worldtocamera world2cam "
+    "w2c tcamimu",
+    # The world may be a robot's or an IMU's frame.
+    "to world": "worldfromcamera cameratoworld cam2world c2w tbs tbc timucam bodytcam0 imutbc1",
+    "R to world": "extrinsicrotation",
+    "t to world": "extrinsictranslation",
+    "from previous": "tcncnm1",
+    "to previous": "stereotc1c2 tlr",  # in ORB-SLAM3, of the second camera
+    "views": "extrinsicparameters",  # of a calibration's pictures: rvec and tvec, one row each
+    "lens": "distortioncoefficients distortioncoefficient distortioncoeffs distortioncoeff "
+    "distortioncoefs distortionparameters distortionparams distortionvector distcoeffs distcoeff "
+    "distcoefs distcoef distortion dist d",
+    "lens model": "distortionmodel distortiontype lensmodel projectionmodel",
+    "fisheye": "fisheyemodel isfisheye",
+    "camera model": "cameramodel cameratype modeltype model",
+    "mirror": "xi",
+    "name": "cameraname",
+    **{name: name.lower() for name in (*NAMES, "omega")},
+}
+_ROLES = {name: role for role, names in _NAMES.items() for name in names.split()}
+_NUMBERS = (*NAMES, "omega", "mirror", "width", "height")  # roles of single numbers
+_CAMERA = re.compile(r"[Cc]am(?:era)?\d*")  # a table, or a prefix, of one camera
+# Tables that are parts of a camera's.
+_PART = re.compile(
+    r"(?:^|\.)(?:(?:projection|distortion|mirror)_parameters|intrinsics?|extrinsics?|distortion|"
+    r"resolution|image_size|pose)$"
+)
+_INTRINSIC = {"K", "P", "fx"}
+_SIZES = {"size", "width", "height"}
+_STEREO = re.compile(
+    r"(?:(m|k|cameramatrix|intrinsicmatrix)|d|distcoeffs|distortioncoefficients)([12])"
+)
+_SIDES = {"1": "left", "2": "right"}
+_OF_FIRST = {"to world", "R to world", "t to world"}  # poses of the first of several cameras
+_HARMLESS = """
+r1 r2 p1 p2 q e f validpixroi* *points nrofframes nframes calibrationtime calibrationdate
+conventions board* *pattern* square* marker* flags *aspect* *reprojection* *rms* *err calibrat*
+write* show* input* *fps *rgb thdepth *.thdepth depthmapfactor *.depthmapfactor orbextractor.*
+viewer.* initializer.* tracking.* mapping.* mapper.* preprocessing.* pangolinviewer.* *publisher.*
+feature.* keyframe* loop* relocalizer.* system.* file.version camera.setup *colororder sensortype
+comment ratehz *topic* camoverlaps timeshiftcamimu header.* imu imu.freq* imu.insert* imu.rate
+estimate* output* max* min* freq* fthreshold equalize *noise* *walk* acc? gyr? gnorm td
+rollingshutter* solver* load* save* posegraph* numofcam cam?calib
+"""
+_MEANINGS = {
+    "*bf": "the stereo baseline times fx; only this camera is shown",
+    "*baseline*": "the stereo baseline; only this camera is shown",
+    "stereo.b": "the stereo baseline; only this camera is shown",
+    "*roi*": "the part of the sensor that was read; the whole image's camera is shown",
+    "binning*": "the pixels that were merged; the whole image's camera is shown",
+    "*new*width": "the size that the program scales images to; the calibrated size is shown",
+    "*new*height": "the size that the program scales images to; the calibrated size is shown",
+}
+
+
+def are_cameras(names: set[str]) -> bool:
+    """Return True if a file with these names, without their tables', must hold a camera."""
+    roles = {_ROLES.get(name) for name in names}
+    pairs = {"m1", "m2"}, {"k1", "k2", "d1", "d2"}, {"cameramatrix1", "cameramatrix2"}
+    is_stereo = any(names >= pair for pair in pairs)
+    return is_stereo or not roles.isdisjoint({"K", "P"}) or roles >= {"fx", "fy"}
+
+
+def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
+    """Return the keys of each camera, by its name, "" for one without; and notes on unused keys.
+
+    Raises LucidaError for an unused key that matters, and for two keys that disagree.
+    """
+    entries, tables = list(entries_of(table)), dict[str, set[str]]()
+    for name, _ in entries:
+        tables.setdefault(_owner(name), set()).add(bare(name.rpartition(".")[2]))
+    cameras: dict[str, Keys] = {"": {}}
+    unused = []
+    for name, value in entries:
+        head, _, last = name.rpartition(".")
+        owner, last = _owner(name), bare(last)
+        role = _ROLES.get(bare(name))
+        side = _STEREO.fullmatch(last)
+        if side and np.size(value) > 1:
+            owner, role = _SIDES[side[2]], "K" if side[1] else "lens"
+        elif role == "to previous":
+            owner = "Camera2"
+        elif not owner or _CAMERA.fullmatch(owner) or are_cameras(tables[owner]):
+            role = role or _ROLES.get(last)
+        else:
+            owner = ""
+        if head == "projection_parameters" and last in ("k2", "k3", "k4", "k5"):
+            role = f"k{int(last[1]) - 1}"  # Kannala and Brandt's k1 is the focal length
+        if role is None or (role in _NUMBERS and np.size(value) != 1):
+            unused.append((name, value))
+            continue
+        first, other = cameras.setdefault(owner, {}).setdefault(role, (name, value))
+        if first != name and not _same(value, other):
+            raise LucidaError(name, f"is not the same as {first}", "remove one of the two")
+    notes = notes_on(unused, _HARMLESS, _MEANINGS)
+    shared = cameras.pop("")
+    if "right" in cameras:
+        cameras["right"] |= {role: shared.pop(role) for role in ("R", "t") if role in shared}
+    if cameras.get("Camera2", {}).keys() == {"to previous"}:
+        name, _ = cameras.pop("Camera2")["to previous"]
+        notes = (*notes, f"{name} is not used: the second camera's intrinsics are not given")
+    for name in [name for name in cameras if name.lower() == "camera"]:
+        if not _INTRINSIC & cameras[name].keys():  # it belongs to Camera1 and Camera2
+            shared |= cameras.pop(name)
+    names = sorted(cameras, key=lambda name: (len(name), name))
+    if _INTRINSIC & shared.keys() and any(_INTRINSIC & cameras[name].keys() for name in names):
+        names, cameras[""] = ["", *names], shared  # a camera of its own
+        shared = {role: shared[role] for role in _SIZES & shared.keys()}
+    found = {name: shared | cameras[name] for name in names} or {"": shared}
+    for name in names[1:]:
+        for role in _OF_FIRST & shared.keys():
+            found[name].pop(role)
+    return found, notes
+
+
+def bare(name: str) -> str:
+    return plain(name).replace(".", "")
+
+
+def _owner(name: str) -> str:
+    """Return the name of the table that holds a key, without those for parts of a camera."""
+    return _PART.sub("", name.rpartition(".")[0])
+
+
+def _same(one: Any, other: Any) -> bool:
+    a, b = numbers_in(one), numbers_in(other)
+    return np.array_equal(a, b) if a.size else bool(one == other)

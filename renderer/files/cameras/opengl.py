@@ -1,0 +1,240 @@
+"""OpenGL's cameras: a view and a projection matrix, for column vectors, row-major or column-major.
+
+The range of depths is OpenGL's, -1 to 1, if the projection can have it.
+Source: Khronos, "OpenGL 3.3 core", Coordinate transformations.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Literal
+
+import numpy as np
+
+from renderer.camera.camera import Camera
+from renderer.camera.checks import Floats, Vector, listed
+from renderer.camera.intrinsics import matrix
+from renderer.files.cameras.entries import in_image, single
+from renderer.files.cameras.given import Given, Options
+from renderer.files.cameras.posed import CameraSet, PosedCamera
+from renderer.files.cameras.unused import notes_on
+from renderer.files.reading import check_bytes
+from renderer.system.errors import LucidaError
+
+Order = Literal["column by column", "row by row"]
+
+MOST_BYTES = 1 << 20
+
+AROUND = (0.1, 100.0)  # near and far for a camera without them, if there is no scene
+FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far not the camera's own
+
+_OURS = ("camera_from_world", "clip_from_camera")
+_VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
+_CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_COMMENT = re.compile(r"(?:#|//)[^\n]*")
+_WORD = re.compile(r"\b[A-Za-z_]\w*")
+# A name, with the length of an array: "view[16] =", "view(" of one of the two, "model:".
+_ASSIGNED = re.compile(
+    rf"""\b(?!(?:elements|data|dtype)\b)(?:({"|".join((*_VIEW, *_CLIP))})\b["']?\s*"""
+    r"""(?:\[\s*\d*\s*\]\s*)?[=:(]|([A-Za-z_]\w*)["']?\s*(?:\[\s*\d*\s*\]\s*)?[=:])"""
+)
+# Other matrices that follow from the two, and the parts of a matrix in JSON.
+_HARMLESS = "*inverse *viewproj* *projview* *mvp vp pv normalmatrix *matrixworld"
+# Depths of the near and the far plane: OpenGL's; the same reversed; and both of other programs.
+_RANGES = ((-1, 1), (1, -1), (1, 0), (0, 1))
+_ENDLESS = 1e-7  # relative to near: float32's rounding of an infinite far
+_ORDERS: tuple[Order, Order] = ("column by column", "row by row")
+_EXACT = 1e-6  # relative to a matrix's largest number: what counts as 0
+
+
+def recognises(given: Given) -> bool:
+    return len(given.data) <= MOST_BYTES and given.is_text and has_matrices(given.text)
+
+
+def has_matrices(text: str) -> bool:
+    """Return True if a text assigns both matrices, or one that has Lucida's name."""
+    found = _assigned(text)
+    if not found.keys().isdisjoint(_OURS):
+        return True
+    names = (next(filter(found.get, known), "") for known in (_VIEW, _CLIP))
+    return all(len(found.get(name, ())) == 16 for name in names)
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    check_bytes(len(given.data), MOST_BYTES, given.name)
+    found = _assigned(given.text)
+    (view_name, view), (clip_name, clip) = (_matrix(found, known) for known in (_VIEW, _CLIP))
+    names = (view_name, clip_name)
+    camera, taken = _camera(names, view, clip, FITTED in given.text or CHOSEN in given.text)
+    others = ((name, x) for name, x in found.items() if name not in names and len(x) == 16)
+    notes = notes_on(others, _HARMLESS, {})
+    return CameraSet("opengl", (PosedCamera(camera, options.size),), (*taken, *notes), notes=notes)
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    posed = single(cameras, "a pair of matrices")
+    camera = in_image(posed, options, "OpenGL")[0] if posed.fit else posed.camera
+    return {"": matrices(camera, AROUND, CHOSEN).encode()}
+
+
+def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
+    """Return camera_from_world (OpenGL's view matrix) and clip_from_camera (its projection), for
+    column vectors, column-major.
+
+    around: near and far for a camera that has none. told: their origin in words, FITTED or CHOSEN.
+    """
+    near, far = around
+    note = f": {told}" if camera.near is None and camera.far is None else ""
+    if camera.far is not None:
+        near, far = camera.near or min(near, camera.far / 1000), camera.far
+    elif camera.near is not None:
+        near, far = camera.near, max(far, 1000 * camera.near)
+    tables = {
+        "camera_from_world": camera.camera_from_world,
+        "clip_from_camera": camera.clip_from_camera(near, far),
+    }
+    lines = [
+        "# OpenGL matrices for column vectors, column-major: each line is a column",
+        f"# near = {near!r}, far = {far!r}{note}",
+    ]
+    for name, table in tables.items():
+        # + 0.0: no negative zeros
+        columns = (", ".join(map(repr, column)) for column in (table.T + 0.0).tolist())
+        lines += [f"{name} = [", *(f"    {column}," for column in columns), "]"]
+    return "\n".join(lines) + "\n"
+
+
+def _assigned(text: str) -> dict[str, list[float]]:
+    """Return up to 16 numbers after each name in JSON, Python, C and the like, before the next."""
+    text = _COMMENT.sub(" ", text)
+    places = list(_ASSIGNED.finditer(text))
+    ends = [*(place.start() for place in places[1:]), len(text)]
+    found: dict[str, list[float]] = {}
+    for place, end in zip(places, ends, strict=False):
+        rest = _WORD.sub(" ", text[place.end() : end].partition(";")[0])
+        numbers = [float(number) for number in _NUMBER.findall(rest)[:16]]
+        found.setdefault(place[1] or place[2], numbers)
+    return found
+
+
+def _matrix(found: Mapping[str, list[float]], names: tuple[str, ...]) -> tuple[str, Floats]:
+    """Return the name that is present, and its numbers, four per row in the order of the text."""
+    name = next((name for name in names if name in found), None)
+    if name is None:
+        raise LucidaError(names[0], "is missing", "copy both matrices")
+    if len(found[name]) < 16:
+        raise LucidaError(name, f"has {len(found[name])} numbers", "give 16")
+    return name, matrix(name, found[name], (16,)).reshape(4, 4)
+
+
+@np.errstate(all="ignore")  # Camera's own checks reject what overflows
+def _camera(
+    names: tuple[str, str], view: Floats, clip: Floats, fitted: bool
+) -> tuple[Camera, tuple[str, ...]]:
+    """Return the camera, and in words how the matrices were read. fitted: near and far are not the
+    camera's own.
+    """
+    view_order, clip_order = _orders(names, view, clip)
+    taken = [f"{names[0]} {view_order}", f"{names[1]} {clip_order}"]
+    view = view.T if view_order == "column by column" else view
+    clip = clip.T if clip_order == "column by column" else clip
+    parallel = bool(np.allclose(clip[3], (0, 0, 0, 1)))
+    a, b = clip[0, 0], clip[1, 1]
+    if not (a and b):
+        problem = f"its first two rows are {listed(clip[0])} and {listed(clip[1])}"
+        raise LucidaError(names[1], problem, "give a projection that is not turned")
+    # Off-diagonal entries skew the basis; a negative scale mirrors it.
+    skew = np.eye(3)
+    skew[0], skew[1] = clip[0, :3] / abs(a), clip[1, :3] / abs(b)
+    if not parallel:
+        skew[:2, 2] = 0.0
+    to_camera = np.eye(4)
+    to_camera[:3, :3] = skew
+    try:
+        world_from_camera = np.linalg.inv(to_camera @ view)
+    except np.linalg.LinAlgError:
+        raise LucidaError(names[0], "has no inverse", "give another") from None
+    middle = clip[:2, 3 if parallel else 2] * (1 if parallel else -1) / np.abs((a, b))
+    half = 1 / np.abs((a, b))
+    low, high = -half - middle, half - middle
+    near = far = None
+    if not clip[2, :2].any():
+        if not fitted:
+            near, far, told = _clip_planes(names[1], clip, parallel)
+            taken += told
+    else:
+        taken.append("the projection's oblique near plane is left out")
+    if b < 0:
+        taken.append(f"{names[1]} mirrors the image top to bottom, as for Vulkan")
+    u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
+    viewport = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+    kind = "parallel" if parallel else "perspective"
+    return Camera(eye, u, v, w, 1.0, viewport, kind, near, far), tuple(taken)
+
+
+def _orders(names: tuple[str, str], view: Floats, clip: Floats) -> tuple[Order, Order]:
+    """Return the order of both matrices, determined by the form of their last rows.
+
+    If either order fits one matrix, the other matrix decides. Raises LucidaError.
+    """
+    off = _EXACT * max(1.0, float(np.abs(view).max()))
+    views = [o for o in _ORDERS if np.abs(_last(view, o) - (0, 0, 0, 1)).max() <= off]
+    clips = [
+        order
+        for order in _ORDERS
+        if any(np.allclose(_last(clip, order), last) for last in ((0, 0, 0, 1), (0, 0, -1, 0)))
+    ]
+    if not views:
+        problem = "is not affine: neither its last row nor its last column is 0, 0, 0, 1"
+        raise LucidaError(names[0], problem, "give a rigid or affine matrix")
+    if not clips:
+        problem = "is no projection: its last row is neither 0, 0, -1, 0 nor 0, 0, 0, 1"
+        raise LucidaError(names[1], problem, "give OpenGL's, which looks along -z")
+    return (views if len(views) == 1 else clips)[0], (clips if len(clips) == 1 else views)[0]
+
+
+def _last(table: Floats, order: Order) -> Floats:
+    """Return the last row of a matrix listed in this order."""
+    return table[:, 3] if order == "column by column" else table[3]
+
+
+def _clip_planes(
+    name: str, clip: Floats, parallel: bool
+) -> tuple[float | None, float | None, list[str]]:
+    """Return near and far, None for one that does not clip, and in words the range of depths.
+
+    The range is the first in _RANGES with near before far. Raises LucidaError if there is none.
+    """
+    scale, shift = clip[2, 2:]
+    planes = []
+    for depths in _RANGES:
+        if parallel:
+            near, far = ((shift - depth) / scale for depth in depths)
+        else:  # inverses, since far may be infinite
+            nearest, farthest = ((depth + scale) / shift for depth in depths)
+            is_endless = abs(farthest) < _ENDLESS * nearest
+            near, far = 1 / nearest, np.inf if is_endless else 1 / farthest
+        if near < far and (parallel or near > 0):
+            planes.append((depths, float(near), float(far)))
+    if not planes:
+        problem = f"its third row {listed(clip[2])} has no near before far"
+        raise LucidaError(name, problem, "give depths from -1 to 1, or from 0 to 1")
+    depths, near, far = planes[0]
+    told = []
+    if name != _OURS[1]:
+        others = "".join(
+            f"; if to {other[0]} and {other[1]}, they are {n:g} and {f:g}"
+            for other, n, f in planes[1:]
+        )
+        sides = f"near = {near:g} and far = {far:g}"
+        told = [f"{name} takes {sides} to depths {depths[0]} and {depths[1]}{others}"]
+    if near <= 0:
+        told.append(f"{name} has near = {near:g}, behind the eye: nothing behind the eye is seen")
+    return near if near > 0 else None, far if 0 < far < np.inf else None, told
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,142 @@
+"""Rigid cameras, for formats that pose a camera by a rotation and a position.
+
+Determines which part of u, v and w such a pose can hold, and moves the rest into the viewport.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from renderer.camera.camera import Camera, Size
+from renderer.camera.checks import Floats, listed, told_apart
+from renderer.system.errors import LucidaError
+
+STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle
+UNSEEN_PX = 0.01  # a change that moves no point of the image by more is rounding
+ANY_SIZE = (4096, 4096)  # assumed for an image of unknown size
+ROUNDED = 1e-4  # error of a rotation's numbers with four digits, or in float32
+# The command line replaces this remedy by its own.
+REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
+
+
+def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
+    """Return the camera with the same rays whose u, v and w are orthonormal.
+
+    A rotation that a file has rounded becomes the nearest rotation, and the viewport stays
+    unchanged, so that images with one calibration keep sharing it. Otherwise the lengths of u and v
+    move into the viewport. So does, in perspective, the tilt of w: the image plane is then
+    off-centre. near and far are measured along the new w. A parallel camera's eye moves to the
+    viewport's centre.
+
+    target: the name of the format, for errors. size: of the image. Raises LucidaError for a
+    left-handed basis, for u and v that are not at right angles, and for an oblique parallel camera.
+    A lens measures in u, v and w: with one, they must be orthogonal and equally long.
+    """
+    if (turned := _turned(camera, size or ANY_SIZE)) is not None:
+        return centred(turned) if camera.is_parallel else turned
+    u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
+    if camera.determinant < 0:
+        problem = f"{listed(u)} is left-handed with v and w, a mirror that {target} has not"
+        raise LucidaError("u", problem, "negate u, which mirrors the picture")
+    width, height = float(np.linalg.norm(u)), float(np.linalg.norm(v))
+    u, v = u / width, v / height
+    if abs(u @ v) > STRAIGHT:
+        angle, _ = told_apart(math.degrees(math.acos(float(u @ v))), 90.0)
+        problem = f"{listed(camera.v)} is at {angle} degrees to u = {listed(camera.u)}, not at 90"
+        raise LucidaError("v", f"{problem}, which {target} cannot hold", REMEDY)
+    v = v - (u @ v) * u
+    v /= np.linalg.norm(v)
+    back = np.cross(u, v)
+    lean_x, lean_y, length = (float(w @ axis) for axis in (u, v, back))
+    if camera.lens is not None:
+        uneven = (lean_x, lean_y, width - length, height - length)
+        if max(map(abs, uneven)) > STRAIGHT * length:
+            problem = f"{listed(w)} is not at right angles to u and v and as long, behind a lens"
+            raise LucidaError("w", f"{problem}, which {target} cannot hold", REMEDY)
+    left, right, bottom, top = camera.viewport
+    x, y = lean_x * camera.distance, lean_y * camera.distance
+    if camera.is_parallel:
+        if np.hypot(lean_x, lean_y) > STRAIGHT * length:
+            problem = (
+                f"{listed(w)} is not at right angles to u and v, which {target} cannot hold in "
+                "a parallel projection"
+            )
+            raise LucidaError("w", problem, REMEDY)
+        x = y = 0.0
+    straight = replace(
+        camera,
+        u=tuple(u.tolist()),
+        v=tuple(v.tolist()),
+        w=tuple(back.tolist()),
+        distance=camera.distance * length,
+        viewport=(left * width - x, right * width - x, bottom * height - y, top * height - y),
+        near=None if camera.near is None else camera.near * length,
+        far=None if camera.far is None else camera.far * length,
+    )
+    return centred(straight) if camera.is_parallel else straight
+
+
+def _turned(camera: Camera, size: Size) -> Camera | None:
+    """Return the camera with the rotation nearest to its basis; None if that would be a different
+    camera.
+    """
+    if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() > ROUNDED or camera.determinant < 0:
+        return None
+    left, _, right = np.linalg.svd(camera.basis)
+    u, v, w = (left @ right).T.tolist()
+    turned = replace(camera, u=tuple(u), v=tuple(v), w=tuple(w))
+    return turned if moved_px(camera, turned, size) <= UNSEEN_PX else None
+
+
+def moved_px(camera: Camera, other: Camera, size: Size) -> float:
+    """Return the largest distance in pixels between a point's images in two cameras, for points
+    that one camera sees in its image's corners; with a lens, on a grid where both see them.
+    """
+    places = 2 if camera.lens is None else 9
+    i, j = (np.linspace(-0.5, side - 0.5, places) for side in (size[1], size[0]))
+    rows, columns = (part.ravel() for part in np.meshgrid(i, j, indexing="ij"))
+    origin, direction = camera.ray(rows, columns, size)
+    reach = 1.0
+    if camera.is_parallel:  # at a distance equal to the image's width
+        reach = (camera.viewport[1] - camera.viewport[0]) / float(np.linalg.norm(camera.w))
+    seen = other.project(origin + reach * direction, size)
+    apart = np.hypot(seen.row - rows, seen.column - columns)
+    if camera.lens is not None:
+        return float(np.nan_to_num(apart).max())
+    return float(np.nan_to_num(apart, nan=np.inf).max())
+
+
+def pinhole(
+    camera: Camera, size: Size, target: str
+) -> tuple[Camera, tuple[float, float, float, float]]:
+    """Return the rigid camera, and fx, fy, cx, cy in pixels from the image's corner.
+
+    Raises LucidaError, also for a parallel camera.
+    """
+    if camera.is_parallel:
+        problem = f"'parallel' has no focal length, which {target} needs"
+        raise LucidaError("projection", problem, "give a perspective camera")
+    camera = rigid(camera, target, size)
+    (left, right, bottom, top), (width, height) = camera.viewport, size
+    across, up = width / (right - left), height / (top - bottom)  # pixels per unit
+    focal = across * camera.distance, up * camera.distance
+    return camera, (*focal, -left * across, top * up)
+
+
+def centred(camera: Camera) -> Camera:
+    """Return a parallel camera with the eye in its viewport's centre, and the same rays."""
+    left, right, bottom, top = camera.viewport
+    x, y = (left + right) / 2, (bottom + top) / 2
+    eye = np.asarray(camera.eye) + x * np.asarray(camera.u) + y * np.asarray(camera.v)
+    viewport = left - x, right - x, bottom - y, top - y
+    return replace(camera, eye=tuple(eye.tolist()), viewport=viewport)
+
+
+def pose_of(camera: Camera) -> Floats:
+    """Return the matrix (4, 4) with the columns u, v, w and eye."""
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = camera.basis, camera.eye
+    return pose

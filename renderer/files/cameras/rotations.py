@@ -1,0 +1,70 @@
+"""Rotations as matrices, quaternions (w, x, y, z), and vectors: along the axis, with the angle in
+radians as length (Rodrigues).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from renderer.camera.checks import Floats, listed
+from renderer.system.errors import LucidaError
+
+
+def from_vector(vector: Floats) -> Floats:
+    """Return the matrix (3, 3) of a rotation vector (3,)."""
+    angle = float(np.linalg.norm(vector))
+    axis = vector / angle if angle else vector
+    return rotation_of([math.cos(angle / 2), *(math.sin(angle / 2) * axis)])
+
+
+def to_vector(rotation: Floats) -> Floats:
+    """Return the rotation vector (3,), no longer than pi, of a rotation matrix (3, 3)."""
+    real, *axis = quaternion_of(rotation)
+    length = float(np.linalg.norm(axis))
+    return np.array(axis) * (2 * math.atan2(length, real) / length if length else 2.0)
+
+
+def rotation_of(quaternion: ArrayLike) -> Floats:
+    """Return the rotation matrices (..., 3, 3) of quaternions (w, x, y, z), (..., 4), of any
+    length.
+
+    Raises LucidaError for a zero quaternion.
+    """
+    parts = np.asarray(quaternion, float)
+    length = np.linalg.norm(parts, axis=-1, keepdims=True)
+    if not (length > 1e-9).all():
+        wrong = parts.reshape(-1, 4)[int(np.argmin(length))]
+        problem = f"{listed(wrong)} is no rotation"
+        raise LucidaError("quaternion", problem, "give w, x, y, z of length 1")
+    w, x, y, z = np.moveaxis(parts / length, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def quaternion_of(rotation: ArrayLike) -> list[float]:
+    """Return the quaternion (w, x, y, z), w >= 0, of a rotation matrix.
+
+    Starts from the largest component, so as not to divide by nearly 0.
+    """
+    m: Any = np.asarray(rotation, float)
+    (a, b, c), (d, e, f), (g, h, i) = m
+    squares = 1 + np.array([a + e + i, a - e - i, e - a - i, i - a - e])  # 4 w^2, 4 x^2, ...
+    products = np.array(
+        [
+            [squares[0], h - f, c - g, d - b],
+            [h - f, squares[1], b + d, c + g],
+            [c - g, b + d, squares[2], f + h],
+            [d - b, c + g, f + h, squares[3]],
+        ]
+    )  # 4 q_k q_l
+    row = products[np.argmax(squares)]
+    quaternion = row / np.linalg.norm(row)
+    return [float(part) for part in (quaternion if quaternion[0] >= 0 else -quaternion)]

@@ -1,0 +1,32 @@
+"""Lucida's own view files: a camera exactly as it is, without an image size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from renderer.camera.lenses import MODELS
+from renderer.files.cameras.distortion import without_lens
+from renderer.files.cameras.given import Given, Options
+from renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
+from renderer.files.reading import check_bytes
+from renderer.files.views import view_from_toml, view_to_toml
+from renderer.scene.limits import TOML_BYTES
+from renderer.scene.model import View
+
+LENSES = MODELS
+
+
+def recognises(given: Given) -> bool:
+    return given.ending == ".toml" or (given.is_text and "[camera]" in given.text)
+
+
+def read(given: Given, options: Options) -> CameraSet:
+    check_bytes(len(given.data), TOML_BYTES, given.name)
+    view = view_from_toml(given.text)
+    posed = PosedCamera(view.camera, options.size, fit=view.fit)
+    return CameraSet("view", (without_lens(posed) if options.ignore_distortion else posed,))
+
+
+def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+    camera = one_of(CameraSet("view", tuple(cameras)))
+    return {"": view_to_toml(View(camera.camera, camera.fit)).encode()}

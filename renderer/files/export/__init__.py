@@ -1,0 +1,13 @@
+"""Export of a scene as a glTF file.
+
+export          checks the path, and writes the file
+gltf_scene      the scene as a .glb file
+glb_tree        the tree of that file, and its binary part
+meshes          triangles as glTF needs them
+materials       the nearest of glTF's materials, and the lights' strengths
+checkers        checkers on texture coordinates
+"""
+
+from renderer.files.export.export import ENDINGS, check_export_path, export_scene
+
+__all__ = ["ENDINGS", "check_export_path", "export_scene"]

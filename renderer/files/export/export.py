@@ -1,0 +1,44 @@
+"""Export of a scene and its camera to a file for other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from renderer.camera.camera import Camera, Size
+from renderer.files.cameras.distortion import check_held
+from renderer.files.export.gltf_scene import glb_of
+from renderer.files.reading import path_of
+from renderer.scene.model import Scene
+from renderer.system.atomic import atomic_write, check_writable
+from renderer.system.cancelling import check_cancelled
+from renderer.system.errors import LucidaError
+
+ENDINGS = (".glb",)
+
+
+def check_export_path(path: str | Path, endings: Sequence[str] = ENDINGS) -> Path:
+    """Return the path. Raises LucidaError if it cannot be written, or has another ending."""
+    target = path_of(path, "output")
+    if target.suffix.lower() not in endings:
+        ending = target.suffix
+        problem = f"ends in {ending!r}" if ending else "has no ending"
+        raise LucidaError("", problem, f"give {endings[0]}", str(path))
+    check_writable(target)
+    return target
+
+
+def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> tuple[str, ...]:
+    """Write a scene as glTF (.glb), seen by a camera in an image of `size`, (width, height).
+
+    Returns what could not be carried over, one line each. Raises LucidaError if glTF cannot hold
+    the camera, or the file cannot be written. Stops if the work is cancelled
+    (renderer/system/cancelling.py).
+    """
+    target = check_export_path(path)
+    check_held(camera, size, (), "glTF")
+    data, left_out = glb_of(scene, camera, size)
+    check_cancelled()
+    with atomic_write(target) as file:
+        file.write(data)
+    return left_out

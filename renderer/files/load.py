@@ -1,0 +1,79 @@
+"""Load the scene of a name that a user types: a built-in scene's, or a file's."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from renderer.files.models.model_kinds import check_kind
+from renderer.files.models.models import MODEL_ENDINGS, model_scene
+from renderer.files.reading import absence, close_matches, full_path, path_of, suggestion
+from renderer.files.scene_file import read_scene_file
+from renderer.scene.model import Origin, Scene
+from renderer.system.errors import LucidaError
+from renderer.system.file_dependencies import Noted, noting
+
+BUILTIN_SCENES = (
+    "still-life",
+    "canonical",
+    "columns",
+    "spheres",
+    "primitives",
+)  # the default first
+EMPTY_SCENE = "empty"
+SCENE_NAMES = (*BUILTIN_SCENES, EMPTY_SCENE)
+SCENE_ENDINGS = (".toml", *MODEL_ENDINGS)
+
+_BUILTIN_FOLDER = Path(__file__).parent / "builtin"
+
+
+def load_scene(source: str | Path) -> Scene:
+    """Return the scene of a built-in name, a scene file (.toml) or a model file.
+
+    A name wins over a file of the same name; write ./name for the file. A model file alone gets the
+    default lights and a view that shows all of it. Raises LucidaError naming the file, the field
+    and the remedy.
+    """
+    path = path_of(source, "scene")
+    if source in SCENE_NAMES:
+        return _from(str(source), read_scene_file(_BUILTIN_FOLDER / f"{source}.toml"), {})
+    if not str(source):
+        raise LucidaError("scene", "'' is empty", suggestion("", BUILTIN_SCENES))
+    ending = path.suffix.lower()
+    if ending in SCENE_ENDINGS:
+        with noting() as noted:
+            scene = read_scene_file(path) if ending == ".toml" else model_scene(path)
+        noted = {full_path(file): found for file, found in noted.items()}
+        return _from(str(full_path(path)), scene, noted)
+    endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
+    if _exists(path):
+        check_kind(path)
+        raise LucidaError(
+            "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
+        )
+    if ending or path.parent != Path():
+        problem, remedy = absence(path)
+        raise LucidaError("", problem, f"{remedy}; scenes are {endings}", str(path))
+    close = close_matches(str(source)[:100], BUILTIN_SCENES)
+    guess = f"did you mean {close[0]!r}? " if close else ""
+    raise LucidaError(
+        "scene",
+        f"{str(source)[:80]!r} is neither a built-in scene nor a file",
+        f"{guess}built-in scenes are {', '.join(BUILTIN_SCENES)}; files end in "
+        + " ".join(SCENE_ENDINGS),
+    )
+
+
+def _from(source: str, scene: Scene, files: Noted) -> Scene:
+    origin = replace(scene.origin or Origin(""), source=source, files=files)
+    if origin.tables is not None and source not in SCENE_NAMES:
+        origin.saved.path = Path(source)
+        origin = replace(origin, folder=origin.saved.path.parent)
+    return replace(scene, origin=origin)
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False

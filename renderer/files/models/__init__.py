@@ -1,0 +1,1 @@
+"""Model files of other programs: OBJ, PLY, STL, OFF and glTF."""

@@ -1,0 +1,104 @@
+"""The materials of a glTF file: the nearest of this project's, and notes on what is not shown.
+
+Source: Khronos, glTF 2.0 Specification.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from renderer.files.models.gltf_file import MATERIALS, GltfMaterial, OpenGltf
+from renderer.files.models.gltf_textures import read_texture
+from renderer.files.texture_images import ModelImages
+from renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
+from renderer.scene.model import Color, Material
+from renderer.scene.texture import WHITE, Texture, placed_alike
+
+WORDS = {
+    "clearcoat": "clear coat",
+    "emissive_strength": "emission",
+    "unlit": "unlit colours, which are shaded",
+}
+
+
+def read_materials(
+    file: OpenGltf, used: Iterable[int | None], images: ModelImages
+) -> dict[int, Material]:
+    """Return the materials that are used, with their images. Note what is not shown."""
+    found, missing = {}, {}
+    for number in sorted(number for number in used if number is not None):
+        given = file.tree.materials[number]
+        found[number] = _material(file, given, images)
+        missing.update(dict.fromkeys(_not_shown(given)))
+    if missing:
+        images.note(f"not shown: {', '.join(missing)}", "materials")
+    return found
+
+
+def _not_shown(given: GltfMaterial) -> Iterator[str]:
+    """Yield what of a material no picture shows."""
+    if given.alpha_mode == "BLEND":
+        yield "transparency (BLEND), which is drawn opaque"
+    if given.normal_texture is not None:
+        yield "normal maps"
+    if given.occlusion_texture is not None:
+        yield "occlusion"
+    if any(given.emissive_factor):  # it multiplies the texture
+        yield "emission"
+    for name in given.extensions:
+        word = MATERIALS.sub("", name)
+        yield WORDS.get(word, word.replace("_", " ")[:40])
+
+
+def _material(file: OpenGltf, given: GltfMaterial, images: ModelImages) -> Material:
+    """Return a base colour, and a highlight by roughness; see metal.py."""
+    pbr = given.pbr_metallic_roughness
+    *rgb, alpha = np.clip(np.nan_to_num(pbr.base_color_factor), 0, 1).tolist()
+    base: Color = (rgb[0], rgb[1], rgb[2])
+    cutout = None
+    if given.alpha_mode == "MASK" and given.alpha_cutoff > 0:
+        # The factor multiplies the opacity. More than all of it leaves nothing.
+        cutout = min(given.alpha_cutoff / max(alpha, 1e-6), 1e6)
+    single_sided = not given.double_sided
+    texture, metal = None, None
+    if (base_map := pbr.base_color_texture) is not None:
+        texture = read_texture(file, base_map, images, cutout is not None)
+    metalness, roughness = _factor(pbr.metallic_factor), _factor(pbr.roughness_factor)
+    if (metal_map := pbr.metallic_roughness_texture) is not None:
+        of_metal = read_texture(file, metal_map, images)
+        if of_metal is not None:
+            metal = Metal(of_metal.texels, metalness, roughness, of_metal.file)
+            metalness, roughness = metal.mean
+            if base_map is None:
+                texture = _white(of_metal)
+            elif (
+                texture is None
+                or metal_map.attribute != base_map.attribute
+                or not placed_alike(of_metal, texture)
+            ):
+                images.note("a metal lies otherwise than its base colour; its mean is shown")
+                metal = None
+    if metal is None and texture is not None and metalness > 0:
+        metal = Metal(metalness=metalness, roughness=roughness)
+    shininess = float(exponent(roughness))
+    if metal is not None:
+        specular = (DIELECTRIC,) * 3
+        return Material(base, specular, shininess, None, texture, metal, cutout, single_sided)
+    diffuse, shine = reflectances(np.array(base), metalness, roughness, DIELECTRIC)
+    colors = tuple(diffuse.tolist()), tuple(shine.tolist())
+    return Material(*colors, shininess, None, texture, None, cutout, single_sided)
+
+
+def _factor(value: float) -> float:
+    return min(max(value, 0.0), 1.0) if math.isfinite(value) else 1.0
+
+
+def _white(metal: Texture) -> Texture | None:
+    """Return white where a metal lies; None where a metal alone lies there."""
+    if placed_alike(metal, WHITE):
+        return None
+    place = metal.wrap, metal.scale, metal.offset
+    return Texture(WHITE.texels, *place, None, metal.rotate_deg)

@@ -1,0 +1,288 @@
+"""Wavefront .obj files: vertices, polygons, objects and materials, and which line has an error."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.files.models import numerals
+from renderer.files.models.mtl import MtlMaterial, read_mtl
+from renderer.files.models.numerals import Ints
+from renderer.files.models.obj_lines import Lines
+from renderer.files.models.parts import Part, linear_colors, used_vertices
+from renderer.files.models.polygons import triangulated
+from renderer.files.models.texts import read_text_bytes
+from renderer.files.reading import damaged
+from renderer.files.texture_images import ModelImages, inner_path, shown
+from renderer.scene.limits import OBJECTS
+from renderer.scene.model import Material
+from renderer.system.errors import LucidaError
+
+_CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")
+_VALUES = {"v": "a vertex", "vn": "a normal"}
+_NOT_SHOWN = {"l": "lines", "p": "points"}
+# What changes no picture: smoothing and groups, without values; levels of detail, bevels.
+_HARMLESS = ("s", "g", "mg", "lod", "bevel", "c_interp", "d_interp", "end")
+Floats = NDArray[np.float64]
+Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
+
+
+def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
+    """Return the parts of an .obj file: one for each object and material, in the file's order.
+
+    images: for the textures of its materials.
+    is_mapped: all parts with texture coordinates.
+    """
+    lines = Lines(read_text_bytes(path))
+    if not len(lines.numbers("f")):
+        if not len(lines.numbers("v")):
+            raise damaged("has no line that begins with v or f")
+        return []
+    last = lines.line(lines.numbers("f")[-1]).partition("#")[0].split()[1:]
+    try:
+        if len(last) < 3 or len({corner.count("/") for corner in last}) > 1:
+            raise ValueError
+        (vertices, most), (normals, _) = _rows(lines, "v"), _rows(lines, "vn")
+        columns, counts = _corners(lines)
+        if vertices.shape[1] < 3 or not _are_within(columns[0], len(vertices)):
+            raise ValueError
+    except ValueError:
+        _blame_line(path, lines)
+    _note_vertices(vertices, most, images)
+    places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
+    corners = [column if column is None else column[places] for column in columns]
+    if normals.shape[1] != 3:
+        normals = np.zeros((0, 3))
+    normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
+    named = _named_parts(path, lines, lines.numbers("f")[owner], images)
+    textured = [is_mapped or bool(material and material.texture) for _, _, material in named]
+    coordinates = _coordinates(lines) if any(textured) else np.zeros((0, 0))
+    if corners[1] is not None and any(textured):
+        has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
+        named = list(_by_coordinates(named, has_uv, images))
+    parts = []
+    for name, which, material in named:
+        mine = [a if a is None else a[which] for a in corners]
+        is_textured = is_mapped or (material is not None and material.texture is not None)
+        uvs = coordinates if is_textured else np.zeros((0, 0))
+        source, faces, uv, normal = _merged(mine, len(uvs), len(normals) - 1)
+        parts.append(
+            Part(
+                name,
+                vertices[source, :3],
+                faces,
+                None if normal is None else normals[normal],
+                linear_colors(vertices[source, 3:6]) if vertices.shape[1] >= 6 else None,
+                material=material,
+                uv=None if uv is None else uvs[uv, :2],
+            )
+        )
+    return parts
+
+
+def _note_vertices(vertices: Floats, most: int, images: ModelImages) -> None:
+    """Note numbers behind the coordinates of vertices that are not used: colours that only some
+    have, and weights, which are for curves. most: numbers that a vertex has.
+    """
+    if vertices.shape[1] < 6 <= most:
+        images.note("not read: colours, which only some vertices have", "OBJ")
+    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
+        images.note("not read: the weights of vertices", "OBJ")
+
+
+def _by_coordinates(
+    named: list[Named], has_uv: NDArray[np.bool_], images: ModelImages
+) -> Iterator[Named]:
+    """Yield the parts, those apart that have no coordinates for their texture: in its material's
+    plain colour.
+    """
+    for name, which, material in named:
+        numbers = np.arange(len(has_uv))[which]
+        bare = numbers[~has_uv[numbers]]
+        if material is None or material.texture is None or not 0 < len(bare) < len(numbers):
+            yield name, which, material
+            continue
+        problem = f"{len(bare)} triangles of {shown(name)} have no texture coordinates"
+        images.note(f"{problem}; the plain colour is shown")
+        yield name, numbers[has_uv[numbers]], material
+        yield f"{name}_plain", bare, replace(material, texture=None)
+
+
+def _coordinates(lines: Lines) -> Floats:
+    """Return texture coordinates, of two numbers or more; none if they cannot be read."""
+    with contextlib.suppress(ValueError):
+        found, _ = _rows(lines, "vt")
+        if found.shape[1] >= 2:
+            return found
+    return np.zeros((0, 0))
+
+
+def _rows(lines: Lines, kind: str) -> tuple[Floats, int]:
+    """Return the numbers of all lines of a kind, as many of each as the shortest line has; and how
+    many the longest one has.
+    """
+    text = lines.of(kind)
+    begins, counts = numerals.words(text)
+    values = numerals.floats(text, begins)
+    if not len(counts):
+        return np.zeros((0, 0)), 0
+    width, most = int(counts.min()), int(counts.max())
+    if width == most:
+        return values.reshape(-1, width), most
+    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)], most
+
+
+def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
+    """Return the polygons' corners: indices of vertices, texture coordinates and normals, (c,),
+    None where no corner has any; and the number of corners of each polygon.
+
+    Indices count from 0; -1 means none, less an impossible one.
+    """
+    columns = []
+    found, counts = numerals.corners(lines.of("f"))
+    for kind, column in zip(("v", "vt", "vn"), found, strict=True):
+        if column is not None:
+            # Negative ones count from the end of what was defined above their line.
+            if column.min() < 0:
+                above = np.searchsorted(lines.numbers(kind), lines.numbers("f"))
+                back = np.repeat(above, counts) + column
+                column = np.where(column < 0, np.where(back < 0, -2, back), column - 1)
+            else:
+                column = column - 1
+        columns.append(column)
+    return columns, counts
+
+
+def _are_within(indices: Ints, count: int) -> bool:
+    return indices.min(initial=0) >= 0 and indices.max(initial=-1) < count
+
+
+def _merged(
+    corners: list[Ints], uvs: int, normals: int
+) -> tuple[Ints, Ints, Ints | None, Ints | None]:
+    """Return (source, faces, uv, normal): the vertex, texture coordinates and normal of each new
+    vertex, and the faces.
+
+    corners: triangles of vertices, texture coordinates and normals. uvs, normals: how many there
+    are. Corners that agree in all three become one vertex. uv is None unless all corners have
+    coordinates, normal if none has a normal; those without one are given number `normals`.
+    """
+    key = vertices = corners[0].reshape(-1)
+    others: list[Ints | None] = []
+    for indices, count in zip(corners[1:], (uvs, normals), strict=True):
+        flat: Ints | None = None if indices is None else indices.reshape(-1)
+        if flat is not None and not _are_within(flat, count):
+            given = (flat >= 0) & (flat < count)
+            flat = np.where(given, flat, count) if others and given.any() else None
+        others.append(flat)
+        if flat is not None and not np.array_equal(vertices, flat):
+            key = key * (count + 1) + flat
+    if key is vertices:  # all of them have the numbers of the vertices
+        source, faces = used_vertices(corners[0])
+        uv, normal = (None if other is None else source for other in others)
+        return source, faces, uv, normal
+    _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
+    uv, normal = (None if other is None else other[first] for other in others)
+    return vertices[first], inverse.reshape(-1, 3), uv, normal
+
+
+def _named_parts(
+    path: Path, lines: Lines, triangle_lines: Ints, images: ModelImages
+) -> list[Named]:
+    """Return for each object and material a name, its triangles, and the material if the file has
+    it.
+    """
+    keys: dict[tuple[str, str], int] = {("", ""): 0}
+    at, states = [-1], [0]
+    found = used = ""
+    libraries = []
+    left = [word for kind, word in _NOT_SHOWN.items() if len(lines.numbers(kind))]
+    for number, keyword, rest in lines.statements():
+        if keyword == "mtllib":
+            libraries.append(rest)
+        elif keyword in ("o", "usemtl"):
+            found, used = (rest, used) if keyword == "o" else (found, " ".join(rest.split()))
+            at.append(number)
+            states.append(keys.setdefault((found, used), len(keys)))
+        elif keyword not in _HARMLESS:
+            left.append(keyword[:20])
+    if left:
+        images.note(f"not shown: {', '.join([*dict.fromkeys(left)][:12])}", "shapes")
+    part = np.array(states)[np.searchsorted(np.array(at), triangle_lines) - 1]
+    order = np.argsort(part, kind="stable")
+    groups = np.split(order, np.flatnonzero(np.diff(part[order])) + 1)
+    if len(groups) > OBJECTS:
+        images.note(f"more than {OBJECTS} objects are shown as one, in one colour", "shapes")
+    if len(keys) == 1 or len(groups) > OBJECTS or not len(order):
+        return [(path.stem, slice(None), None)]
+    groups.sort(key=lambda group: int(group[0]))
+    materials = _materials(path.parent, libraries, images)
+    all_keys = list(keys)
+    named: list[Named] = []
+    taken: dict[str, int] = {}
+    for group in groups:
+        found, used = all_keys[part[group[0]]]
+        name = "_".join(filter(None, (found, used if len(materials) > 1 else "")))
+        name = name or "geometry"
+        while name in taken:
+            taken[name] += 1
+            name = f"{name}_{taken[name]}"
+        taken[name] = 0
+        given = materials.get(used)
+        if used and materials and given is None:
+            problem = f"{shown(used)} is not in {', '.join(libraries)}; default colours are shown"
+            images.note(problem, "materials")
+        named.append((name, group, None if given is None else given.material(images)))
+    return named
+
+
+def _materials(folder: Path, libraries: list[str], images: ModelImages) -> dict[str, MtlMaterial]:
+    """Return the materials of the .mtl files in the folder of the .obj file, by name. The first
+    file that has a name defines it. Note the files that cannot be read.
+
+    libraries: what follows each mtllib: a name that may hold blanks, or several.
+    """
+    found: dict[str, MtlMaterial] = {}
+    for line in libraries:
+        several = any((folder / word).is_file() for word in line.split())
+        for name in line.split() if several else [line]:
+            try:
+                found = read_mtl(inner_path(name, folder)) | found
+            except LucidaError as error:
+                problem = f"{shown(name)} {error.problem}; default colours are shown"
+                images.note(problem, "materials")
+    return found
+
+
+def _blame_line(path: Path, lines: Lines) -> NoReturn:
+    """Raise LucidaError for the first line that is at fault."""
+    count, last = len(lines.numbers("v")), lines.numbers("f")[-1]
+    above = 0
+    for number, line in enumerate(lines.text.decode("utf-8", "replace").split("\n")):
+        keyword, *words = line.partition("#")[0].split() or [""]
+        problem = ""
+        if keyword in _VALUES:
+            above += keyword == "v"
+            if (keyword == "v" and len(words) < 3) or not all(map(numerals.is_number, words)):
+                problem = f"is not {_VALUES[keyword]}"
+        elif keyword == "f":
+            corners = [_CORNER.fullmatch(word) for word in words]
+            indices = [int(corner[1]) for corner in corners if corner]
+            wrong = [k for k in indices if k == 0 or not -above <= k <= count]
+            if len(indices) < len(words):
+                problem = "is not a face"
+            elif wrong:
+                problem = f"uses vertex {wrong[0]} of {count}"
+            elif number == last:
+                problem = "is not a whole face: the file is cut off"
+        if problem:
+            where = f"line {number}"
+            raise LucidaError(where, f"{line[:60]!r} {problem}", "repair the line", str(path))
+    raise LucidaError("", "cannot be read as OBJ", "export it again, as triangles", str(path))

@@ -1,0 +1,202 @@
+"""Read a user's file, whole and within bounds, or say in one line why not."""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import os
+import stat
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from renderer.system.errors import LucidaError
+from renderer.system.file_dependencies import note, noted_so_far
+
+MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
+IMAGE_ENDINGS = (
+    ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".webp", ".ppm", ".tif", ".tiff", ".ktx2",
+    ".dds", ".exr", ".hdr",
+)  # fmt: skip
+# A missing file is mistaken for one of its own kind only.
+_KINDS = (
+    MODEL_ENDINGS, IMAGE_ENDINGS, (".csv", ".npy"), (".yml", ".yaml"), (".toml",), (".bin",),
+    (".mtl",), (".json",), (".py",), (".txt",), (".xml",),
+)  # fmt: skip
+
+
+@contextlib.contextmanager
+def naming(source: str | Path) -> Iterator[None]:
+    """Name the file in errors of the block that name none."""
+    try:
+        yield
+    except LucidaError as error:
+        raise error if error.source else error.in_file(str(source)) from None
+
+
+def path_of(source: str | Path, field: str) -> Path:
+    """Return the path that a Python user gave. Raises LucidaError for None and the like."""
+    try:
+        return Path(source)
+    except TypeError:
+        problem = f"is of type {type(source).__name__}, not a path"
+        raise LucidaError(field, problem, "give text, or a pathlib.Path") from None
+
+
+def full_path(path: str | Path) -> Path:
+    """Return a file's absolute path without `..`, so that its parts show what is below its folder.
+
+    Links stay, except for those that a `..` leads through.
+    """
+    full = Path(path).absolute()
+    return Path(os.path.realpath(full.parent)) / full.name if ".." in full.parts else full
+
+
+def first_bytes(path: Path, most: int) -> bytes:
+    """Return the first bytes of an ordinary file; none of any other, such as a pipe. Raise OSError
+    or ValueError if it cannot be read."""
+    if not stat.S_ISREG(path.stat().st_mode):
+        return b""
+    with path.open("rb") as file:
+        return file.read(most)
+
+
+def read_file(path: Path, most_bytes: int) -> bytes:
+    """Return the bytes of an ordinary file of at most `most_bytes`. Raise LucidaError naming it."""
+    note(path)
+    size = check_file(path)
+    check_bytes(size, most_bytes, str(path))
+    try:
+        with open(path, "rb", opener=_open_at_once) as file:
+            data = file.read(size) or b""  # not read(): a file may grow without end
+    except OSError as error:
+        raise _unreadable(path, error) from None
+    if not data:
+        raise LucidaError("", "is empty", "give a file with something in it", str(path))
+    return data
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    """Open a file, without waiting: a pipe may have taken its place since it was looked at."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
+
+
+def check_file(path: Path) -> int:
+    """Return the size of an ordinary file, in bytes. Raise LucidaError naming any other: a pipe or
+    a device may have no end."""
+    source = str(path)
+    try:
+        status = path.stat()
+    except FileNotFoundError:
+        problem, remedy = absence(path)
+        raise LucidaError("", problem, remedy, source) from None
+    except (OSError, ValueError) as error:
+        raise _unreadable(path, error) from None
+    if stat.S_ISDIR(status.st_mode):
+        raise LucidaError("", "is a folder", "give the name of a file", source)
+    if not stat.S_ISREG(status.st_mode):
+        raise LucidaError("", "is not an ordinary file", "copy it into one", source)
+    return status.st_size
+
+
+def _unreadable(path: Path, error: OSError | ValueError) -> LucidaError:
+    reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    problem = f"cannot be read: {reason[:1].lower()}{reason[1:]}"
+    return LucidaError("", problem, "check its name and rights", str(path))
+
+
+def damaged(problem: str) -> LucidaError:
+    """Return the error for a file that is not what its ending or its header says."""
+    return LucidaError("", problem, "it is cut off or of another kind; export it again")
+
+
+def check_bytes(size_bytes: int, most_bytes: int, source: str) -> None:
+    """Raise LucidaError if a file is too large for its kind."""
+    if size_bytes > most_bytes:
+        raise LucidaError(
+            "",
+            f"is too large, {size_text(size_bytes)}",
+            f"stay within {size_text(most_bytes)} for a file of this kind",
+            source,
+        )
+
+
+def check_count(
+    count: int, most: int, what: str, field: str = "", remedy: str = "stay within {}"
+) -> None:
+    """Raise LucidaError for too many of something."""
+    if count > most:
+        verb = "holds" if field else "has"
+        raise LucidaError(field, f"{verb} {count} {what}", remedy.format(most))
+
+
+def decode_text(data: bytes, source: str) -> str:
+    """Return text from UTF-8, with or without a byte order mark. Raises LucidaError."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise LucidaError(
+            f"line {line}", "is not text in UTF-8", "save the file as UTF-8 text", source
+        ) from None
+
+
+def suggestion(given: str, known: Iterable[str]) -> str:
+    """Return `did you mean 'x'?` if a known name is close, or else a list of all."""
+    known = list(known)
+    close = close_matches(given[:100], known)
+    return f"did you mean {close[0]!r}?" if close else f"give one of {', '.join(known)}"
+
+
+def close_matches(given: str, known: Iterable[str], least: float = 0.6) -> list[str]:
+    """Return the known name that is most alike, whatever its case, if its likeness is at least that
+    much of 1."""
+    names = {name.lower(): name for name in reversed(list(known))}
+    return [names[name] for name in difflib.get_close_matches(given.lower(), names, 1, least)]
+
+
+def absence(path: Path) -> tuple[str, str]:
+    """Return the problem and the remedy of a missing file: the link that leads nowhere, or where
+    it was looked for and a file of a similar name."""
+    problem = "does not exist"
+    with contextlib.suppress(OSError, ValueError):
+        if path.is_symlink():
+            problem = f"is a link to {str(path.readlink())!r}, which does not exist"
+            return problem, "mend the link"
+        if not path.is_absolute():
+            problem += f" in {os.path.abspath(path.parent)}"
+    return problem, _neighbours(path)
+
+
+def _neighbours(path: Path) -> str:
+    ending = path.suffix.lower()
+    kind = next((kind for kind in _KINDS if ending in kind), ())
+    try:
+        with os.scandir(path.parent) as entries:
+            names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
+        # The file that names this one is none of them; a scene may name a model twice.
+        others = () if ending in MODEL_ENDINGS else noted_so_far()
+        read = {file.name for file in others if file.parent == path.parent.absolute()}
+    except (OSError, ValueError):
+        return "check its name and folder"
+    close = close_matches(
+        path.name[:255],
+        [
+            name
+            for name in names
+            if name not in read and (not kind or os.path.splitext(name)[1].lower() in kind)
+        ],
+        0.75 if ending not in IMAGE_ENDINGS else 0.9,  # wall_normal.png is not wall_color.png
+    )
+    return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
+
+
+def size_text(size_bytes: int) -> str:
+    """Return a size as text: 512 bytes, 4 MiB, 2.5 GiB."""
+    if size_bytes < 1024:
+        return f"{size_bytes} bytes"
+    size = float(size_bytes)
+    for unit in ("KiB", "MiB"):
+        size /= 1024
+        if size < 1024:
+            return f"{size:.3g} {unit}"
+    return f"{size / 1024:.3g} GiB"

@@ -1,0 +1,297 @@
+"""Read scene files: from TOML, by the tables of schema.py, to a Scene."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from renderer.camera.camera import Camera
+from renderer.files.outside import check_inside
+from renderer.files.reading import check_count, decode_text, naming, read_file, suggestion
+from renderer.files.scene_images import SceneImages
+from renderer.files.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
+from renderer.files.schema import (
+    AnyLight,
+    AnyObject,
+    DirectionalLightTable,
+    MaterialTable,
+    MeshTable,
+    ModelTable,
+    PointLightTable,
+    SceneFile,
+    SphereTable,
+)
+from renderer.files.tables import parse_toml, to_struct
+from renderer.files.views import transformed_view, view_from_table
+from renderer.scene import framing, shapes
+from renderer.scene.limits import (
+    LIGHTS,
+    OBJECTS,
+    TOML_BYTES,
+    TRIANGLES,
+    VIEWS,
+)
+from renderer.scene.material import parse_color
+from renderer.scene.model import (
+    Checker,
+    DirectionalLight,
+    FileEntry,
+    Keys,
+    Material,
+    Mesh,
+    NamedView,
+    Origin,
+    PointLight,
+    SavedFile,
+    Scene,
+    SceneObject,
+    Sphere,
+    View,
+    triangles_of,
+)
+from renderer.system.cancelling import check_cancelled
+from renderer.system.errors import LucidaError, under
+
+SPLIT = "give at most {}, or split the scene"
+_keys = itertools.count(1)
+
+
+def new_keys(count: int) -> tuple[int, ...]:
+    """Return keys that no other object or light has in this process."""
+    return tuple(itertools.islice(_keys, count))
+
+
+def read_scene_file(path: Path) -> Scene:
+    """Return the scene in a file. Raises LucidaError naming the file, the field and the remedy."""
+    data = read_file(path, TOML_BYTES)
+    scene = scene_from_toml(decode_text(data, str(path)), path.parent, str(path), path.stem)
+    assert scene.origin is not None
+    scene.origin.saved.text = data.decode()  # with its byte order mark
+    return scene
+
+
+def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
+    """Return the scene in a text.
+
+    folder: the start of its paths.
+    source: the file, for errors.
+    name: the scene's, if the file has none.
+    """
+    with naming(source):
+        scene = scene_from_tables(parse_toml(text), folder, name)
+    assert scene.origin is not None
+    scene.origin.saved.text = text
+    return scene
+
+
+def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> Scene:
+    """Return the scene of a scene file's tables, for scenes inside other files."""
+    keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
+    return _scene(Origin("", tables, folder), keys, name, SavedFile(None, "", tables, keys))
+
+
+def _keys_of(tables: dict[str, Any], kind: str, default: Sequence[Any]) -> tuple[int, ...]:
+    entries = tables.get(kind, default)
+    return new_keys(len(entries)) if isinstance(entries, list | tuple) else ()
+
+
+def changed_scene(scene: Scene, tables: dict[str, Any], keys: Keys) -> Scene:
+    """Return the scene with other tables.
+
+    keys: of their objects and lights, in order.
+    Objects with the same key and table stay the same, moved ones keep their arrays, and models are
+    not read again. Raises LucidaError.
+    """
+    assert scene.origin is not None
+    changed = _scene(replace(scene.origin, tables=tables), keys, scene.name, scene.origin.saved)
+    return replace(changed, view=scene.view) if "camera" not in tables else changed
+
+
+def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
+    """Build a scene. origin: the tables, and the entries of the scene before a change."""
+    assert origin.tables is not None
+    tables: SceneFile = to_struct(origin.tables, SceneFile)
+    builder = _Builder(tables, origin)
+    entries = builder.entries(tables.objects, keys[0])
+    objects = [made for entry in entries for made in entry.objects]
+    views = [view for entry in entries if entry.views for view in _views(entry)]
+    lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
+    if tables.lights is not None:
+        check_count(len(tables.lights), LIGHTS, "lights", "lights", SPLIT)
+        found = [_light(table, f"lights[{i}]") for i, table in enumerate(tables.lights)]
+        lights = tuple(light for light in found if light is not None)
+    if tables.camera is not None:
+        view = view_from_table(tables.camera)
+    elif origin.entries:
+        view = View(Camera.canonical())  # the changed scene keeps its own
+    else:
+        view = framing.framing_view([entry for entry in objects if not entry.hidden])
+    ambient, background = tables.ambient, tables.background
+    return Scene(
+        tuple(objects),
+        lights,
+        framing.AMBIENT if ambient is None else parse_color("ambient", ambient),
+        framing.BACKGROUND if background is None else parse_color("background", background),
+        view,
+        tables.name or name,
+        replace(origin, entries=entries, light_keys=keys[1], saved=saved),
+        tuple(views[:VIEWS]),
+        tuple(dict.fromkeys(note for entry in entries for note in entry.notes)),
+    )
+
+
+def _views(entry: FileEntry) -> Iterator[NamedView]:
+    """Yield the cameras of a model, moved with it."""
+    table = entry.fields
+    matrix = shapes.placement(*_place(table))
+    for named in entry.views:
+        with contextlib.suppress(LucidaError):  # too far away for a camera
+            name = f"{table.name}/{named.name}" if table.name else named.name
+            yield NamedView(name, transformed_view(named.view, matrix))
+
+
+class _Builder:
+    """Builds the objects of a scene. What has not changed is taken from the scene before."""
+
+    def __init__(self, tables: SceneFile, origin: Origin) -> None:
+        known = (entry.material for entry in origin.entries if entry.material is not None)
+        self._images = SceneImages(origin.folder, known)
+        self._parts = SceneParts(origin.folder, origin.entries)
+        self._folder = origin.folder
+        self._old = {entry.key: entry for entry in origin.entries}
+        self._materials = {}
+        for name, table in tables.materials.items():
+            field = f"materials.{name}"
+            fields = to_struct(table, MaterialTable, field)
+            with under(field):
+                self._materials[name] = self._material(fields)
+
+    def entries(self, tables: list[Any], keys: tuple[int, ...]) -> tuple[FileEntry, ...]:
+        check_count(len(tables), OBJECTS, "objects", "objects", SPLIT)
+        known = [
+            was if (was := self._old.get(key)) is not None and was.table is table else None
+            for key, table in zip(keys, tables, strict=True)
+        ]
+        fields: list[SphereTable | MeshTable] = [
+            to_struct(table, AnyObject, f"objects[{number}]") if was is None else was.fields
+            for number, (table, was) in enumerate(zip(tables, known, strict=True))
+        ]
+        models = (entry.file for entry in fields if isinstance(entry, ModelTable))
+        check_inside(self._folder / file for file in models)
+        # Counted before they are built: a few lines can make more than memory holds.
+        triangles = sum(map(made_triangles, fields))
+        check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
+        objects = 0
+        entries: list[FileEntry] = []
+        for number, entry in enumerate(fields):
+            check_cancelled()
+            with under(f"objects[{number}]"):
+                material = self._material_of(entry.material)
+                if isinstance(entry, ModelTable):
+                    triangles += triangles_of(self._parts.model(entry.file, material).objects)
+            check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
+            with under(f"objects[{number}]"):
+                was = known[number]
+                if was is None or was.material != material:
+                    was = self._entry(keys[number], tables[number], entry, material)
+            entries.append(was)
+            objects += len(was.objects)
+            check_count(objects, OBJECTS, "objects", "objects", SPLIT)
+        return tuple(entries)
+
+    def _entry(
+        self,
+        key: int,
+        table: dict[str, Any],
+        fields: SphereTable | MeshTable,
+        material: Material | None,
+    ) -> FileEntry:
+        """Return what one table becomes: one object, or one for each part of a model."""
+        if isinstance(fields, SphereTable):
+            sphere = Sphere(fields.center, fields.radius)
+            alone = SceneObject(sphere, material or Material(), fields.name, fields.hidden)
+            return FileEntry(key, table, fields, material, (), (alone,))
+        views: tuple[NamedView, ...] = ()
+        notes: tuple[str, ...] = ()
+        path, single_sided = "", None
+        is_model = isinstance(fields, ModelTable)
+        if isinstance(fields, ModelTable):
+            model = self._parts.model(fields.file, material)
+            path, single_sided = self._parts.path(fields.file), fields.single_sided
+            made, views, notes = model.objects, model.views, model.notes
+            if model.lights:
+                notes += (f"{path}: lights: not shown; a scene file has its own",)
+            if is_textured(material):
+                check_mapped(fields, made)
+        else:
+            made = self._parts.mesh(fields, material)
+        was = self._old.get(key)
+        if was is not None and was.made is made and _place(was.fields) == _place(fields):
+            placed = [entry.shape for entry in was.objects]
+        else:
+            matrix = shapes.placement(*_place(fields))
+            meshes = (part.shape for part in made if isinstance(part.shape, Mesh))
+            placed = [shapes.transformed(mesh, matrix) for mesh in meshes]
+        objects = []
+        for part, shape in zip(made, placed, strict=True):
+            name = fields.name
+            if len(made) > 1 or not name:
+                name = f"{name}/{part.name}" if name and part.name else name or part.name
+            shown = material or (part.material if is_model else Material())
+            if single_sided is not None:
+                shown = replace(shown, single_sided=single_sided)
+            # A part that its own material cuts away altogether is hidden as it is read.
+            is_gone = is_model and material is None and part.hidden
+            objects.append(SceneObject(shape, shown, name, fields.hidden or is_gone))
+        return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
+
+    def _material_of(self, value: str | MaterialTable | None) -> Material | None:
+        if isinstance(value, MaterialTable):
+            with under("material"):
+                return self._material(value)
+        if value is not None and value not in self._materials:
+            known = self._materials
+            remedy = suggestion(value, known) if known else "define it under [materials]"
+            raise LucidaError("material", f"{value[:40]!r} is unknown", remedy)
+        return None if value is None else self._materials[value]
+
+    def _material(self, table: MaterialTable) -> Material:
+        checker = None
+        if (given := table.checker) is not None:
+            with under("checker"):
+                checker = Checker(parse_color("diffuse", given.diffuse), given.size)
+        images, has_opacity = self._images, table.cutout is not None
+        texture = None if table.texture is None else images.texture(table.texture, has_opacity)
+        metal = None if table.metal is None else images.metal(table.metal)
+        default = (1.0, 1.0, 1.0) if texture or metal else Material().diffuse
+        return Material(
+            default if table.diffuse is None else parse_color("diffuse", table.diffuse),
+            parse_color("specular", table.specular),
+            table.shininess,
+            checker,
+            texture,
+            metal,
+            table.cutout,
+            table.single_sided,
+        )
+
+
+def _place(table: MeshTable) -> tuple[Any, ...]:
+    return table.translate, table.rotate_deg, table.scale
+
+
+def _light(table: Any, field: str) -> PointLight | DirectionalLight | None:
+    """Return a light; None for a hidden one."""
+    fields: PointLightTable | DirectionalLightTable = to_struct(table, AnyLight, field)
+    with under(field):
+        rgb = parse_color("color", fields.color)
+        light: PointLight | DirectionalLight
+        if isinstance(fields, PointLightTable):
+            light = PointLight(fields.position, rgb)
+        else:
+            light = DirectionalLight(fields.direction, rgb)
+        return None if fields.hidden else light

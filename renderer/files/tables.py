@@ -1,0 +1,180 @@
+"""Convert TOML to typed structures, with errors that a user can act on.
+
+An error names the line and column of a syntax error, or the path of a field.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from typing import Any, Literal, get_args, get_origin
+
+import msgspec
+
+from renderer.files.reading import suggestion
+from renderer.scene.limits import KEY_PARTS
+from renderer.system.errors import LucidaError
+
+VERSION = 1  # of the formats of scene and view files: their key `lucida`
+
+_KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_KEY = re.compile(rf"(?<![\w-]){_KEY_PART}(?:[ \t]*\.[ \t]*{_KEY_PART}){{{KEY_PARTS},}}")
+_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|(end of document))\)$")
+_NAMES = {
+    "float": "a number",
+    "int": "a whole number",
+    "str": "text in quotes",
+    "bool": "true or false",
+    "array": "a list",
+    "object": "a table",
+}
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Return the tables of a TOML text. Raises LucidaError with line and column if it is not TOML.
+
+    A key `lucida` above VERSION is refused here, before fields that this program cannot know.
+    """
+    # The parser takes quadratic time for keys of many parts.
+    if long_key := _LONG_KEY.search(text):
+        line = text.count("\n", 0, long_key.start()) + 1
+        raise LucidaError(f"line {line}", "has a key of too many parts", "shorten the key")
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise _syntax_error(str(error), text) from None
+    except RecursionError:
+        raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
+    except ValueError:  # Python's own limit on the digits of a number
+        raise LucidaError("", "holds a number of too many digits", "shorten it") from None
+    check_integers(tables)
+    version = tables.pop("lucida", VERSION)
+    if isinstance(version, bool) or not isinstance(version, int) or version < 1:
+        raise LucidaError("lucida", f"{version!r} is no version", f"give lucida = {VERSION}")
+    if version > VERSION:
+        raise LucidaError(
+            "lucida",
+            f"the file is of version {version}, this program reads up to {VERSION}",
+            "update Lucida, or save the file for the older version",
+        )
+    return tables
+
+
+def check_integers(tables: Any, remedy: str = "give one of at most 18 digits") -> None:
+    """Raise LucidaError, with its field's path, for an integer of more than 64 bits in tables and
+    lists: TOML has none, and most numbers of this program cannot hold it."""
+    left: list[tuple[str, Any]] = [("", tables)]
+    while left:
+        path, value = left.pop()
+        if isinstance(value, dict):
+            left += [(f"{path}.{key}" if path else str(key), part) for key, part in value.items()]
+        elif isinstance(value, list):
+            left += [(f"{path}[{k}]", part) for k, part in enumerate(value)]
+        elif isinstance(value, int) and value.bit_length() > 63:
+            problem = f"is a whole number of {len(str(abs(value)))} digits"
+            raise LucidaError(path, problem, remedy)
+
+
+def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
+    """Return the value as a msgspec structure, or one of a union of them. Raises LucidaError with
+    the field's path under `prefix`.
+    """
+    try:
+        return msgspec.convert(value, kind)
+    except msgspec.ValidationError as error:
+        raise explained(str(error), value, kind, prefix) from None
+    except RecursionError:
+        raise LucidaError(prefix, "is nested too deeply", "write it with fewer brackets") from None
+
+
+def _syntax_error(message: str, text: str) -> LucidaError:
+    place = _PLACE.search(message)
+    line, column = (place[1], place[2]) if place else (None, None)
+    if line is None:
+        lines = text.split("\n")
+        line, column = str(len(lines)), str(len(lines[-1]) + 1)
+    reason = _PLACE.sub("", message)
+    reason = reason[:1].lower() + reason[1:]
+    return LucidaError(f"line {line}, column {column}", reason, "correct the TOML there")
+
+
+def explained(message: str, value: Any = None, kind: Any = None, prefix: str = "") -> LucidaError:
+    """Return msgspec's error in this project's words."""
+    text, _, path = message.partition(" - at `$")
+    path = path.rstrip("`").lstrip(".")
+    field = f"{prefix}.{path}" if prefix and path and path[0] != "[" else prefix + path
+
+    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", text, re.DOTALL):
+        name = unknown[1]
+        where = f"{field}.{name}" if field else name
+        return LucidaError(where, "is unknown", suggestion(name, _fields(value, kind, path)))
+    if missing := re.fullmatch(r"Object missing required field `(.*)`", text):
+        return LucidaError(
+            f"{field}.{missing[1]}" if field else missing[1], "is missing", "give it"
+        )
+    if invalid := re.fullmatch(r"Invalid value '(.*)'", text, re.DOTALL):
+        return LucidaError(field, f"{invalid[1]!r} is unknown", suggestion(invalid[1], _tags(kind)))
+    if choice := re.fullmatch(r"Invalid enum value (.*)", text, re.DOTALL):
+        choices = [str(c) for c in _choices(value, kind, path)]
+        remedy = suggestion(choice[1].strip("'"), choices)
+        return LucidaError(field, f"{choice[1]} is unknown", remedy)
+    if length := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", text):
+        return LucidaError(field, f"has {length[2]} entries", f"give {length[1]}")
+    if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", text):
+        kinds = [name for name in wrong[1].split(" | ") if name != "null"]
+        wanted = " or ".join(_NAMES.get(name, name) for name in kinds)
+        return LucidaError(field, f"is {_NAMES.get(wrong[2], 'a ' + wrong[2])}", f"give {wanted}")
+    wanted = re.sub("`([a-z]+)`", lambda name: _NAMES.get(name[1], name[1]), text)
+    return LucidaError(field, wanted[:1].lower() + wanted[1:], "correct it")
+
+
+def _fields(value: Any, kind: Any, path: str) -> list[str]:
+    """Return the fields that the structure at `path` below `kind` may have, for suggestions."""
+    value, kind = _at(value, kind, path)
+    names: list[str] = []
+    for struct in _structs(kind, value):
+        tag = struct.__struct_config__.tag_field
+        names += ([tag] if tag else []) + list(struct.__struct_fields__)
+    return names
+
+
+def _choices(value: Any, kind: Any, path: str) -> list[Any]:
+    """Return the choices of the Literal at `path` below `kind`, for suggestions."""
+    found = _at(value, kind, path)[1]
+    literals = [found, *getattr(found, "__args__", ())]
+    return [c for k in literals if get_origin(k) is Literal for c in get_args(k)]
+
+
+def _at(value: Any, kind: Any, path: str) -> tuple[Any, Any]:
+    """Return the value at `path`, and the type that it should have."""
+    for name in re.findall(r"[^.\[\]]+", path):
+        if name.isdigit():
+            value = value[int(name)]
+        else:
+            kind = _field_type(_structs(kind, value), name)
+            value = value[name]
+    return value, kind
+
+
+def _field_type(structs: list[type[msgspec.Struct]], name: str) -> Any:
+    fields = (field for struct in structs for field in msgspec.structs.fields(struct))
+    return next((field.type for field in fields if field.name == name), None)
+
+
+def _structs(kind: Any, value: Any) -> list[type[msgspec.Struct]]:
+    """Return the structures that `kind` names; of a tagged union the one that the value chooses."""
+    if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
+        return [kind]
+    found = [s for part in getattr(kind, "__args__", ()) for s in _structs(part, value)]
+    if isinstance(value, dict):
+        chosen = [s for s in found if value.get(s.__struct_config__.tag_field) == _tag(s)]
+        return chosen or found
+    return found
+
+
+def _tag(struct: type[msgspec.Struct]) -> Any:
+    return struct.__struct_config__.tag
+
+
+def _tags(kind: Any) -> list[str]:
+    return [str(_tag(struct)) for struct in _structs(kind, None)]

@@ -1,1 +1,0 @@
-"""Running jobs: the tracer, its thread, its preparations and compilations."""

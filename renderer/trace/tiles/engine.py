@@ -1,0 +1,149 @@
+"""A scene prepared for packets: flat arrays and trees, and the packet kernel run on them.
+
+Same interface as engine.py's Engine, many times faster.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera.camera import Camera
+from renderer.camera.lenses import Lens
+from renderer.scene.flat import flatten
+from renderer.scene.model import Scene, has_textures
+from renderer.scene.positions import lights_from, near_point
+from renderer.trace.arguments.image import Image, Rows, new_image
+from renderer.trace.arguments.view import KernelView
+from renderer.trace.bvh.instances import Instances, World
+from renderer.trace.compile.stage import StagedCode, new_room
+from renderer.trace.rays.query import Vectors, closest_hits
+from renderer.trace.reference.kernel import shade_rays
+from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
+from renderer.trace.tiles.cells import cells_of
+from renderer.trace.tiles.effects import Effects, effects_of
+from renderer.trace.tiles.kernel import trace_packets
+from renderer.trace.tiles.lens_table import NO_FRAMES, LensTable, lens_table
+from renderer.trace.tiles.surface import SceneArrays, scene_arrays
+from renderer.trace.tiles.texture import NO_TEXTURES, PacketTextures
+from renderer.trace.tiles.view import PacketView, packet_view
+from renderer.trace.tiles.write import writing_stage
+
+_ONE_TEXEL = np.zeros(1, np.int32)
+_ONE_TEXEL.setflags(write=False)
+_ONE_PIXEL = Rows((1, 1), 0, 1)
+_LENS_CAMERA = Camera(lens=Lens("equidistant"))
+
+
+class _Seen(NamedTuple):
+    """The arguments of kernels for one image. effects, and the textures in world and scene, are
+    None in kernels for plain images.
+    """
+
+    view: PacketView
+    world: World
+    scene: SceneArrays
+    effects: Effects | None
+
+
+class PacketEngine:
+    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
+
+    shadows, mirror_depth: see effects.py.
+    """
+
+    def __init__(
+        self, scene: Scene, team: Team, shadows: bool = False, mirror_depth: int = 0
+    ) -> None:
+        self._effects = shadows, mirror_depth
+        self._team = team
+        self._scene = scene
+        self._flat = flatten(scene)
+        self._cells = cells_of(self._flat)
+        self.instances = Instances(scene, self._flat, team)
+
+    def compile(self, part: str) -> None:
+        """Compile a part (compile_child.py), or load it from the cache, by tracing an image
+        that is already cancelled.
+        """
+        over = new_control()
+        cancel(over)
+        if part == "lens":
+            lens_table(_LENS_CAMERA, _ONE_PIXEL, over)
+            return
+        kernel, *variant = part.split("-")
+        lens = NO_FRAMES if variant == ["lens"] else None
+        seen = self._seen(Camera.canonical(), _ONE_PIXEL, lens, bool(variant))
+        if kernel == "walk":
+            self._walk(seen, StagedCode(0, new_room()), np.zeros((1, 1), np.uint8), over)
+        else:
+            self._writing(seen, new_image((1, 1), ()))
+
+    def set_scene(self, scene: Scene) -> None:
+        """Follow a changed scene; unchanged meshes (the same arrays) keep their trees."""
+        flat = flatten(scene, (self._scene, self._flat))
+        # All at once: flatten() must find the scene with its own arrays if this fails.
+        self._scene, self._flat, self._cells = scene, flat, cells_of(flat)
+        self.instances.update(scene, self._flat)
+
+    def closest_hits(
+        self, origins: Vectors, directions: Vectors, t_min: float, t_max: float
+    ) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """Return (t, primitive) of many rays; see rays/query.py."""
+        return closest_hits(self.instances, self._team, origins, directions, t_min, t_max)
+
+    def shaded(
+        self, origins: Vectors, directions: Vectors, t_min: float, t_max: float
+    ) -> NDArray[np.float32]:
+        """Return the light (n, 3) along many rays, without shadows and mirrors."""
+        largest = [np.abs(part).max(axis=1, keepdims=True) for part in (origins, directions)]
+        with np.errstate(over="ignore"):
+            is_good = np.isfinite(largest[0] + largest[1])
+        directions = np.where(is_good, directions, np.float32(0))  # hits nothing
+        t, primitives = self.closest_hits(origins, directions, t_min, t_max)
+        light, origins = np.empty((len(t), 3), np.float32), np.ascontiguousarray(origins).view()
+        # Read-only: for writable arrays, the kernel would be compiled again.
+        origins.flags.writeable = directions.flags.writeable = False
+        shade_rays(self._flat, origins, directions, t, primitives, light)
+        return light
+
+    def trace(
+        self, camera: Camera, image: Image, control: Control, rows: Rows | None = None
+    ) -> None:
+        """Fill the image; return early if cancelled. Unfinished blocks stay unmarked.
+
+        rows: those of a larger image that `image` holds; None if it is the whole one.
+        """
+        rows = rows or Rows((image.width, image.height), 0, image.height)
+        lens = None if camera.lens is None else lens_table(camera, rows, control)
+        if camera.lens is not None and lens is None:
+            return  # cancelled
+        is_rich = any(self._effects) or has_textures(self._scene) or lens is not None
+        seen = self._seen(camera, rows, lens, is_rich)
+        self._walk(seen, self._writing(seen, image), image.finished, control)
+
+    def _seen(self, camera: Camera, rows: Rows, lens: LensTable | None, is_rich: bool) -> _Seen:
+        flat, world = self._flat, self.instances.world
+        point = near_point(flat, camera.eye)
+        view = packet_view(KernelView.of(camera), rows, self.instances, point, self._cells, lens)
+        near = flat._replace(lights=lights_from(flat, point))
+        if not is_rich:
+            world = world._replace(uv=None, textures=None, texels=None)
+            return _Seen(view, world, scene_arrays(near, NO_TEXTURES), None)
+        texels = flat.texels if len(flat.texels) else _ONE_TEXEL
+        textures = PacketTextures(flat.uv, flat.textures, texels)
+        effects = effects_of(*self._effects, flat.bounds)
+        return _Seen(view, world, scene_arrays(near, textures), effects)
+
+    def _writing(self, seen: _Seen, image: Image) -> StagedCode:
+        return writing_stage(*seen, image)
+
+    def _walk(
+        self, seen: _Seen, writing: StagedCode, finished: NDArray[np.uint8], control: Control
+    ) -> None:
+        self._team.run(
+            trace_packets, seen.view, seen.world, writing, finished, self.instances.stack_size,
+            control, size=finished.size,
+        )  # fmt: skip
