@@ -147,7 +147,7 @@ def lecture_stills(
             rect = window.shell.stage.rects.get(view.capitalize())
             if rect is not None:
                 picture = np.ascontiguousarray(cut(pixels, rect))
-                drawn = laboratory.page if view == "laboratory" else None
+                drawn = laboratory.in_both_themes() if view == "laboratory" else None
                 stills[place].append(Still(view, picture, drawn))
 
     _draw_builds(lecture, path, size, take, progress, for_print=True)

@@ -60,7 +60,7 @@ def state_of(lecture: Lecture, build: Step) -> AppState:
 
 
 def stills(build: Step, state: AppState) -> list[Still]:
-    given = page_of(state) if build.views == ("laboratory",) else None
+    given = (page_of(state), page_of(state)) if build.views == ("laboratory",) else None
     return [Still(view, GRAY, given) for view in build.views if view != "camera"]
 
 

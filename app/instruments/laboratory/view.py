@@ -84,6 +84,12 @@ class LaboratoryView(DockedView):
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)
 
+    def in_both_themes(self) -> tuple[Page, Page]:
+        """Return the input of the last drawing, in the light and in the dark theme of a hall."""
+        assert self.page is not None
+        light, dark = (look_of(one) for one in (theme.PRESENTED_LIGHT, theme.PRESENTED_DARK))
+        return replace(self.page, look=light), replace(self.page, look=dark)
+
     def _color(self, host: Host, page: str, size: Size) -> Image:
         """Return the image that a page shows, in linear light. Raises LucidaError."""
         if not PAGES[page].has_image:

@@ -30,12 +30,13 @@ from renderer.images.pixels import Indexing
 class Still:
     """A picture of a view in a build.
 
-    pixels: (height, width, 3). page: what the laboratory draws it from, None of other views.
+    pixels: (height, width, 3). drawn: the input of the laboratory's drawing, in the light and the
+    dark theme; None of other views.
     """
 
     view: str
     pixels: Bytes
-    page: Page | None = None
+    drawn: tuple[Page, Page] | None = None
 
 
 def page(
@@ -176,11 +177,11 @@ class _Step:
             f'<img src="{data_uri(still.pixels, self._form)}" width="{width}" height="{height}" '
             f'alt="{seen}">'
         )
-        if still.page is not None:
-            width, height = still.page.size
+        if still.drawn is not None:
+            width, height = still.drawn[0].size
             picture = (
                 f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{seen}">'
-                f"{drawing(still.page, self._form)}</svg>"
+                f"{drawing(still.drawn, self._form)}</svg>"
             )
         caption = f"<figcaption>{plain(title_of(still.view))}</figcaption>"
         return f'<figure class="{name}">{picture}{caption}</figure>\n'

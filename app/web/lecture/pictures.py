@@ -5,17 +5,14 @@ from __future__ import annotations
 import base64
 import io
 import re
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from PIL import Image
 
-from app.instruments.laboratory.looks import look_of
 from app.instruments.laboratory.page import Page
 from app.instruments.laboratory.pages import drawn
 from app.instruments.outside.svg import content
-from app.ui.theme import PRESENTED_DARK, PRESENTED_LIGHT
 from renderer.images.display import Bytes
 
 Form = Literal["webp", "jpeg"]
@@ -35,19 +32,16 @@ def data_uri(pixels: Bytes, form: Form = "webp", is_exact: bool = False) -> str:
     return f"data:image/{form};base64,{base64.b64encode(file.getvalue()).decode()}"
 
 
-def drawing(page: Page, form: Form = "webp") -> str:
+def drawing(themes: tuple[Page, Page], form: Form = "webp") -> str:
     """Return the elements of a laboratory's drawing as SVG, in the colours of the reader's theme.
 
-    form: of its pictures.
+    themes: the drawing in the light and in the dark theme. form: of its pictures.
     """
 
     def address(pixels: Bytes) -> str:
         is_small = pixels.shape[1] <= SMALL_PX
         return data_uri(pixels, "webp" if is_small else form, is_small)
 
-    light, dark = (
-        "\n".join(content(drawn(page.options.page, replace(page, look=look_of(palette))), address))
-        for palette in (PRESENTED_LIGHT, PRESENTED_DARK)
-    )
+    light, dark = ("\n".join(content(drawn(page.options.page, page), address)) for page in themes)
     others = iter(COLOR.findall(dark))  # both themes draw the same elements
     return COLOR.sub(lambda color: f'"light-dark({color[1]}, {next(others)})"', light)
