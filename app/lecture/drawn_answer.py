@@ -6,7 +6,6 @@ from collections.abc import Hashable
 
 from app.instruments.outside.diagram import Item
 from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.lecture.ghosts import ghosts
 from app.lecture.session import LectureSession
@@ -31,17 +30,13 @@ class DrawnAnswer:
             step, texts = session.step, tuple(answers.texts.items())
             end = end_parameter(step.view.camera, host.focus.framed)
             items = self._ghosts(
-                step.exercise, texts, answers.chosen, step.view.camera, end,
-                host.state.options.notation,
-            )  # fmt: skip
+                step.exercise, texts, step.view.camera, end, host.state.options.notation
+            )
         asked = (session.place, items) if items else None
         if items and asked != self._drawn:
             host.show(outside.name)
         self._drawn = asked
-        if host.state.of(OutsideOptions).answers:
-            outside.show(SOURCE, items, answer=asked)
-        else:
-            self.hide(outside)
+        outside.show(SOURCE, items, answer=asked)
 
     def hide(self, outside: OutsideView) -> None:
         """Take the drawing away."""

@@ -219,8 +219,8 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
 
 
 class Option(StrictTable):
-    """One answer to choose. feedback: the reply to it. camera: a table; its view volume is drawn in
-    the outside view if the answer is wrong.
+    """One answer to choose. feedback: the reply to it. camera: the fields of the step's camera that
+    change when it is chosen.
     """
 
     text: str

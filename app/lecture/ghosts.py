@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from app.instruments.outside import answers
 from app.instruments.outside.diagram import Item, Role, in_notation
-from app.instruments.outside.second_camera import GivenRay, SecondCamera, second_camera
+from app.instruments.outside.second_camera import GivenRay
 from app.lecture.exercises import (
-    ChoiceExercise,
     RayExercise,
     VectorExercise,
     Wanted,
@@ -23,7 +21,6 @@ from app.lecture.model import Exercise
 from app.state.kept_lecture import Judgement
 from app.state.options import Notation
 from renderer.camera.camera import Camera, Floats
-from renderer.files.views import view_from_table
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 
@@ -31,23 +28,20 @@ BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 def ghosts(
     task: Exercise | None,
     texts: tuple[tuple[str, str], ...],
-    chosen: int | None,
     camera: Camera,
     end: float,
     notation: Notation = "book",
 ) -> tuple[Item, ...]:
     """Return the drawing of a wrong answer; empty if it has nothing to draw.
 
-    texts: what was typed, by field. chosen: the option. camera: of the step. end: the ray
-    parameter at which the scene ends.
+    texts: what was typed, by field. camera: of the step. end: the ray parameter at which the scene
+    ends.
     """
     items: list[Item] = []
     if isinstance(task, RayExercise):
         items = _ray(task, dict(texts), end)
     elif isinstance(task, VectorExercise):
         items = _vectors(task, dict(texts), camera)
-    elif isinstance(task, ChoiceExercise) and chosen is not None:
-        items = _camera(task.options[chosen].camera, camera, end)
     return tuple(in_notation(items, notation))
 
 
@@ -89,14 +83,3 @@ def _corner(camera: Camera, left_top_d: Floats) -> Floats:
     left, top, distance = left_top_d.tolist()
     u, v, w = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     return np.asarray(camera.eye) + left * u + top * v - distance * w
-
-
-def _camera(table: dict[str, Any] | None, camera: Camera, end: float) -> list[Item]:
-    """Return the view volume of a camera that was chosen."""
-    if table is None:
-        return []
-    given = view_from_table(table).camera
-    rays = given.ray(np.array([-0.5, -0.5, 0.5, 0.5]), np.array([-0.5, 0.5, 0.5, -0.5]), (1, 1))
-    origins, directions = (np.broadcast_to(part, (4, 3)) for part in (rays.origin, rays.direction))
-    reach = end * float(np.linalg.norm(camera.ray(0, 0, (1, 1)).direction))
-    return second_camera(SecondCamera(origins, directions, name="yours"), reach)

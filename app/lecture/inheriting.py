@@ -33,6 +33,11 @@ def inherited(table: StepTable, build: BuildTable, view: View) -> StepTable:
     )
 
 
+def changed_view(view: View, changes: dict[str, Any]) -> View:
+    """Return a view with changed fields of its camera. Raises LucidaError."""
+    return view_from_table(_camera(view_table(view), changes))
+
+
 def _merged(before: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     """Return options with changes. Tables inside them are merged in the same way."""
     merged = before | changes

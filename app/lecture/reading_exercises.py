@@ -7,6 +7,7 @@ from typing import Any
 from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
+from app.lecture.inheriting import changed_view
 from app.lecture.model import Exercise
 from app.lecture.schema import AnyExercise, HideTable, RayTable
 from renderer.files.tables import to_struct
@@ -39,7 +40,7 @@ def exercise_of(table: Any, scene: Scene, view: View, indexing: Indexing) -> Exe
         case VectorExercise():
             _check_vectors(entry)
         case ChoiceExercise():
-            _check_options(entry)
+            _check_options(entry, view)
     return entry
 
 
@@ -94,7 +95,7 @@ def _check_answers(field: str, count: int, most: int = ANSWERS) -> None:
         raise LucidaError(field, f"holds {count}", f"give at most {most}")
 
 
-def _check_options(entry: ChoiceExercise) -> None:
+def _check_options(entry: ChoiceExercise, view: View) -> None:
     _check_answers("options", len(entry.options))
     right = sum(option.right for option in entry.options)
     if len(entry.options) < 2:
@@ -107,7 +108,7 @@ def _check_options(entry: ChoiceExercise) -> None:
                 texts.parse(getattr(option, field))
         if option.camera is not None:
             with under(f"options[{number}]"):
-                view_from_table(option.camera)
+                changed_view(view, option.camera)
 
 
 def _hide_exercise(entry: HideTable, scene: Scene, view: View) -> HideExercise:

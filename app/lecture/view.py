@@ -22,8 +22,10 @@ from app.lecture.answer_note import note, note_height
 from app.lecture.arrangement import arrange
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
+from app.lecture.exercises import ChoiceExercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
+from app.lecture.inheriting import changed_view
 from app.lecture.invitation import continuation, invitation
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import load_lecture
@@ -45,6 +47,7 @@ from app.ui.view import DockedView, Host, view_of
 from renderer.system.errors import LucidaError
 
 LECTURE = "Lecture"
+CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
 FADE_S = 0.5  # of a text that is added
 CONTROLS_S = 2.0  # until controls go after the mouse rests
 
@@ -386,6 +389,10 @@ class LectureView(DockedView):
             assert self.hidden_watch is not None
             said = self.hidden_watch.judgement(host, task)
         shown = exercise(task, answers, slides, host.fonts, said)
+        if isinstance(task, ChoiceExercise) and answers.chosen not in (None, before.chosen):
+            fields = task.options[answers.chosen].camera
+            if fields is not None:
+                host.move(host.state.with_view(changed_view(step.view, fields)), CHOSEN_S)
         if shown and isinstance(task, HideExercise):
             try:
                 host.change(replace(host.state, scene=task.solved(host.state.scene)))

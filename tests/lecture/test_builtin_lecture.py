@@ -45,7 +45,7 @@ class TestTheBuiltInLecture:
 
     def test_their_names_in_menus_are_their_titles(self):
         assert [load_lecture(path).title for path in BUILTINS.values()] == list(BUILTINS)
-        assert [len(load_lecture(path).steps) for path in BUILTINS.values()] == [35, 8]
+        assert [len(load_lecture(path).steps) for path in BUILTINS.values()] == [35, 10]
 
     def test_it_fits_a_slide(self):
         last = {build.title: build for build in self.lecture.builds}

@@ -11,9 +11,9 @@ from app.lecture.ghosts import ghosts
 STEPS = {step.title: step for step in both_lectures().steps if step.exercise is not None}
 
 
-def drawn(title: str, chosen: int | None = None, **texts: str):
+def drawn(title: str, **texts: str):
     step = STEPS[title]
-    return ghosts(step.exercise, tuple(texts.items()), chosen, step.view.camera, 8.0)
+    return ghosts(step.exercise, tuple(texts.items()), step.view.camera, 8.0)
 
 
 @pytest.mark.parametrize(

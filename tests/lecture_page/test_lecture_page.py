@@ -36,7 +36,7 @@ ANSWERS, PLACES = 250, 12  # of each exercise
 TITLES = (  # of steps with one of everything
     "Where do viewing rays come from?", "Raster images", "Parallel projection", "Ray tracing",
     "Exercise: hide the box", "From pixel to (u, v)", "One pixel, worked out",
-    "Exercise: any camera's ray", "The camera as K, R, t", "Exercise: which lens?",
+    "Exercise: any camera's ray", "The camera as K", "Exercise: which lens?",
 )  # fmt: skip
 
 
@@ -434,7 +434,7 @@ def test_a_print_has_a_page_for_each_picture(written, answers):
     _, some = written
     gray = np.full((300, 400, 3), 128, np.uint8)
     html = page(some, [[Still(step.views[0], gray)] for step in some.builds], answers, True)
-    assert ("the file that holds" in html, "Show the solution" in html) == (answers, answers)
+    assert ("Show the solution" in html) == answers
     printed = pdf.pdf(html, pdf.browser())
     pages = len(re.findall(rb"/Type\s*/Page\b", printed))
     assert pages == html.count("<section class") >= len(TITLES)

@@ -70,7 +70,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     assert len(window.history.past) == 1
     assert window.state.view == inner
     # Back to the view of all, which the state leaves to the view: at the end, without a step.
-    d.ctx.item_click(f"//###{OUTSIDE}/fit all##outside")
+    press(d, "fit all")
     clock.s += 0.999 * DURATION_S
     d.until(lambda: window.state.options.outside.camera is not None and window.transition.under_way)
     d.ctx.yield_(2)

@@ -49,7 +49,10 @@ def empty_place(d: Driver) -> tuple[float, float]:
 
 
 def press(d: Driver, name: str) -> None:
-    d.ctx.item_click(f"//###{OUTSIDE}/{name}##outside")
+    """Choose an entry of the view's menu."""
+    d.ctx.item_click(f"//###{OUTSIDE}/Show##outside")
+    d.ctx.yield_(2)
+    d.ctx.item_click(f"//$FOCUSED/{name}")
     d.ctx.yield_(2)
 
 

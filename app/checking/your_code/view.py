@@ -26,7 +26,6 @@ from app.checking.your_code.report import CodeQuestion, CodeReport
 from app.checking.your_code.runs import CodeRuns
 from app.checking.your_code.words import ToldLine, told_of
 from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.state.options import Notation, Pixel
 from app.state.paths import restored, stored
@@ -248,10 +247,7 @@ class YourCodeView(DockedView):
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        if host.state.of(OutsideOptions).answers:
-            self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
-        else:
-            self._outside.show(YOUR_CODE)
+        self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
 
     # Requests of the user.
 

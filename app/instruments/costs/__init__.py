@@ -1,1 +1,1 @@
-"""The cost plot: the growth of both orders, counted and measured."""
+"""The cost plot: the growth of both orders, counted."""

@@ -1,4 +1,4 @@
-"""The plots of recorded costs. All axes are logarithmic: a cost that grows like n is a straight
+"""The plot of counted steps. Both axes are logarithmic: a cost that grows like n is a straight
 line that climbs one power of ten for each power of ten of n.
 """
 
@@ -11,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui, implot
 
-from app.instruments.costs.recorded import COSTS, Unit
+from app.instruments.costs.recorded import COSTS, Cost, Unit
 from app.ui import theme
 
-SMALL_EM = 21  # a view less wide and high has no room for two plots
 MARGIN = 1.5  # around the least and the most on an axis
 AROUND_EM = 5.0  # above and below what is plotted: title, numbers, name of the axis
 TITLES_PART = 0.45  # of the width that the lines' titles may take
@@ -38,42 +37,18 @@ def color_of(is_ray: bool) -> ImVec4:
 
 
 def draw(unit: Unit, size: ImVec2) -> None:
-    """Plot steps and times, side by side if the view is wide, else one above the other.
-
-    A small view shows only the steps.
-    """
-    costs, gap = COSTS[unit], imgui.get_style().item_spacing
-    columns = {name: [float(getattr(cost, name)) for cost in costs] for name in costs[0]._fields}
-    steps = (
+    """Plot the steps of both loops, as lines with dots, their titles at the right."""
+    costs = COSTS[unit]
+    columns = {name: [float(getattr(cost, name)) for cost in costs] for name in Cost._fields}
+    xs = columns[unit]
+    lines = (
         Line("triangles set up", False, columns["triangles"]),
         Line("pixels tested", False, columns["tested"]),
         Line("rays", True, columns["pixels"]),
         Line("nodes visited", True, columns["nodes"]),
     )
-    times = (
-        Line("raster", False, columns["raster_ms"]),
-        Line("ray", True, columns["ray_ms"]),
-    )
-    is_small = max(size.x, size.y) < SMALL_EM * imgui.get_font_size()
-    is_wide = size.x >= size.y
-    if not is_small and is_wide:
-        size = ImVec2((size.x - gap.x) / 2, size.y)
-    elif not is_small:
-        size = ImVec2(size.x, (size.y - gap.y) / 2)
-    _lines_plot("steps, counted", unit, columns[unit], size, steps)
-    if is_small:
-        return
-    if is_wide:
-        imgui.same_line()
-    _lines_plot("milliseconds, recorded", unit, columns[unit], size, times)
-
-
-def _lines_plot(
-    title: str, unit: Unit, xs: list[float], size: ImVec2, lines: Sequence[Line]
-) -> None:
-    """Plot lines with dots, and their titles at the right, below one another if there is room."""
     flags = implot.Flags_.no_mouse_text | implot.Flags_.no_menus | implot.Flags_.no_legend
-    if not implot.begin_plot(title, size, flags):
+    if not implot.begin_plot("steps, counted", size, flags):
         return
     em, line_px = imgui.get_font_size(), imgui.get_text_line_height()
     titles_px = max(imgui.calc_text_size(line.title).x for line in lines) + 1.5 * em

@@ -1,4 +1,4 @@
-"""The cost plot: recorded steps and times of both renderers, against triangles or pixels."""
+"""The cost plot: the steps of both loops, against triangles or pixels."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from imgui_bundle import ImVec2, imgui, implot
 
 from app.instruments.costs import plots
 from app.instruments.costs.options import CostOptions
-from app.instruments.costs.recorded import COSTS, EXPLAINED, GROWTH
+from app.instruments.costs.recorded import COSTS, GROWTH
 from app.ui import theme
 from app.ui.checks import radio_button
 from app.ui.rows import follow
@@ -34,17 +34,14 @@ class CostsView(DockedView):
                 if radio_button(name, unit == name):
                     host.apply(host.state.with_options(costs={"against": name}))
         room = imgui.get_content_region_avail()
-        of_object, of_image = GROWTH[unit]
-        notes = [
-            (of_object, theme.legible(plots.color_of(is_ray=False))),
-            (of_image, theme.legible(plots.color_of(is_ray=True))),
-        ]
-        if room.y > 20 * imgui.get_font_size():
-            notes.append((EXPLAINED, theme.DIM))
+        if not host.has_tools:
+            plots.draw(unit, room)
+            return
+        notes = list(zip(GROWTH[unit], map(plots.color_of, (False, True)), strict=True))
         gap = imgui.get_style().item_spacing.y
         below = sum(imgui.calc_text_size(note, wrap_width=room.x).y + gap for note, _ in notes)
         plots.draw(unit, ImVec2(room.x, max(60.0, room.y - below - gap)))
         imgui.push_text_wrap_pos(0.0)
         for note, color in notes:
-            imgui.text_colored(color, note)
+            imgui.text_colored(theme.legible(color), note)
         imgui.pop_text_wrap_pos()

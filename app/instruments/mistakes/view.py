@@ -21,7 +21,6 @@ from app.instruments.mistakes.pages import Made, Page, put_pictures
 from app.instruments.mistakes.question import CHOICES
 from app.instruments.outside.diagram import Item
 from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.second_camera import SecondCamera, second_camera
 from app.instruments.outside.view import OutsideView
 from app.state.options import Pixel
@@ -231,8 +230,8 @@ class MistakesView(DockedView):
 
     def _show_outside(self, host: Host) -> None:
         """The camera of the wrong lines, and its ray; not in the quiz: it would be the answer."""
-        made, is_shown = self.made, host.state.of(OutsideOptions).answers
-        if made is None or made.compared is None or not made.mistakes or not is_shown:
+        made = self.made
+        if made is None or made.compared is None or not made.mistakes:
             self._outside.show(MISTAKES)
             return
         now = made.now

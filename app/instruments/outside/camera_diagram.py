@@ -41,6 +41,7 @@ from app.ui.explaining.symbols import vector
 from renderer.camera.camera import Camera, Floats
 
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
+ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,7 @@ class Content:
     the grid. notation: of the labels. base: the number of the first row and column. number_step:
     see pixel_numbers(); None: rows and columns are not numbered. meetings: the t
     of all meetings of the marked pixel's line with objects. pointed: the t under the mouse.
+    names_t: write the t of the marked pixel's hit.
     """
 
     camera: Camera
@@ -66,6 +68,7 @@ class Content:
     number_step: int | None = None
     meetings: tuple[float, ...] = ()
     pointed: float | None = None
+    names_t: bool = True
 
 
 def diagram(content: Content) -> list[Item]:
@@ -89,7 +92,7 @@ def diagram(content: Content) -> list[Item]:
             found = content.meetings
             items += meetings(camera, size, marked.pixel, found, end, options.meetings)
         else:
-            items += _marked(camera, size, marked, end, washed=not options.image)
+            items += _marked(camera, size, marked, end, not options.image, content.names_t)
     if options.simple:
         return items + simple_camera(camera, options.simple, measured=options.formula is None)
     fails = options.target is not None and is_parallel(options.up, camera.w)
@@ -191,8 +194,8 @@ def _target(
                 "fails",
                 "text",
                 "up x w = 0: no u, no v",
-                eye - 0.5 * w,
-                away=eye + np.array([0.0, 1.0, 0.0]),
+                eye + np.array([0.0, ABOVE_HANDLES, 0.0]) * np.linalg.norm(w),
+                away=eye,
                 strong=True,
             ),
         ]
@@ -267,7 +270,9 @@ def _ray(
     return items
 
 
-def _marked(camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool) -> list[Item]:
+def _marked(
+    camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool, names_t: bool
+) -> list[Item]:
     """Return the marked pixel, its ray through its centre, its hit, and the way beyond.
 
     washed: fill the pixel, which has no colour of the image that must stay visible.
@@ -292,8 +297,9 @@ def _marked(camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool) -
         items += [
             Segments("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2),
             Dot("hit", "mark", reached, 6.0),
-            Label("hit", "mark", f"t = {t:.4g}", reached, away=origin),
         ]
+        if names_t:
+            items.append(Label("hit", "mark", f"t = {t:.4g}", reached, away=origin))
     return items
 
 

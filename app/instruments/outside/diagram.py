@@ -105,6 +105,8 @@ class Label:
     away: a point that the text keeps away from; None to centre it above. strong: a letter of the
     formulas. least: hide the text if point and `away` are nearer than this on the screen, in units
     of a line. fixed: the text stays on its side of the point, even if it covers something there.
+    line: the segment (2, 3) that the text names; the text may be anywhere along it. lit: its term
+    is the one that a formula points out.
     """
 
     name: str
@@ -115,6 +117,8 @@ class Label:
     strong: bool = False
     least: float = 0.0
     fixed: bool = False
+    line: Floats | None = None
+    lit: bool = False
 
 
 Item = Segments | Face | Arrow | Dot | Eye | Label

@@ -25,7 +25,7 @@ from renderer.system.errors import LucidaError
 gizmo = imguizmo.im_guizmo
 Kind = Literal["none", "move", "turn", "distance", "up"]
 
-LENGTH = 0.2  # of the view: the handles' length in clip space
+LENGTH = 0.26  # of the view: the handles' length in clip space
 WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
 TEXT_AT = 18.0  # at 100 %: what the motion's text is away from the eye, to the right and below
 LEAST_PART = 1e-4  # of the largest part of a motion: what is less is rounding

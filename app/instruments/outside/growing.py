@@ -322,6 +322,8 @@ def _vector(vector: Vector, now: Growth, camera: Camera) -> list[Item]:
             middle,
             away=middle - aside,
             strong=True,
+            line=np.array([vector.start, vector.end]),
+            lit=now.lit == {"d": "ray"}.get(vector.name, vector.name),
         ),
     ]
 
@@ -344,5 +346,4 @@ def _ray(camera: Camera, marked: RayEnd, now: Growth, end: float) -> list[Item]:
     ]
     if marked.is_hit and share == 1:
         items.append(Dot("hit", "mark", reached, 6.0))
-        items.append(Label("hit", "mark", f"t = {marked.t:.4g}", reached, away=way.start))
     return items

@@ -26,7 +26,7 @@ class OutsideOptions:
     target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
     from; None: neither. formula:
     how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None: it is not drawn.
-    answers: wrong ones, next to the correct ones. pixels: the image plane in pixels, with K's
+    pixels: the image plane in pixels, with K's
     numbers, to be dragged.
 
     The numbers below are drawings of a lecture that grow: each counts the parts that are complete.
@@ -49,7 +49,6 @@ class OutsideOptions:
     gizmo: Literal["none", "move", "turn", "distance", "up"] = "none"
     target: Point | None = None
     up: Point = (0.0, 1.0, 0.0)
-    answers: bool = True
     formula: Annotated[float, Range(0, len(LENS_STAGES))] | None = None
     pixels: bool = False
     points: Annotated[tuple[Point, ...], AtMost(16)] = ()

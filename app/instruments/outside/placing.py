@@ -27,7 +27,10 @@ FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
 # on another label, on a mark, for a height of a line in the text, on the image plane.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
-_PREFERENCES = np.add.outer(OUT * np.array(FARTHER), TURNED * np.abs(TURNS) / math.pi).ravel()
+# Places along a line, as many as turns: shares of its length, on both sides of it; and what it
+# costs to be on the other side, and away from the middle.
+SHARES = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2])
+OTHER_SIDE, SLID = 0.4, 1.0
 TINY = 1e-300  # in place of 0, to divide by
 JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
@@ -87,12 +90,13 @@ class LabelPlacer:
         if not texts:
             return []
         ground = _ground(primitives)
-        places = _places(texts, boxes)
+        found = [_places(text, box) for text, box in zip(texts, boxes, strict=True)]
+        places, preferences = (np.stack(parts) for parts in zip(*found, strict=True))
         wide = np.array([(box.width, box.height) for box in boxes]) / 2
         wide += SPACE * np.array([[box.height] for box in boxes])
         around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
         areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
-        costs = _PREFERENCES + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
+        costs = preferences + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
         centers: list[Spot] = [(0.0, 0.0)] * len(texts)
         taken = np.zeros((len(texts), 4))
         order = sorted(range(len(texts)), key=lambda k: (not texts[k].fixed, not texts[k].strong))
@@ -129,26 +133,30 @@ def _labels(texts: Sequence[Text]) -> list[Label]:
     return [(*name, names[:number].count(name)) for number, name in enumerate(names)]
 
 
-def _places(texts: Sequence[Text], boxes: Sequence[Box]) -> Floats:
-    """Return the centres of each label's places, (labels, n, 2): the text's box touches a circle
-    around the point from outside.
+def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
+    """Return the centres of a label's places (n, 2), and what they cost, (n,): the text's box
+    touches a circle around the point from outside, or a line.
     """
-    numbers = [
-        (*text.at, math.atan2(*text.toward[::-1]), box.width / 2, box.height, box.room)
-        for text, box in zip(texts, boxes, strict=True)
-    ]
-    x, y, angle, half, height, room = np.array(numbers).T[..., None]
-    across, down = np.cos(angle + TURNS), np.sin(angle + TURNS)
-    reach = room + np.abs(across) * half + np.abs(down) * height / 2
-    out = (np.multiply.outer(FARTHER, height) + reach).swapaxes(0, 1)
-    places = np.stack(
-        [x[:, None] + out * across[:, None], y[:, None] + out * down[:, None]], axis=3
-    )
-    return places.reshape(len(texts), -1, 2)
+    if text.line is None or not (way := text.line[1] - text.line[0]).any():
+        starts = np.array([text.at])
+        angles, costs = math.atan2(*text.toward[::-1]) + TURNS, TURNED * np.abs(TURNS) / math.pi
+    else:
+        starts = np.repeat(text.line[0] + SHARES[:, None] * way, 2, axis=0)
+        normal = math.atan2(way[0], -way[1])
+        if math.cos(normal) * text.toward[0] + math.sin(normal) * text.toward[1] < 0:
+            normal += math.pi
+        angles = normal + np.tile([0.0, math.pi], len(SHARES))
+        slid = np.repeat(SLID * np.abs(SHARES - 0.5), 2)
+        costs = slid + np.tile([0.0, OTHER_SIDE], len(SHARES))
+    ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    reach = box.room + np.abs(ways) @ (box.width / 2, box.height / 2)
+    out = np.add.outer(np.multiply(FARTHER, box.height), reach)
+    places = starts + out[..., None] * ways
+    return places.reshape(-1, 2), np.add.outer(np.multiply(OUT, FARTHER), costs).ravel()
 
 
 def _ground(primitives: Iterable[Primitive]) -> _Ground:
-    strokes = [part for part in primitives if isinstance(part, Strokes) and part.role != "grid"]
+    strokes = [part for part in primitives if isinstance(part, Strokes)]
     shapes = [
         part.points for part in primitives if isinstance(part, Shape) and part.opacity >= 0.5
     ]  # heads, and the marked pixel

@@ -72,7 +72,8 @@ class Shape(NamedTuple):
 
 class Text(NamedTuple):
     """A text next to a point. toward: the unit direction from `at` to the text. strong: bold.
-    fixed: in that direction only.
+    fixed: in that direction only. line: the ends (2, 2) of a line that the text may be along. lit:
+    see Label.
     """
 
     name: str
@@ -82,6 +83,8 @@ class Text(NamedTuple):
     toward: tuple[float, float]
     strong: bool
     fixed: bool = False
+    line: Floats | None = None
+    lit: bool = False
 
 
 Primitive = Strokes | Shape | Text
@@ -123,7 +126,7 @@ def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
         elif not seen.visible[low]:
             continue
         elif isinstance(part, Label):
-            out += _label(part, seen.points[low], seen.spots[low:high], screen)
+            out += _label(part, low, high, seen, screen)
         elif isinstance(part, Eye):
             out += _eye(part, seen.points[low:high], seen.depth[low:high], screen)
         else:
@@ -139,8 +142,9 @@ def _points(item: Item) -> Floats:
         return np.ravel(item.corners)
     if isinstance(item, Arrow):
         return item.end
-    if isinstance(item, Label) and item.away is not None:
-        return np.concatenate([item.point, item.away])
+    if isinstance(item, Label):
+        away = item.point if item.away is None else item.away
+        return np.concatenate([item.point, away, *(() if item.line is None else item.line)])
     return item.point
 
 
@@ -262,12 +266,12 @@ def _eye(item: Eye, at: Floats, depth: Floats, screen: OutsideScreen) -> list[Pr
     return out
 
 
-def _label(item: Label, at: Floats, spots: Floats, screen: OutsideScreen) -> list[Primitive]:
-    """Return a text. spots: of its point and of `away`, from OutsideScreen.homogeneous()."""
+def _label(item: Label, first: int, end: int, seen: Seen, screen: OutsideScreen) -> list[Primitive]:
+    """Return a text. seen: its point, `away` and the ends of its line, from `first` to `end`."""
     dx, dy = 0.0, 1.0
     if item.away is not None:
         # The direction on the screen, even if the other end is behind the outside camera's eye.
-        (x, y, t, _), (x_away, y_away, t_away, _) = spots.tolist()
+        (x, y, t, _), (x_away, y_away, t_away, _) = seen.spots[first : first + 2].tolist()
         over = 0.0 if screen.camera.is_parallel else (t - t_away) / t
         x, y = x - x_away - over * x, y - y_away - over * y
         length = math.hypot(x, y)
@@ -276,8 +280,13 @@ def _label(item: Label, at: Floats, spots: Floats, screen: OutsideScreen) -> lis
             return []
         if length > 0:
             dx, dy = x / length, y / length
-    x, y = at.tolist()
-    return [Text(item.name, item.role, item.text, (x, y), (dx, dy), item.strong, item.fixed)]
+    x, y = seen.points[first].tolist()
+    ends = slice(first + 2, end)
+    has_line = item.line is not None and bool(seen.visible[ends].all())
+    return [
+        Text(item.name, item.role, item.text, (x, y), (dx, dy), item.strong, item.fixed,
+             seen.points[ends] if has_line else None, item.lit)
+    ]  # fmt: skip
 
 
 def _circle(axis: Floats) -> Floats:

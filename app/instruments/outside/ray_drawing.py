@@ -51,7 +51,16 @@ def half_line(
         tip = origin + share[1] * (ticks[0] - origin)
         items += [
             Arrow("d", "ray", origin, tip, 4.2, layer=4),
-            Label("d", "ray", "vec(d)", (origin + tip) / 2, away=aside, strong=True, least=20.0),
+            Label(
+                "d",
+                "ray",
+                "vec(d)",
+                (origin + tip) / 2,
+                away=aside,
+                strong=True,
+                least=20.0,
+                line=np.array([origin, tip]),
+            ),
         ]
     if share[2]:
         ahead = origin + share[2] * (far - origin)

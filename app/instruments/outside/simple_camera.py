@@ -41,7 +41,8 @@ def simple_camera(camera: Camera, grown: float, measured: bool) -> list[Item]:
     if share[1] and not share[4]:
         tip = eye + 0.8 * share[1] * camera.distance * ahead
         items.append(Arrow("-z", "w", eye, tip, 4.2))
-        items.append(Label("-z", "w", "-z", tip, away=eye, strong=True, least=8.0))
+        line = np.array([eye, tip])
+        items.append(Label("-z", "w", "-z", tip, away=tip - v, strong=True, least=8.0, line=line))
     if share[2]:
         edges = polyline(middle + share[2] * (corners - middle), True)
         items.append(Segments("image plane", "plane", edges, 3.0, on_plane=True))
@@ -61,7 +62,7 @@ def simple_camera(camera: Camera, grown: float, measured: bool) -> list[Item]:
         if share[4] == 1:
             at = eye + 0.45 * (middle - eye)
             text = f"d = {number(camera.distance)}"
-            items.append(Label("distance", "w", text, at, away=at + v, strong=True))
+            items.append(Label("distance", "w", text, at, away=at - v, strong=True, line=line[0]))
     return items
 
 
@@ -70,7 +71,8 @@ def _measure(name: str, start: Floats, end: Floats, text: str, middle: Floats) -
     yield Segments(name, "extra", np.array([[start, end]]), 3.0, layer=3)
     yield Dot(f"{name} start", "extra", start, 4.0)
     yield Dot(f"{name} end", "extra", end, 4.0)
-    yield Label(name, "extra", text, (start + end) / 2, away=middle, strong=True)
+    line = np.array([start, end])
+    yield Label(name, "extra", text, line.mean(axis=0), away=middle, strong=True, line=line)
 
 
 def simple_ray(
@@ -107,13 +109,17 @@ def simple_ray(
         )
         text = f"{name} = {number(value)}" if numbers else name
         at = (middle + foot) / 2
-        items.append(Label(name, name, text, at, away=center, strong=True))  # type: ignore[arg-type]
+        label = Label(name, name, text, at, away=center, strong=True, line=lines[0])  # type: ignore[arg-type]
+        items.append(label)
     if share[2]:
         tip = eye + share[2] * (center - eye)
         items.append(Arrow("direction", "ray", eye, tip, 4.2, layer=4))
         text = text_tuple((x, y, -camera.distance)) if numbers else "(u, v, -d)"
         at, below = (eye + tip) / 2, np.asarray(camera.v) * (1 if y > 0 else -1)
-        items.append(Label("direction", "ray", text, at, away=at - below, strong=True, least=20.0))
+        line = np.array([eye, tip])
+        items.append(
+            Label("direction", "ray", text, at, away=at - below, strong=True, least=20.0, line=line)
+        )
     return items
 
 

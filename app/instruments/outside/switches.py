@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.instruments.outside.diagram import Role
 from app.instruments.outside.options import LENS_STAGES, OutsideOptions
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
@@ -24,23 +23,21 @@ AXIS_NAMES = {
 
 @dataclass(frozen=True)
 class Switch:
-    """One of the legend's: a field of OutsideOptions, its name, its tooltip, the colour's role."""
+    """A field of OutsideOptions, its name, its tooltip."""
 
     field: str
     name: str
     tip: str
-    role: Role
 
 
 SWITCHES = (
-    Switch("basis", "basis", "the basis vectors u, v, w at the eye, at their true lengths", "w"),
-    Switch("image", "image", "the live image on the image plane", "plane"),
-    Switch("grid", "grid", "the pixel grid on the image plane", "grid"),
-    Switch("volume", "volume", "the view volume: what the camera can see", "volume"),
-    Switch("ray", "ray", "the viewing ray of the marked pixel, or the one under the mouse", "ray"),
-    Switch("formula", "formula", "the marked pixel's ray, term by term: -dw, uu, vv", "mark"),
-    Switch("answers", "answer", "a wrong answer, dashed, next to the correct one", "other"),
-    Switch("bundle", "bundle", "viewing rays spread over the image (right-click: how many)", "ray"),
+    Switch("basis", "basis", "the basis vectors u, v, w at the eye, at their true lengths"),
+    Switch("image", "image", "the live image on the image plane"),
+    Switch("grid", "grid", "the pixel grid on the image plane"),
+    Switch("volume", "volume", "the view volume: what the camera can see"),
+    Switch("ray", "ray", "the viewing ray of the marked pixel, or the one under the mouse"),
+    Switch("formula", "formula", "the marked pixel's ray, term by term: -dw, uu, vv"),
+    Switch("bundle", "bundle", "viewing rays spread over the image"),
 )
 
 HANDLES = (

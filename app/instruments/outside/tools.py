@@ -1,11 +1,11 @@
-"""The tools over the outside view: the legend of switches, the axes that turn it, the labels."""
+"""The tools over the outside view: its menu, the axes that turn it, the labels."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,6 @@ from app.instruments.outside.projected import Primitive, Text
 from app.instruments.outside.switches import (
     AXIS_NAMES,
     SWITCHES,
-    Switch,
     handles,
     is_on,
     toggled,
@@ -36,152 +35,62 @@ from app.ui.theme import framebuffer_scale
 from app.ui.view import Host
 from renderer.camera.camera import Camera
 
-PAD = 6  # around the switches
-GAP = 4  # between them
-TRIAD_ROOM = 110  # width that the switches leave to the axes
-LARGEST_SHARE = 0.2  # of the view's height, for switches in more than one row
+PAD = 6  # around the menu's button
 
 
-class _Entry(NamedTuple):
-    """A switch or a button of the legend. color: of its dot; None for no dot. clicked: returns the
-    options after a click.
-    """
-
-    name: str
-    tip: str
-    is_on: bool
-    color: ImVec4 | None
-    clicked: Callable[[], OutsideOptions]
-
-
-class _Covered(NamedTuple):
-    """Width and height that the legend covers in the view's upper left and lower left corner."""
-
-    upper: tuple[float, float]
-    lower: tuple[float, float]
-
-
-def use_tools(host: Host, scope: Scope, more: Floats, answered: bool) -> tuple[Edges, ...]:
-    """Draw the legend and the axes into the view's window, and do what they are clicked for. Return
+def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
+    """Draw the menu and the axes into the view's window, and do what they are clicked for. Return
     the boxes that they cover, in the view's pixels.
 
-    more: points (n, 3) that must be in sight with the scene. answered: a wrong answer is drawn.
+    more: points (n, 3) that must be in sight with the scene.
     """
     state = host.state
     now = state.of(OutsideOptions)
-    shown = [one for one in SWITCHES if answered or one.field != "answers" or not now.answers]
-    options, rows = _legend(now, shown, host.renderers.camera(state), scope)
-    axis = triad(scope.shown, scope.origin, scope.extent)
+    pad, origin = theme.px(PAD), scope.origin
+    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
+    if imgui.button("Show##outside"):
+        imgui.open_popup("outside menu")
+    covered = imgui.get_item_rect_max() - origin
+    options = now
+    if imgui.begin_popup("outside menu"):
+        options = _menu(now, host.renderers.camera(state))
+        imgui.end_popup()
+    axis = triad(scope.shown, origin, scope.extent)
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
-    right, bottom, scale = scope.extent.x, scope.extent.y, framebuffer_scale()
-    around = 2 * theme.px(TRIAD_PX)
-    boxes = (
-        (0.0, 0.0, *rows.upper),
-        (0.0, bottom - rows.lower[1], rows.lower[0], bottom),
-        (right - around, 0.0, right, around),
-    )
-    covered = tuple((scale * a, scale * b, scale * c, scale * d) for a, b, c, d in boxes)
-    if options == now:
-        return covered
-    changed = state.with_options(outside=options)
     if options.camera != now.camera:
-        host.travel(changed)
-    else:
-        host.apply(changed)
-    return covered
+        host.travel(state.with_options(outside=options))
+    elif options != now:
+        host.apply(state.with_options(outside=options))
+    scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
+    return (
+        (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),
+        (scale * (right - around), 0.0, scale * right, scale * around),
+    )
 
 
-def _legend(
-    options: OutsideOptions, shown: list[Switch], camera: Camera, scope: Scope
-) -> tuple[OutsideOptions, _Covered]:
-    """Draw the switches in the view's upper left corner, those of the handles and the view below.
-    Return the options and what is covered.
+def _menu(options: OutsideOptions, camera: Camera) -> OutsideOptions:
+    """Draw the entries of the menu: switches, handles, views. Return the options after a click.
 
-    The switches take one row, or two. In a view without room for them one button opens all of them.
     camera: the one in the scene.
     """
-    switches = [
-        _Entry(
-            switch.name, switch.tip, is_on(options, switch.field), role_color(switch.role),
-            partial(toggled, options, switch.field),
-        )
-        for switch in shown
-    ]  # fmt: skip
-    tools = [
-        _Entry(name, tip, options.gizmo == kind, theme.TEXT, partial(with_gizmo, options, kind))
-        for kind, name, tip in handles(options)
-    ]
+
+    def entry(name: str, tip: str, is_on: bool, after: OutsideOptions) -> OutsideOptions:
+        clicked = imgui.menu_item(name, "", is_on)[0]
+        imgui.set_item_tooltip(tip)
+        return after if clicked else options
+
+    for switch in SWITCHES:
+        on, after = is_on(options, switch.field), toggled(options, switch.field)
+        options = entry(switch.name, switch.tip, on, after)
+    options = _bundle_fields(options)
+    imgui.separator()
+    for kind, name, tip in handles(options):
+        options = entry(name, tip, options.gizmo == kind, with_gizmo(options, kind))
+    imgui.separator()
     tips = "a view that sees the scene and the camera", "look from the camera: what it sees"
-    views = [
-        _Entry("fit all", tips[0], False, None, partial(replace, options, camera=None)),
-        _Entry("from camera", tips[1], False, None, partial(replace, options, camera=camera)),
-    ]
-    pad, origin, extent = theme.px(PAD), scope.origin, scope.extent
-    high = imgui.get_frame_height()
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
-    above = _rows(switches, extent.x - pad - theme.px(TRIAD_ROOM))
-    below = _rows(tools + views, extent.x - 2 * pad)
-    is_low = 2 * (high + theme.px(GAP)) > LARGEST_SHARE * extent.y
-    if len(below) > 1 or len(above) > (1 if is_low else 2):
-        options = _popup(options, [switches, tools, views])
-        width = pad + imgui.get_item_rect_max().x - origin.x
-        return options, _Covered((width, high + 2 * pad), (0.0, 0.0))
-    changed, upper = options, 0.0
-    for line, row in enumerate(above):
-        top = origin.y + pad + line * (high + theme.px(GAP))
-        imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, top))
-        for number, entry in enumerate(row):
-            if number:
-                imgui.same_line(0, theme.px(GAP))
-            if chip(*entry[:4]):
-                changed = entry.clicked()
-            if entry.name == "bundle" and imgui.begin_popup_context_item("bundle size"):
-                changed = _bundle_fields(changed)
-                imgui.end_popup()
-            upper = max(upper, imgui.get_item_rect_max().x - origin.x)
-    upper_high = len(above) * (high + theme.px(GAP)) - theme.px(GAP) + 2 * pad
-    imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + extent.y - pad - high))
-    lower = 0.0
-    for entry in tools + views:
-        if chip(*entry[:4]):
-            changed = entry.clicked()
-        lower = imgui.get_item_rect_max().x - origin.x
-        imgui.same_line(0, theme.px(GAP))
-    imgui.new_line()
-    return changed, _Covered((upper, upper_high), (lower, high + 2 * pad))
-
-
-def _rows(entries: list[_Entry], room: float) -> list[list[_Entry]]:
-    """Return the entries in rows that are at most `room` wide."""
-    rows: list[list[_Entry]] = [[]]
-    wide = 0.0
-    for entry in entries:
-        width = _chip_width(entry.name, entry.color is not None)
-        if rows[-1] and wide + width > room:
-            rows.append([])
-            wide = 0.0
-        rows[-1].append(entry)
-        wide += width + theme.px(GAP)
-    return rows
-
-
-def _popup(options: OutsideOptions, groups: list[list[_Entry]]) -> OutsideOptions:
-    if chip("show ...", "what is drawn, and the handles", False):
-        imgui.open_popup("outside legend")
-    if not imgui.begin_popup("outside legend"):
-        return options
-    for number, group in enumerate(groups):
-        if number:
-            imgui.separator()
-        for entry in group:
-            if imgui.menu_item(entry.name, "", entry.is_on)[0]:
-                options = entry.clicked()
-            imgui.set_item_tooltip(entry.tip)
-        if not number:
-            options = _bundle_fields(options)
-    imgui.end_popup()
-    return options
+    options = entry("fit all", tips[0], options.camera is None, replace(options, camera=None))
+    return entry("from camera", tips[1], False, replace(options, camera=camera))
 
 
 def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
@@ -193,34 +102,6 @@ def _bundle_fields(options: OutsideOptions) -> OutsideOptions:
     if changed:
         return replace(options, bundle=(int(values[0]), int(values[1])))
     return options
-
-
-def _chip_width(name: str, has_dot: bool) -> float:
-    return float(imgui.calc_text_size(name).x + theme.px(28 if has_dot else 12))
-
-
-def chip(name: str, tip: str, on: bool, color: ImVec4 | None = None) -> bool:
-    """Draw a small button with a dot of its colour, filled if it is on."""
-    height = imgui.get_frame_height()
-    dot = theme.px(16) if color is not None else 0.0
-    size = ImVec2(_chip_width(name, color is not None), height)
-    at = imgui.get_cursor_screen_pos()
-    clicked = press_area(f"{name}##outside", size)
-    hovered = imgui.is_item_hovered()
-    imgui.set_item_tooltip(tip)
-    draw = imgui.get_window_draw_list()
-    far = ImVec2(at.x + size.x, at.y + size.y)
-    back = theme.FRAME_HOVERED if hovered else theme.PANEL
-    draw.add_rect_filled(at, far, theme.u32(back, 0.94 if on or hovered else 0.82), theme.px(4))
-    middle = at.y + height / 2
-    if color is not None:
-        spot = ImVec2(at.x + theme.px(12), middle)
-        if on:
-            draw.add_circle_filled(spot, theme.px(4.5), theme.u32(color))
-        draw.add_circle(spot, theme.px(4.5), theme.u32(theme.DIM if on else theme.PLAIN))
-    text = ImVec2(at.x + dot + theme.px(6), middle - imgui.get_text_line_height() / 2)
-    draw.add_text(text, theme.u32(theme.TEXT if on or color is None else theme.DIM), name)
-    return bool(clicked)
 
 
 def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
@@ -289,13 +170,14 @@ STRONG = 1.5  # the size of names that teach, in sizes of the type
 
 class Written(NamedTuple):
     """A label in its place. at: its upper left corner in the view, in ImGui's pixels. pieces: see
-    measured().
+    measured(). lit: on the ground of a formula's term that is pointed out.
     """
 
     role: Role
     at: tuple[float, float]
     size: float
     pieces: list[tuple[imgui.ImFont, str, float]]
+    lit: bool
 
 
 def written(
@@ -319,17 +201,28 @@ def written(
         boxes.append(Box(scale * sum(piece[2] for piece in pieces[-1]), scale * size, room))
     centers = placer.place(primitives, boxes, (scale * extent.x, scale * extent.y), tools)
     return [
-        Written(part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found)
+        Written(
+            part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found,
+            part.lit,
+        )
         for part, size, found, box, (x, y) in zip(texts, sizes, pieces, boxes, centers, strict=True)
-    ]
+    ]  # fmt: skip
 
 
 def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: theme.Rgb) -> None:
     """Draw labels into a view at `origin`. ground: the colour under them."""
-    draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.62))
-    for role, (x, y), size, pieces in labels:
+    draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.85))
+    for role, (x, y), size, pieces, lit in labels:
         at = ImVec2(math.floor(origin.x + x), math.floor(origin.y + y))
+        if lit:
+            pad, width = theme.px(4), sum(wide for *_, wide in pieces)
+            low, high = (
+                ImVec2(at.x - pad, at.y - pad),
+                ImVec2(at.x + width + pad, at.y + size + pad),
+            )
+            draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.9)), pad)
+            draw.add_rect(low, high, theme.u32(role_color(role, ground)), pad, theme.px(2))
         color = theme.u32(role_color(role, ground))
         for font, text, wide in pieces:
-            rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.25))
+            rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.8))
             at.x += wide

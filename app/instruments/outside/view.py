@@ -193,7 +193,7 @@ class OutsideView(DockedView):
         self._gizmo.follow(host, scope, ground)
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
-            tools = use_tools(host, scope, self.extensions.points, self._widening.answers > 0)
+            tools = use_tools(host, scope, self.extensions.points)
         if tools != self._covered:
             labels = written(self._made.primitives, self._placer, extent, host.fonts, tools)
             self._made, self._covered = replace(self._made, labels=labels), tools
@@ -344,6 +344,7 @@ class OutsideView(DockedView):
             int(side_px / (GRID_PX * screen.unit_px)), state.options.notation,
             state.options.indexing.value,
             None if host.has_tools or not options.grid else _number_step(size, side_px), found,
+            names_t=host.has_tools,
         )  # fmt: skip
 
 

@@ -28,12 +28,11 @@ FARTHEST = 40.0  # in reaches of the scene: a point beyond would make a dot of t
 
 
 class Widening:
-    """answers: the number of wrong answers that are drawn."""
+    """The outside camera's place before an answer was drawn, and while it is."""
 
     def __init__(self) -> None:
         self._seen: tuple[Hashable, ...] = ()
         self._moved: tuple[Camera | None, Camera | None] | None = None  # from where, to where
-        self.answers = 0
 
     def follow(self, host: Host, scope: Scope, drawn: dict[Hashable, tuple[Item, ...]]) -> None:
         """Move the outside camera if what was answered has changed. Call once a frame.
@@ -41,7 +40,6 @@ class Widening:
         drawn: wrong answers, with their drawings.
         """
         seen = tuple(drawn)
-        self.answers = len(drawn)
         if seen == self._seen:
             return
         self._seen = seen

@@ -231,11 +231,10 @@ def _costs(step: Step, state: AppState) -> str:
     unit = state.of(CostOptions).against
     costs = "; ".join(
         f"{getattr(cost, unit):,} {unit}: {cost.triangles:,} triangles set up, {cost.tested:,} "
-        f"pixels tested, {cost.nodes:,} nodes visited, raster image {cost.raster_ms:.3g} ms, "
-        f"ray image {cost.ray_ms:.3g} ms"
+        f"pixels tested, {cost.nodes:,} nodes visited"
         for cost in COSTS[unit]
     )
-    return f"Charts with logarithmic axes, of counted steps and recorded times. {costs}."
+    return f"A chart of counted steps, with logarithmic axes. {costs}."
 
 
 def _laboratory(step: Step, state: AppState) -> str:

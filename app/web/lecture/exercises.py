@@ -22,17 +22,17 @@ from app.lecture.exercises import (
 )
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
+from app.lecture.inheriting import changed_view
 from app.lecture.model import Exercise, Step
 from app.lecture.text import Math, Paragraph, escaped, parse
 from app.state.kept_lecture import Judgement
 from app.state.options import Notation
 from app.ui.explaining import symbols
-from app.web.lecture.drawn import depth_of, paper, upright_paper, volume
+from app.web.lecture.drawn import paper
 from app.web.lecture.mathml import VECTORS
 from app.web.lecture.text import plain, written
 from renderer.camera.camera import Size
-from renderer.files.views import view_from_table, view_table
-from renderer.scene.focus import scene_focus
+from renderer.files.views import view_table
 
 BOLD = frozenset("uvwepdx")
 
@@ -58,20 +58,12 @@ def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
 
 
 def _choice(task: ChoiceExercise, step: Step) -> dict[str, Any]:
-    """Return the options, and the view volumes of those that have a camera."""
+    """Return the options, and the step's camera as each changes it."""
     options = [_option(task.check(place)) for place in range(len(task.options))]
-    camera = step.view.camera
-    depth = depth_of(camera, scene_focus(step.scene).framed)
     for data, option in zip(options, task.options, strict=True):
         if option.camera is not None:
-            data["volume"] = volume(view_from_table(option.camera).camera, depth)
-    if not any("volume" in data for data in options):
-        return {"options": options}
-    return {
-        "options": options,
-        "volume": volume(camera, depth),
-        "paper": upright_paper(camera),
-    }
+            data["camera"] = view_table(changed_view(step.view, option.camera))
+    return {"options": options}
 
 
 def _hiding(task: HideExercise, size: Size) -> dict[str, Any]:

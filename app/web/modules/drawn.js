@@ -15,7 +15,6 @@ import { svgElement } from "./elements.js";
  * @typedef {{from: Point, to?: Point, kind: "right" | "given", label: string}} Mark
  */
 
-/** @typedef {{kind: "right" | "given", corners: Point[]}} Volume four corners in front, then four behind */
 
 const DRAWING_PX = 320, EDGE_PX = 36, HEAD_PX = 11;
 
@@ -43,11 +42,11 @@ export function vectorMark(paper, kind, value, draw, label) {
 
 /**
  * Return a drawing. What is correct has full lines, what was given dashed ones.
- * @param {Paper} paper @param {Mark[]} marks @param {Volume[]} volumes
+ * @param {Paper} paper @param {Mark[]} marks
  * @param {string} name for those who cannot see it
  */
-export function drawing(paper, marks, volumes, name) {
-  const all = [paper.eye, ...paper.corners, ...volumes.flatMap(({ corners }) => corners), ...marks.flatMap(({ from, to }) => [from, to ?? from])];
+export function drawing(paper, marks, name) {
+  const all = [paper.eye, ...paper.corners, ...marks.flatMap(({ from, to }) => [from, to ?? from])];
   const flat = all.map((point) => onPaper(paper, point));
   const [left, top] = [0, 1].map((k) => Math.min(...flat.map((p) => p[k])));
   const [right, bottom] = [0, 1].map((k) => Math.max(...flat.map((p) => p[k])));
@@ -62,12 +61,6 @@ export function drawing(paper, marks, volumes, name) {
   svg.setAttribute("aria-label", name);
   const frame = paper.corners.map(at);
   if (frame.length) svg.append(pathThrough([...frame, frame[0]], "viewport"));
-  for (const { kind, corners } of volumes) {
-    const c = corners.map(at);
-    svg.append(pathThrough([...c.slice(0, 4), c[0]], kind), pathThrough([...c.slice(4), c[4]], kind));
-    svg.append(...[0, 1, 2, 3].map((k) => pathThrough([c[k], c[k + 4]], kind)));
-    svg.append(labelAt([c[kind === "right" ? 5 : 6][0], c[kind === "right" ? 5 : 6][1] + 18], kind === "right" ? "correct" : "yours", kind));
-  }
   const eye = at(paper.eye);
   if (!paper.parallel) svg.append(...frame.map((corner) => pathThrough([eye, corner], "edge")));
   svg.append(dotAt(eye, "eye"), labelAt([eye[0], eye[1] + 20], "eye", "plain"));

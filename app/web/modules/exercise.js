@@ -50,7 +50,8 @@ export function attach(form, exercise, answers) {
     button.addEventListener("click", () => {
       for (const other of options) other.setAttribute("aria-pressed", String(other === button));
       judged(checkOption(exercise, number), LETTERS[number]);
-      place(form, ".drawing", ...drawnVolume(exercise, number));
+      const { camera } = (exercise.options ?? [])[number];
+      if (camera) /** @type {any} */ (window).lucida?.set(camera); // the step's live figure
     }),
   );
   if (exercise.hiding) attachHiding(form, exercise, (verdict) => judged(verdict, ""));
@@ -117,15 +118,7 @@ function drawn({ paper, ray, answers = [], tolerance = 0 }, texts) {
     marks.push(vectorMark(paper, "right", exact, wanted.draw, name));
     marks.push(vectorMark(paper, "given", value, wanted.draw, `your ${name}`));
   }
-  return [drawing(paper, marks, [], "The correct answer and yours, drawn with the camera."), note()];
-}
-
-/** Return the drawing of a wrong option's view volume. @param {Exercise} exercise @param {number} chosen */
-function drawnVolume({ paper, options = [], volume }, chosen) {
-  const given = options[chosen].volume;
-  if (!paper || !volume || !given) return [];
-  const volumes = /** @type {import("./drawn.js").Volume[]} */ ([{ kind: "right", corners: volume }, { kind: "given", corners: given }]);
-  return [drawing({ ...paper, corners: [] }, [], volumes, "The view volume of the step's camera, and that of the camera you chose."), note()];
+  return [drawing(paper, marks, "The correct answer and yours, drawn with the camera."), note()];
 }
 
 function note() {

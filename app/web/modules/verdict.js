@@ -28,8 +28,7 @@ import { TypedError, typedVector } from "./arithmetic.js";
  * @property {Record<string, string>} [texts] @property {import("./drawn.js").Paper} [paper]
  * @property {{origin: Numbers, direction: Numbers}} [ray] @property {WrongRay[]} [wrong]
  * @property {Wanted[]} [answers]
- * @property {{right: boolean, text: string, mistake: string, read: string, volume?: number[][]}[]} [options]
- * @property {number[][]} [volume] the corners of what the correct camera sees
+ * @property {{right: boolean, text: string, mistake: string, read: string, camera?: any}[]} [options]
  * @property {import("./hiding.js").Hiding} [hiding]
  */
 
