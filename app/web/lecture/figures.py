@@ -34,7 +34,7 @@ SHOWN = {
 # Parts of the outside view that modules/outside.js draws; it draws no others.
 DRAWN = (
     *("camera", "volume", "image", "basis", "grid", "ray", "gizmo"),
-    *("target", "up", "answers", "pixels"),
+    *("target", "up", "pixels"),
 )
 
 
