@@ -277,6 +277,7 @@ class _LectureReader:
             scene=scene,
             view=view,
             views=_views(table.views),
+            full=table.full,
             options=options,
             pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
             highlight=_highlight(table.highlight),

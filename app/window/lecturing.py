@@ -134,7 +134,8 @@ def lecture_stills(
     from app.web.lecture.page import Still
 
     seen = [
-        replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.builds
+        replace(step, views=tuple(v for v in step.views if v != PANEL), full=False)
+        for step in lecture.builds
     ]
     lecture = replace(lecture, builds=tuple(seen))
     stills: list[list[Still]] = [[] for _ in lecture.builds]
