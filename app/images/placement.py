@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from app.state.bounds import range_of
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer.camera.camera import Size
 
 LEAST, MOST = range_of(ImageOptions, "magnification")

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from msgspec import field
 
 from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.state.rooms import ROOMS
 from renderer.files.schema import Numbers3, StrictTable
 

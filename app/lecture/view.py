@@ -15,7 +15,6 @@ import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.instruments.outside.growing import stage_at, stages_of
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note
@@ -150,7 +149,7 @@ class LectureView(DockedView):
         state = replace(state, options=own(state.options), step=None)
         if self._before is not None and any(step.scene is state.scene for step in steps):
             state = state.with_scene(self._before.scene, self._before.view)
-        window.change(state.with_options(preferences={"presentation": False}))
+        window.change(state.with_options(replace(state.options.preferences, presentation=False)))
         layout.switch(self._layout or layout.LAYOUTS[0].name)
 
     @property
@@ -333,7 +332,7 @@ class LectureView(DockedView):
         self._keys(host)
         assert slides is not None
         slides.notation = host.state.options.notation
-        position = host.state.of(OutsideOptions).formula
+        position = host.state.options.outside.formula
         stages = stages_of(host.renderers.camera(host.state))
         slides.lit = stage_at(position, stages) if position is not None else ""
         if self._lies_over:
@@ -474,7 +473,7 @@ class LectureView(DockedView):
             if number:
                 imgui.same_line(0, imgui.get_font_size())
             if radio_button(f"{title}##language", name == chosen):
-                host.apply(host.state.with_options(language=name))
+                host.apply(host.state.with_options(replace(host.state.options, language=name)))
         return in_language(step.blocks, host.state.options.language)
 
     def _controls(self, host: Host, session: LectureSession) -> None:

@@ -10,9 +10,9 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
-from app.state.all_options import AllOptions
 from app.state.bounds import clamped
-from app.state.options import ImageOptions, Pixel, Preferences
+from app.state.options import Options
+from app.state.options.shared import ImageOptions, Pixel, Preferences
 from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, View
 
@@ -33,7 +33,7 @@ class AppState:
     scene: Scene
     view: View
     keep_orthonormal: bool
-    options: AllOptions = field(default_factory=AllOptions)
+    options: Options = field(default_factory=Options)
     step: tuple[str, int, int] | None = None
 
     @classmethod
@@ -65,11 +65,11 @@ class AppState:
         return self.options.shadows or self.options.mirrors
 
     def of(self, kind: type[T]) -> T:
-        """One instrument's own options, by their class: state.of(StepperOptions)."""
+        """One instrument's own options, by their class: state.options.stepper."""
         return self.options.of(kind)
 
     def with_options(self, **changes: Any) -> AppState:
-        """The state with other options: fields of AllOptions, or of one of its parts by its name,
+        """The state with other options: fields of Options, or of one of its parts by its name,
         as in with_options(images={"exposure_ev": 1.0}, shadows=True). What a key or a field asks
         for beyond an option's bounds comes to the nearest bound. Another mark is of no size yet."""
         if changes.get("marked", self.marked) != self.marked:

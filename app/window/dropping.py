@@ -7,9 +7,9 @@ option, which the menu Scene changes.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from app.instruments.objects.editing import with_scene
-from app.instruments.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from app.ui.view import Host
 from app.window.opening import Opened
@@ -35,7 +35,7 @@ def is_for_the_scene(state: AppState, opened: Opened) -> bool:
 
 def settle(host: Host, opened: Opened, open_: Callable[[], None]) -> None:
     """Adds such a model, or opens it, or asks which. open_: opens it."""
-    wanted = "add" if opened.adds else host.state.of(ObjectsOptions).dropped
+    wanted = "add" if opened.adds else host.state.options.objects.dropped
     if wanted == "open":
         open_()
     elif wanted == "add":
@@ -73,5 +73,5 @@ def _add(host: Host, opened: Opened) -> None:
 
 
 def _as_answered(host: Host, answer: str, do: Callable[[], None]) -> None:
-    host.amend(host.state.with_options(objects={"dropped": answer}))
+    host.amend(host.state.with_options(replace(host.state.options.objects, dropped=answer)))
     do()

@@ -18,7 +18,7 @@ from app.images.placement import (
     zoomed_at,
 )
 from app.images.shown import section_of, whole
-from app.state.options import MAGNIFICATIONS, ImageOptions
+from app.state.options.shared import MAGNIFICATIONS, ImageOptions
 
 SIZES = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 PANES = st.tuples(st.integers(1, 2500), st.integers(1, 2500))

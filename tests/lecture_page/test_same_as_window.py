@@ -16,11 +16,9 @@ from both_lectures import both_lectures
 
 from app.images.request import MIRROR_DEPTH
 from app.instruments.laboratory.looks import look_of
-from app.instruments.laboratory.options import LaboratoryOptions
 from app.instruments.laboratory.page import Page
 from app.instruments.laboratory.pages import drawn
 from app.instruments.outside.figure import Figure, Inset, Label
-from app.instruments.outside.options import OutsideOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.state.app_state import AppState
@@ -65,7 +63,7 @@ def stills(build: Step, state: AppState) -> list[Still]:
 
 
 def page_of(state: AppState) -> Page:
-    options, look = state.of(LaboratoryOptions), look_of(PRESENTED_DARK)
+    options, look = state.options.laboratory, look_of(PRESENTED_DARK)
     size = state.images.resolution or (64, 48)
     color = np.zeros((size[1], size[0], 3), np.float32)
     taken_ev, notation = state.images.exposure_ev, state.options.notation
@@ -99,7 +97,7 @@ def window_says(lecture: Lecture) -> Iterator[Said]:
             ray = pixel, text_tuple(found.origin), text_tuple(found.direction)
         seen = [view for view in build.views if view != "camera"]
         with_ray = [view for view in seen if view in WITH_RAY]
-        outside = state.of(OutsideOptions)
+        outside = state.options.outside
         yield {
             "name": name.removesuffix(".1"),
             "title": build.title,

@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2
 from app.images.ray_pictures import RayPictures
 from app.instruments.outside import looking
 from app.instruments.outside.looking import NOTHING, STILL_S, Scopes, ray_ends
-from app.instruments.outside.options import OutsideOptions
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 
 PLACE = ImVec2(0, 0), ImVec2(300, 200)

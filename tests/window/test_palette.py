@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from option_changes import with_options
 
 from app.state.app_state import AppState
 from app.ui.action import ALT, CTRL, SHIFT, Key
@@ -101,7 +102,7 @@ def test_pages_are_options_of_their_instruments():
     state = AppState.for_scene(load_scene("still-life"))
     for room, instrument in INSTRUMENTS.items():
         for name, options in instrument.pages.items():
-            changed = getattr(state.with_options(**{room: options}).options, room)
+            changed = getattr(with_options(state, **{room: options}).options, room)
             assert options.items() <= vars(changed).items(), name
 
 

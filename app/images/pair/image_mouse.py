@@ -24,7 +24,7 @@ from app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
 from app.images.placement import panned, step_from, zoomed_at
 from app.images.screen import Screen
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera import navigation
 from renderer.camera.camera import Camera, Vector
 
@@ -148,7 +148,9 @@ def _begin(seen: Seen, state: AppState, kind: str, mouse: ImVec2, screen: Screen
 
 def _marked(state: AppState, pixel: Pixel) -> AppState:
     """Mark a pixel, or clear its mark."""
-    return state.with_options(marked=None if state.marked == pixel else pixel)
+    return state.with_options(
+        replace(state.options, marked=None if state.marked == pixel else pixel)
+    )
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from app.checking.mistakes.program import Mistake, Program
 from app.images.ray_pictures import RayPainter
 from app.instruments.mistakes.model import Bytes, Light, Situation, rays_of, shown
-from app.instruments.mistakes.options import MistakesOptions, Mode
+from app.state.options.mistakes import MistakesOptions, Mode
 
 CHOICES = 4
 LETTERS = "ABCD"

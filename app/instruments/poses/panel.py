@@ -12,8 +12,8 @@ import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.instruments.poses.model import PoseSet
-from app.instruments.poses.options import PosesOptions
 from app.state.bounds import range_of
+from app.state.options.poses import PosesOptions
 from app.ui import theme
 from app.ui.checks import checkbox
 from app.ui.lettering import fitting_words, lettering

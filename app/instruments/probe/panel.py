@@ -14,10 +14,9 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.instruments.outside.growing import lit_in
 from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
-from app.instruments.probe.options import ProbeOptions
 from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
-from app.state.options import Notation, Pixel
+from app.state.options.shared import Notation, Pixel
 from app.ui import theme
 from app.ui.checks import checkbox
 from app.ui.explaining.notation import Line, number
@@ -77,13 +76,13 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     imgui.end_disabled()
     tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
-        state = state.with_options(one_based=one_based)
+        state = state.with_options(replace(state.options, one_based=one_based))
     state = _section_field(state)
-    pins = state.of(ProbeOptions).pins
+    pins = state.options.probe.pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
     if imgui.button("Pin") and pixel is not None:
-        state = state.with_options(probe={"pins": (*pins, pixel)})
+        state = state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
     imgui.end_disabled()
     imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
     follow(button_width("Copy ..."))
@@ -113,12 +112,12 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
         if pin.pixel == pixel:
             imgui.push_style_color(imgui.Col_.text, theme.legible(theme.MARK))
         if imgui.button(f"{name}###pin{count}"):
-            state = state.with_options(marked=pin.pixel)
+            state = state.with_options(replace(state.options, marked=pin.pixel))
         if pin.pixel == pixel:
             imgui.pop_style_color()
         if imgui.is_item_clicked(imgui.MouseButton_.right):
-            kept = tuple(one for one in state.of(ProbeOptions).pins if one != pin.pixel)
-            state = state.with_options(probe={"pins": kept})
+            kept = tuple(one for one in state.options.probe.pins if one != pin.pixel)
+            state = state.with_options(replace(state.options.probe, pins=kept))
         imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
     return state
 
@@ -151,12 +150,12 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
         min(max(part - first, 0), most - 1)
         for part, most in zip(chosen, (size[1], size[0]), strict=True)
     )
-    return state.with_options(marked=(row, column))
+    return state.with_options(replace(state.options, marked=(row, column)))
 
 
 def _section_field(state: AppState) -> AppState:
     names = {"all": "all", **SECTIONS}
-    now = state.of(ProbeOptions).section
+    now = state.options.probe.section
     widest = button_width(f"Show: {names['all']}")
     follow(widest)
     if imgui.button(f"Show: {now}###section", ImVec2(max(widest, button_width(f"Show: {now}")), 0)):
@@ -165,7 +164,7 @@ def _section_field(state: AppState) -> AppState:
     if imgui.begin_popup("section"):
         for key, text in names.items():
             if imgui.menu_item(text, "", key == now)[0]:
-                state = state.with_options(probe={"section": key})
+                state = state.with_options(replace(state.options.probe, section=key))
         imgui.end_popup()
     return state
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from app.images.compare.options import CompareOptions
-from app.images.pair.options import PairOptions
 from app.images.photograph.model import path_of
-from app.images.photograph.options import PhotographOptions
 from app.images.photograph.reading import decoded
 from app.images.request import MIRROR_DEPTH
-from app.instruments.outside.options import OutsideOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.state.app_state import AppState
+from app.state.options.outside import OutsideOptions
+from app.state.options.pair import PairOptions
 from app.web.lecture.pictures import data_uri
 from app.web.scene_page import packed_scene
 from renderer.files.views import view_table
@@ -58,7 +56,7 @@ class Figures:
         step's. Its field "open": the step's exercise is answered in the figure.
         """
         shows = [name for view in step.views for name in SHOWN.get(view, ())]
-        outside = state.of(OutsideOptions)
+        outside = state.options.outside
         drags = "controls" in shows or "wipe" in shows
         if "outside" in shows:
             drags = drags or outside.gizmo != "none" or outside.pixels
@@ -81,7 +79,7 @@ class Figures:
             options["size"] = state.images.resolution
             if state.marked is not None:
                 options["mark"] = state.marked
-        if "compare" in step.views and state.of(CompareOptions).mode == "wipe":
+        if "compare" in step.views and state.options.compare.mode == "wipe":
             options["mode"] = "wipe"
         if "outside" in step.views:
             options["outside"] = _outside(step, state)
@@ -114,7 +112,7 @@ class Figures:
 
 def _outside(step: Step, state: AppState) -> dict[str, Any]:
     """Return the camera of a step's outside view, and what that draws, as JSON."""
-    options = state.of(OutsideOptions)
+    options = state.options.outside
     drawn: dict[str, Any] = {
         "basis": options.basis,
         "image": options.image,
@@ -141,7 +139,7 @@ def _camera_table(step: Step) -> dict[str, Any]:
 
 def _photograph(state: AppState) -> dict[str, Any] | None:
     """Return the picture that is laid over a step's images, as JSON; None for none."""
-    options = state.of(PhotographOptions)
+    options = state.options.photograph
     path = path_of(state)
     if path is None or not options.shown or options.lay != "over":
         return None
@@ -156,12 +154,12 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
 
 def _is_whole(step: Step, state: AppState) -> bool:
     """Return True if a figure draws all that a step's pictures show."""
-    outside, images = state.of(OutsideOptions), state.images
+    outside, images = state.options.outside, state.images
     drawn = {name: getattr(outside, name) for name in DRAWN}
     return (
         set(step.views) <= SHOWN.keys()
         and outside == OutsideOptions(**drawn)
-        and state.of(PairOptions) == PairOptions()
-        and not state.of(PhotographOptions).file
+        and state.options.pair == PairOptions()
+        and not state.options.photograph.file
         and (images.dissolved, images.channel, images.samples) == (0, "color", 1)
     )

@@ -11,8 +11,8 @@ from app.instruments.laboratory.page import Page
 from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture.text import Question
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState
+from app.state.options import Options
 from app.web.document import document
 from app.web.formulas import templates
 from app.web.lecture import exercises
@@ -70,7 +70,7 @@ def page(
         if written.figure is not None:
             shown[name] = written.figure
     options = lecture.steps[0].options
-    indexing = Indexing(int(options.get("one_based", AllOptions().one_based)))
+    indexing = Indexing(int(options.get("one_based", Options().one_based)))
     title = plain(lecture.title)
     author = f' <span class="author">{plain(lecture.author)}</span>' if lecture.author else ""
     body = (

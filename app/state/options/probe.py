@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from app.state.bounds import AtMost
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,3 @@ class ProbeOptions:
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
     section: Literal["all", "ray", "objects", "hit", "colour"] = "all"
-
-
-OPTIONS = ProbeOptions

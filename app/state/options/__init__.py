@@ -1,0 +1,69 @@
+"""All options of the window, as one immutable tree: shared ones, and those of each instrument.
+
+Each field has its bounds (app/state/bounds.py). Session and lecture files name a field as in
+`stepper.canvas`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+
+from app.state.options.compare import CompareOptions
+from app.state.options.costs import CostOptions
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.mistakes import MistakesOptions
+from app.state.options.objects import ObjectsOptions
+from app.state.options.outside import OutsideOptions
+from app.state.options.pair import PairOptions
+from app.state.options.photograph import PhotographOptions
+from app.state.options.poses import PosesOptions
+from app.state.options.probe import ProbeOptions
+from app.state.options.shared import ImageOptions, Preferences, SharedOptions
+from app.state.options.stepper import StepperOptions
+from app.state.options.your_code import YourCodeOptions
+
+Part = (
+    ImageOptions
+    | Preferences
+    | PhotographOptions
+    | PairOptions
+    | CompareOptions
+    | OutsideOptions
+    | ObjectsOptions
+    | ProbeOptions
+    | StepperOptions
+    | CostOptions
+    | LaboratoryOptions
+    | MistakesOptions
+    | YourCodeOptions
+    | PosesOptions
+)
+
+
+@dataclass(frozen=True)
+class Options(SharedOptions):
+    """The shared options and each instrument's."""
+
+    photograph: PhotographOptions = field(default_factory=PhotographOptions)
+    pair: PairOptions = field(default_factory=PairOptions)
+    compare: CompareOptions = field(default_factory=CompareOptions)
+    outside: OutsideOptions = field(default_factory=OutsideOptions)
+    objects: ObjectsOptions = field(default_factory=ObjectsOptions)
+    probe: ProbeOptions = field(default_factory=ProbeOptions)
+    stepper: StepperOptions = field(default_factory=StepperOptions)
+    costs: CostOptions = field(default_factory=CostOptions)
+    laboratory: LaboratoryOptions = field(default_factory=LaboratoryOptions)
+    mistakes: MistakesOptions = field(default_factory=MistakesOptions)
+    your_code: YourCodeOptions = field(default_factory=YourCodeOptions)
+    poses: PosesOptions = field(default_factory=PosesOptions)
+
+    def with_parts(self, *parts: Options | Part) -> Options:
+        """Return these options with other parts, each in its place; all of them for `Options`."""
+        options = self
+        for part in parts:
+            whole = isinstance(part, Options)
+            options = part if whole else replace(options, **{_NAMES[type(part)]: part})
+        return options
+
+
+_NAMES = {type(getattr(Options(), entry.name)): entry.name for entry in fields(Options)}
