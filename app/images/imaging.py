@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import get_args
 
 from app.state.app_state import AppState
-from app.state.options.shared import Channel, Component, ImageOptions
+from app.state.options.shared import Channel, Component, ImageOptions, Transfer
 from renderer.images.frame import check_size
 from renderer.system.errors import LucidaError
 
@@ -26,7 +26,7 @@ COMPONENTS: dict[Component, tuple[str, str]] = {
     "green": ("Green", "the green channel only, as gray"),
     "blue": ("Blue", "the blue channel only, as gray"),
 }
-TRANSFERS = {
+TRANSFERS: dict[Transfer, tuple[str, str]] = {
     "srgb": (
         "sRGB",
         "linear light through the standard's curve, about light^(1/2.2), as screens expect it",
@@ -60,8 +60,8 @@ def with_component(state: AppState, component: Component) -> AppState:
 
 def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:
     """Make the images this large, entirely visible; None: as large as the window."""
-    whole = {"magnification": None, "center": (0.5, 0.5)}
-    return state.with_options(replace(state.options.images, resolution=resolution, **whole))
+    images = replace(state.images, resolution=resolution, magnification=None, center=(0.5, 0.5))
+    return state.with_options(images)
 
 
 def with_pixel_size(state: AppState, pixel_size: int) -> AppState:

@@ -51,11 +51,11 @@ def state_of(step: Step, base: AppState) -> AppState:
     state = AppState(step.scene, step.view, keep, options, base.step)
     if isinstance(step.exercise, HideExercise):
         state = state.with_options(replace(state.options.objects, chosen=(step.exercise.item,)))
-    return state.with_options(**step.options)
+    return state.with_options(state.options.with_changes(step.options))
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
-    """Return the changes for AppState.with_options(). Raises LucidaError."""
+    """Return the changes for Options.with_changes(). Raises LucidaError."""
     types = _types(Options)
     changes: dict[str, Any] = {}
     for name, value in tables.items():

@@ -222,7 +222,7 @@ class LectureView(DockedView):
         """Show the present build's own state, after a movement."""
         assert self.session is not None
         state = replace(window.state, step=self.session.place)
-        state = state.with_options(preferences=preferences)
+        state = state.with_options(state.options.with_changes({"preferences": preferences}))
         window.move(state_of(self.session.step, state), move_s, loop)
 
     def _arrange(self) -> None:

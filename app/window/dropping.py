@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Literal
 
 from app.instruments.objects.editing import with_scene
 from app.state.app_state import AppState
@@ -72,6 +73,6 @@ def _add(host: Host, opened: Opened) -> None:
     host.files.say(one_line(f"{opened.scene.name} is in the scene. Shift+F frames all of it."))
 
 
-def _as_answered(host: Host, answer: str, do: Callable[[], None]) -> None:
+def _as_answered(host: Host, answer: Literal["add", "open"], do: Callable[[], None]) -> None:
     host.amend(host.state.with_options(replace(host.state.options.objects, dropped=answer)))
     do()

@@ -112,21 +112,20 @@ def test_answers_are_kept_counted_and_only_once() -> None:
     names = ("a", "b", "c", "d")
     options = MistakesOptions(seed=1)
     right = quiz.right_at(options)
-    changes = quiz.answered(options, names, right)
-    after = replace(options, **changes)
+    after = quiz.answered(options, names, right)
     assert after.score == (1, 1) and after.revealed and after.answer == names[right]
     assert after.names == names
-    assert quiz.answered(after, names, 0) == {} and quiz.revealed(after, names) == {}
-    wrong = replace(options, **quiz.answered(options, names, (right + 1) % 4))
+    assert quiz.answered(after, names, 0) == after == quiz.revealed(after, names)
+    wrong = quiz.answered(options, names, (right + 1) % 4)
     assert wrong.score == (0, 1)
-    assert quiz.answered(options, names, 4) == {} and quiz.answered(options, (), 0) == {}
-    assert quiz.answered(options, names, -1) == {}
-    assert [quiz.answered(options, names, n)["answer"] for n in range(4)] == list(names)
-    shown = replace(options, **quiz.revealed(options, names))
+    assert quiz.answered(options, names, 4) == options == quiz.answered(options, (), 0)
+    assert quiz.answered(options, names, -1) == options
+    assert [quiz.answered(options, names, n).answer for n in range(4)] == list(names)
+    shown = quiz.revealed(options, names)
     assert shown.revealed and shown.score == (0, 0)
-    assert quiz.answered(shown, names, right) == {}  # who has looked does not score
-    assert not replace(shown, **quiz.revealed(shown, names)).revealed
-    again = replace(after, **quiz.next_question(after))
+    assert quiz.answered(shown, names, right) == shown  # who has looked does not score
+    assert not quiz.revealed(shown, names).revealed
+    again = quiz.next_question(after)
     assert (again.seed, again.names, again.answer, again.revealed) == (2, (), "", False)
     assert again.score == (1, 1)
 
@@ -163,14 +162,14 @@ def test_a_lecture_s_options_are_checked() -> None:
 
 def test_the_other_quiz_does_not_ask_what_the_first_has_shown() -> None:
     options = MistakesOptions(mode="laboratory", seed=7, asked="no eye")
-    first = replace(options, **quiz.switched_to(options, "which-line"))
+    first = quiz.switched_to(options, "which-line")
     assert (first.mode, first.seed, first.asked) == ("which-line", 7, "no eye")
-    answered = replace(first, **quiz.answered(first, ("a", "b", "c", "d"), 0))
-    other = replace(answered, **quiz.switched_to(answered, "which-picture"))
+    answered = quiz.answered(first, ("a", "b", "c", "d"), 0)
+    other = quiz.switched_to(answered, "which-picture")
     assert (other.mode, other.seed, other.asked) == ("which-picture", 8, "")
     assert (other.names, other.answer, other.revealed) == ((), "", False)
     assert other.score == answered.score
-    back = replace(other, **quiz.switched_to(other, "laboratory"))
-    again = replace(back, **quiz.switched_to(back, "which-picture"))
+    back = quiz.switched_to(other, "laboratory")
+    again = quiz.switched_to(back, "which-picture")
     assert again.seed == 9
-    assert replace(again, **quiz.switched_to(again, "which-picture")) == again
+    assert quiz.switched_to(again, "which-picture") == again

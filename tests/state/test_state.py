@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
-from app.state.all_options import KINDS
 from hypothesis import given
 from hypothesis import strategies as st
 from option_changes import with_options
@@ -15,6 +14,7 @@ from app.cameras.basis import with_component, with_vector
 from app.cameras.editing import Draft, edit_component, edit_field
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from app.state.changes import change
+from app.state.options import Options
 from renderer.camera.camera import Camera
 from renderer.files import load_scene
 from renderer.scene import View
@@ -301,11 +301,14 @@ def test_what_follows_from_a_change_of_the_window_is_no_step() -> None:
     assert amended.change(moved(3.0), "a").past == (STATE,)
 
 
-def test_an_instrument_s_options_are_asked_for_by_their_class() -> None:
-    state = with_options(STATE, outside={"bundle": (3, 4)})
-    assert state.options.outside is state.options.outside
-    assert state.options.outside.bundle == (3, 4)
-    for name, kind in KINDS.items():
-        assert STATE.of(kind) == kind() == getattr(STATE.options, name)
-    with pytest.raises(KeyError, match="Camera"):
-        STATE.of(Camera)
+def test_parts_of_the_options_find_their_place() -> None:
+    for entry in fields(Options):
+        part = getattr(Options(), entry.name)
+        if is_dataclass(part):
+            assert Options().with_parts(part) == Options()
+    outside, images = (
+        replace(STATE.options.outside, bundle=(3, 4)),
+        replace(STATE.images, grid=False),
+    )
+    both = STATE.with_options(outside, images).options
+    assert both == replace(STATE.options, outside=outside, images=images)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from option_changes import with_options
 
+from app.lecture import schema
 from app.state.app_state import AppState
 from app.ui.action import ALT, CTRL, SHIFT, Key
 from app.window.action_table import ACTIONS, MENUS
@@ -149,3 +150,7 @@ def test_a_plus_is_a_plus_with_or_without_shift():
         modifiers = ALT * ("Alt" in action.keys) | CTRL * ("Ctrl" in action.keys)
         for shift in (0, SHIFT):
             assert modifiers | shift | int(Key.equal) in action.chords, action.name
+
+
+def test_every_view_that_lectures_can_show_is_in_the_window() -> None:
+    assert set(schema.VIEWS) <= {view.name.lower() for view in make_views()}

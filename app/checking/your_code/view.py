@@ -78,17 +78,18 @@ class YourCodeView(DockedView):
         """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
         self._source.forget()
-        options = {"file": stored(path), "task": ""}
-        if window.state.options.your_code.file != options["file"]:
-            window.change(window.state.with_options(your_code=options))
+        options = replace(window.state.options.your_code, file=stored(path), task="")
+        if window.state.options.your_code.file != options.file:
+            window.change(window.state.with_options(options))
         elif self._follower is not None:
             self._follower.again()
         window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
 
     def open_tasks(self, window: Window, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
-        asked = {"tasks": stored(path), "task": ""}
-        window.change(window.state.with_options(your_code=asked, **_notation_of(path)))
+        options = window.state.options
+        asked = replace(options.your_code, tasks=stored(path), task="")
+        window.change(window.state.with_options(replace(options, **_notation_of(path)), asked))
         window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:

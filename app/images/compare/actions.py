@@ -60,7 +60,9 @@ def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Ac
         return bool(getattr(state.options.compare, field))
 
     def toggled(state: AppState) -> AppState:
-        return state.with_options(compare={field: not is_on(state)})
+        return state.with_options(
+            state.options.with_changes({"compare": {field: not is_on(state)}})
+        )
 
     return Action(MENU, name, changing(toggled), shown, keys, is_on=is_on)
 

@@ -53,7 +53,7 @@ class Choice(NamedTuple):
 
 def setting(field: str, value: object) -> Change:
     """Return the change that sets a field of the images' options."""
-    return lambda state: state.with_options(images={field: value})
+    return lambda state: state.with_options(state.options.with_changes({"images": {field: value}}))
 
 
 def has(field: str, value: object) -> Callable[[AppState], bool]:

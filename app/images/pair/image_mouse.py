@@ -111,7 +111,8 @@ def drag(
         grab = replace(grab, moved_away=True)
     if grab.kind == "slide":
         x, y = screen.pane_px(mouse)
-        return state.with_options(images=panned(screen.placement, grab.part, x, y)), grab
+        moved = panned(state.images, screen.placement, grab.part, x, y)
+        return state.with_options(moved), grab
     if state.camera != grab.latest and grab.kind != "look":  # by a key: continue from there
         return state, replace(_begin(seen, state, grab.kind, mouse, screen), moved_away=True)
     height = min(screen.placement.extent[1], screen.placement.pane[1]) / screen.scale
@@ -175,7 +176,7 @@ def magnify(
         anchor = ZoomAnchor(at, placement.part_at(x, y))
     to = step_from(placement, state.images, steps)
     if to != placement.magnification:
-        state = state.with_options(images=zoomed_at(placement, anchor.part, x, y, to))
+        state = state.with_options(zoomed_at(state.images, placement, anchor.part, x, y, to))
     return state, anchor
 
 

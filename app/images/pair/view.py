@@ -283,7 +283,8 @@ class ImageView(DockedView):
         if pixel is None:
             return
         shared.walked_frame = frame
-        state = state.with_options(marked=pixel, images=shown_pixel(placement, pixel))
+        marked, images = replace(state.options, marked=pixel), state.images
+        state = state.with_options(marked, shown_pixel(images, placement, pixel))
         host.apply(state, self._gesture("walk"))
 
     def _gesture(self, kind: str) -> tuple[str, int]:

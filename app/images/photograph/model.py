@@ -71,7 +71,8 @@ def undistorting(state: AppState, size: Size) -> AppState:
 
 
 def _as_seen(state: AppState, view: View, distorted: View | None) -> AppState:
-    return state.with_view(view).with_options(photograph={"distorted": distorted, "shown": True})
+    photograph = replace(state.options.photograph, distorted=distorted, shown=True)
+    return state.with_view(view).with_options(photograph)
 
 
 def covered(camera: Camera, drawn: Camera) -> Parts:

@@ -141,7 +141,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
         after_ev = _slider("exposure after storage", changed.after_ev, limits, "%+.1f EV")
         changed = replace(changed, after_ev=after_ev)
     if changed != options:
-        host.apply(host.state.with_options(laboratory=changed))
+        host.apply(host.state.with_options(changed))
     return changed
 
 

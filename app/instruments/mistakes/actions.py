@@ -21,8 +21,8 @@ MODES: dict[Mode, str] = {
 
 def _show(window: Window, mode: Mode) -> None:
     window.shell.stage.show(MISTAKES)
-    changes = question.switched_to(window.state.options.mistakes, mode)
-    window.change(window.state.with_options(mistakes=changes))
+    options = question.switched_to(window.state.options.mistakes, mode)
+    window.change(window.state.with_options(options))
 
 
 def _is_quiz_shown(window: Window) -> bool:

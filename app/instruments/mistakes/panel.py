@@ -61,7 +61,7 @@ def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions,
     wish: Wish = ""
     mode = _modes(options.mode)
     if mode != options.mode:
-        options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
+        options = switched_to(options, mode)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
         _, on = checkbox("difference", options.difference)

@@ -6,7 +6,7 @@ view. model.py and question.py decide on the pictures; pages.py draws them.
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 import moderngl
@@ -100,7 +100,7 @@ class MistakesView(DockedView):
         if host.has_tools:
             changed, wish = panel.controls(options, bool(self._names(options, now)))
             if changed != options:
-                host.change(host.state.with_options(mistakes=asdict(changed)))
+                host.change(host.state.with_options(changed))
             self._grant(host, now, wish)
         error = self._problem(host.state.options.mistakes)
         if error:
@@ -210,23 +210,23 @@ class MistakesView(DockedView):
             asked.append(panel.key_answer())
         for one in asked:
             options = host.state.options.mistakes
-            changes = self._changes(options, self._names(options, now), one)
-            if changes:
-                host.change(host.state.with_options(mistakes=changes))
+            changed = self._changed(options, self._names(options, now), one)
+            if changed != options:
+                host.change(host.state.with_options(changed))
 
-    def _changes(
+    def _changed(
         self, options: MistakesOptions, names: tuple[str, ...], wish: panel.Wish | int | None
-    ) -> dict[str, Any]:
-        """Return the changes that a request makes to the options."""
+    ) -> MistakesOptions:
+        """Return the options after a request."""
         if wish == "right":
-            return {"chosen": ()}
+            return replace(options, chosen=())
         if options.mode == "laboratory":
-            return {}
+            return options
         if wish == "next":
             return question.next_question(options)
         if wish == "reveal":
             return question.revealed(options, names)
-        return question.answered(options, names, wish) if isinstance(wish, int) else {}
+        return question.answered(options, names, wish) if isinstance(wish, int) else options
 
     # What the outside view shows.
 

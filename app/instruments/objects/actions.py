@@ -31,7 +31,9 @@ def _toggle(
         return bool(getattr(state.options.objects, field) == on)
 
     def toggled(state: AppState) -> AppState:
-        return state.with_options(objects={field: off if is_on(state) else on})
+        return state.with_options(
+            state.options.with_changes({"objects": {field: off if is_on(state) else on}})
+        )
 
     return Action(menu, name, changing(toggled), keys, chords, is_on=is_on, separated=separated)
 

@@ -33,7 +33,7 @@ KEYS = {"bundle": ("B", Key.b), "move": ("G", Key.g), "turn": ("T", Key.t)}
 
 
 def _with(state: AppState, options: OutsideOptions) -> AppState:
-    return state.with_options(outside=options)
+    return state.with_options(options)
 
 
 def _keys(name: str) -> tuple[str, tuple[int, ...]]:

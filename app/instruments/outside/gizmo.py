@@ -77,7 +77,7 @@ class Gizmo:
         after = self._draw(scope, before, options.gizmo, state.keep_orthonormal, ground, host.fonts)
         if after != before:
             # One drag is one undo step.
-            state = state.with_camera(after[0]).with_options(outside={"up": after[1]})
+            state = state.with_camera(after[0]).with_options(replace(options, up=after[1]))
             host.apply(state, ("outside gizmo", self._count))
         if self.dragging:
             host.animate()

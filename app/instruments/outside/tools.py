@@ -59,9 +59,9 @@ def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
     if options.camera != now.camera:
-        host.travel(state.with_options(outside=options))
+        host.travel(state.with_options(options))
     elif options != now:
-        host.apply(state.with_options(outside=options))
+        host.apply(state.with_options(options))
     scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
     return (
         (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),

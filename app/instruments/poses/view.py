@@ -156,9 +156,8 @@ class PosesView(DockedView):
         state = host.state
         options = state.options.poses
         chosen = self.chosen(state)
-        wish, changes = panel.head(poses, options, host.fonts)
-        if changes:
-            host.apply(state.with_options(poses=changes))
+        wish, changed = panel.head(poses, options, host.fonts)
+        host.apply(state.with_options(changed))
         shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
         panel.found(poses)

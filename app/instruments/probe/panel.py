@@ -16,6 +16,7 @@ from app.instruments.outside.growing import lit_in
 from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
 from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
+from app.state.options.probe import Section
 from app.state.options.shared import Notation, Pixel
 from app.ui import theme
 from app.ui.checks import checkbox
@@ -40,7 +41,7 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Python", as_python),
     ("Julia", as_julia),
 )
-SECTIONS = {
+SECTIONS: dict[Section, str] = {
     "ray": "Ray",
     "objects": "Objects along the ray",
     "hit": "Hit",
@@ -154,7 +155,7 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
 
 
 def _section_field(state: AppState) -> AppState:
-    names = {"all": "all", **SECTIONS}
+    names: dict[Section, str] = {"all": "all", **SECTIONS}
     now = state.options.probe.section
     widest = button_width(f"Show: {names['all']}")
     follow(widest)
@@ -180,7 +181,7 @@ def reading_panel(
     notation: Notation,
     fonts: Fonts,
     stage: str = "",
-    section: str = "all",
+    section: Section = "all",
 ) -> None:
     """Draw the reading.
 
@@ -188,7 +189,7 @@ def reading_panel(
     """
     alone = section != "all"
 
-    def shown(key: str) -> bool:
+    def shown(key: Section) -> bool:
         return section == key if alone else _section(SECTIONS[key], fonts)
 
     ray, hit, color = _written(reading, indexing, notation)

@@ -150,7 +150,7 @@ class ProbeView(DockedView):
             return None
         images, options = state.images, state.options
         depth = MIRROR_DEPTH if options.mirrors else 0
-        self._readings.most = 1 + len(options.options.probe.pins)
+        self._readings.most = 1 + len(options.probe.pins)
         return self._readings(
             probe, pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
         )

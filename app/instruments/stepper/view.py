@@ -101,7 +101,7 @@ class StepperView(DockedView):
         self._asked = ""
         if asked.options != options:
             options = asked.options
-            host.apply(host.state.with_options(stepper=options))
+            host.apply(host.state.with_options(options))
         state = host.state
         camera = state.view.for_size(options.canvas)
         made = self._runs.of(state.scene, camera, options.canvas)
@@ -158,9 +158,8 @@ class StepperView(DockedView):
         and does not revisit steps.
         """
         if tuple(steps) != host.state.options.stepper.steps:
-            host.amend(
-                host.state.with_options(replace(host.state.options.stepper, steps=tuple(steps)))
-            )
+            options = replace(host.state.options.stepper, steps=(steps[0], steps[1]))
+            host.amend(host.state.with_options(options))
 
     # The panels.
 

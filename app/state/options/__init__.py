@@ -6,7 +6,9 @@ Each field has its bounds (app/state/bounds.py). Session and lecture files name 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from app.state.options.compare import CompareOptions
 from app.state.options.costs import CostOptions
@@ -57,12 +59,24 @@ class Options(SharedOptions):
     your_code: YourCodeOptions = field(default_factory=YourCodeOptions)
     poses: PosesOptions = field(default_factory=PosesOptions)
 
+    def with_changes(self, changes: Mapping[str, Any]) -> Options:
+        """Return these options with fields changed by their names, as a lecture's file has them:
+        {"shadows": True, "stepper": {"canvas": (8, 8)}}.
+        """
+        parts = {
+            name: replace(getattr(self, name), **value) if isinstance(value, Mapping) else value
+            for name, value in changes.items()
+        }
+        return replace(self, **parts)
+
     def with_parts(self, *parts: Options | Part) -> Options:
         """Return these options with other parts, each in its place; all of them for `Options`."""
         options = self
         for part in parts:
-            whole = isinstance(part, Options)
-            options = part if whole else replace(options, **{_NAMES[type(part)]: part})
+            if isinstance(part, Options):
+                options = part
+            else:
+                options = options.with_changes({_NAMES[type(part)]: part})
         return options
 
 

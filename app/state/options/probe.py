@@ -8,6 +8,8 @@ from typing import Annotated, Literal
 from app.state.bounds import AtMost
 from app.state.options.shared import Pixel
 
+Section = Literal["all", "ray", "objects", "hit", "colour"]
+
 
 @dataclass(frozen=True)
 class ProbeOptions:
@@ -18,4 +20,4 @@ class ProbeOptions:
     """
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
-    section: Literal["all", "ray", "objects", "hit", "colour"] = "all"
+    section: Section = "all"
