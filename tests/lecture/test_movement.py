@@ -36,7 +36,7 @@ def changed(state: AppState) -> AppState:
     camera = replace(state.camera, eye=(1.0, 0.5, 1.0), projection="parallel")
     end = replace(state, view=View(camera, state.view.fit))
     options = {"camera": EYE, "grid": False, "target": (1.0, 2.0, 3.0), "up": (0.0, 0.0, 1.0)}
-    return with_options(end, 
+    return with_options(end,
         images={"exposure_ev": 4.0, "channel": "depth", "samples": 16}, outside=options,
         marked=(3, 4), laboratory={"after_ev": 1.5},
     )  # fmt: skip
