@@ -19,11 +19,7 @@ const CLICK = 4; // CSS pixels: less is no drag
 export function imageView(title) {
   const canvas = element("canvas", { tabindex: "0", role: "img", "aria-label": title });
   const stage = element("div", { class: "lucida-stage" }, canvas, element("span", { class: "lucida-mark" }));
-<<<<<<< HEAD
   return { view: element("figure", { class: "lucida-image" }, stage, element("figcaption", {}, title)), canvas };
-=======
-  return { view: element("figure", { class: "lucida-image" }, stage, caption), canvas };
->>>>>>> 27abfa6b40137ee712f7a12ec44adb74ab48a71f^
 }
 
 /** Draw a coarse or full image on a canvas. @param {HTMLCanvasElement} canvas @param {[number, number]} size the full image's @param {import("./ray_client.js").RayImage} image */
