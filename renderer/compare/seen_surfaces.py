@@ -140,7 +140,7 @@ class Surfaces:
         origin, direction = self._view.ray(i[self._sphere], j[self._sphere])
         to_center, square = self._spheres[:, :3] - origin, _dot(direction, direction)
         middle = _dot(to_center, direction) / square
-        return length(to_center - middle[:, None] * direction), middle, square
+        return norm(to_center - middle[:, None] * direction), middle, square
 
     def point(self, i: Numbers, j: Numbers) -> tuple[Floats, Floats]:
         """Return the points of the extended surfaces, and the rays' directions, (n, 3)."""
@@ -154,7 +154,7 @@ class Surfaces:
         """
         found = np.zeros(len(self.t), bool)
         with quiet():
-            inside = self._side * self._edge_values(i, j) / _norm(self._edges[..., :2], 2)
+            inside = self._side * self._edge_values(i, j) / norm(self._edges[..., :2], 2)
             near = np.fmax(px, self._unknown_px(i, j))
         # Near an edge, and not beyond another one.
         found[self._triangle] = (np.abs(inside) <= near).any(axis=1) & (inside >= -near).all(axis=1)
@@ -170,14 +170,14 @@ class Surfaces:
         """
         view, camera, owner = self._view, self._view.camera, self._owner[self._triangle]
         linear = view.flat.world_from_object[owner, :3, :3]
-        size = length(np.ptp(view.flat.object_bounds[owner], axis=1) * _norm(linear, 1))
-        far = _norm(self._corners - np.asarray(camera.eye), 2).max(axis=1, initial=0)
+        size = norm(np.ptp(view.flat.object_bounds[owner], axis=1) * norm(linear, 1))
+        far = norm(self._corners - np.asarray(camera.eye), 2).max(axis=1, initial=0)
         left, right, bottom, top = camera.viewport
         pixels = np.divide(view.size, (right - left, top - bottom))  # per unit, at t = 1
-        pixels *= _norm(camera.camera_from_world[:2, :3], 1)
-        across = self._edges[..., :2] / _norm(self._edges[..., :2], 2)[..., None]
+        pixels *= norm(camera.camera_from_world[:2, :3], 1)
+        across = self._edges[..., :2] / norm(self._edges[..., :2], 2)[..., None]
         t = 1.0 if camera.is_parallel else np.abs(self._depth(i, j))
-        return _norm(across * pixels, 2) * (ROUNDING_32 * np.minimum(size, far) / t)[:, None]
+        return norm(across * pixels, 2) * (ROUNDING_32 * np.minimum(size, far) / t)[:, None]
 
     def at_clip(self, i: Numbers, j: Numbers, px: float, drawn: bool = False) -> Bools:
         """Return which pixels are within px of where near, far or the eye's plane cuts, or see a
@@ -233,7 +233,7 @@ class Surfaces:
 
         here = cell(i, j)
         with quiet():
-            away = length(self.point(i, j)[0] - np.asarray(view.camera.eye))
+            away = norm(self.point(i, j)[0] - np.asarray(view.camera.eye))
             off = np.abs(here - np.round(here))
             unknown = ROUNDING_32 * away[:, None] * np.linalg.norm(rows[:, :, :3], axis=2)
             px = np.where(off <= unknown, 0.0, off / slope_of(cell, i, j))
@@ -330,10 +330,7 @@ def _dot(a: Floats, b: Floats) -> Floats:
     return np.einsum("nk,nk->n", a, b)
 
 
-def length(a: Floats) -> Floats:
-    return np.linalg.norm(a, axis=1)
-
-
-def _norm(a: Floats, axis: int) -> Floats:
-    length: Floats = np.linalg.norm(a, axis=axis)
-    return length
+def norm(a: Floats, axis: int = 1) -> Floats:
+    """Return the lengths of vectors along an axis."""
+    lengths: Floats = np.linalg.norm(a, axis=axis)
+    return lengths

@@ -50,10 +50,10 @@ def scene_focus(scene: Scene) -> Focus:
         return Focus()
     corners = [object_corners(entry) for entry in seen]
     balls = [_ball(entry, box) for entry, box in zip(seen, corners, strict=True)]
-    center = _median(np.array([middle for middle, _ in balls]))
+    center: Points = np.median([middle for middle, _ in balls], axis=0)
     extents = [float(np.linalg.norm(middle - center)) + radius for middle, radius in balls]
     eye = np.abs(np.asarray(scene.view.camera.eye) - center).max()
-    reach = 1.5 * max(float(_median(np.array(extents))), float(eye))
+    reach = 1.5 * max(float(np.median(extents)), float(eye))
     x, y, z = center.tolist()
     everything = np.concatenate(corners)
     return Focus(
@@ -85,15 +85,6 @@ def _things(radii: list[float], corners: list[Points]) -> list[int]:
     rest = np.concatenate([corners[k] for k in kept])
     size = float(np.linalg.norm(rest.max(axis=0) - rest.min(axis=0))) / 2
     return [k for k, radius in enumerate(radii) if k in set(kept) or radius < size]
-
-
-def _median(values: Points) -> NDArray[np.float64]:
-    """Return the median along the first axis. NumPy's own takes as long as a frame at its first
-    call, because it imports its masked arrays.
-    """
-    ordered = np.sort(values, axis=0)
-    middle: NDArray[np.float64] = ordered[(len(ordered) - 1) // 2 : len(ordered) // 2 + 1]
-    return middle.mean(axis=0)
 
 
 def _ball(entry: SceneObject, corners: Points) -> tuple[Points, float]:
