@@ -20,7 +20,7 @@ from app.lecture.text import (
     Words,
     formulas,
 )
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining import symbols
 
 _VECTOR = re.compile(r"\\mathbf\{([a-z])\}")

@@ -28,8 +28,8 @@ from app.lecture.schema import (
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
 from app.lecture.written import formulas_written, pieces_written
-from app.state.all_options import AllOptions
-from app.state.options import Notation
+from app.state.options import Options
+from app.state.options.shared import Notation
 from app.state.removed import without_removed, without_removed_views
 from renderer.files.load import BUILTIN_SCENES, load_scene
 from renderer.files.outside import check_inside, kept_inside
@@ -277,6 +277,7 @@ class _LectureReader:
             scene=scene,
             view=view,
             views=_views(table.views),
+            full=table.full,
             options=options,
             pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
             highlight=_highlight(table.highlight),
@@ -310,7 +311,7 @@ class _LectureReader:
         one_based = self._indexing is Indexing.LECTURE
         if self._notation is not None:
             options = {"notation": self._notation} | options
-        if one_based != AllOptions().one_based:
+        if one_based != Options().one_based:
             options = {"one_based": one_based} | options
         if options.get("one_based", one_based) != one_based:
             raise LucidaError(

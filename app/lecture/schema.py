@@ -10,12 +10,14 @@ from typing import Any, Literal
 from msgspec import field
 
 from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
-from app.state.options import Notation
-from app.state.rooms import ROOMS
+from app.state.options.shared import Notation
 from renderer.files.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
-VIEWS = tuple(name for room in ROOMS for name in room.views)
+VIEWS = (
+    *("raster", "ray", "compare", "outside", "objects", "inspector", "probe", "stepper"),
+    *("costs", "laboratory", "mistakes", "your-code", "poses"),
+)
 PANEL = "camera"  # may stand beside them
 DEFAULT_VIEWS = ["raster"]
 
@@ -40,6 +42,7 @@ class StepTable(StrictTable):
 
     notes: for the lecturer, in the notes window of an exported page.
     pixel: the marked pixel, row and column, counted as the lecture does.
+    full: the picture fills the window, and the text lies over it.
     exercise: asked in the last build.
     reveal, answer, links, low: of the format before builds, see old_format.py.
     """
@@ -51,6 +54,7 @@ class StepTable(StrictTable):
     scene: str = ""
     camera: dict[str, Any] | str | None = None
     views: list[str] = field(default_factory=DEFAULT_VIEWS.copy)
+    full: bool = False
     options: dict[str, Any] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
     highlight: list[str] = field(default_factory=list)

@@ -133,7 +133,8 @@ def lecture_stills(
     from app.web.lecture.page import Still
 
     seen = [
-        replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.builds
+        replace(step, views=tuple(v for v in step.views if v != PANEL), full=False)
+        for step in lecture.builds
     ]
     lecture = replace(lecture, builds=tuple(seen))
     stills: list[list[Still]] = [[] for _ in lecture.builds]
@@ -165,7 +166,7 @@ def _draw_builds(
     platform = start_platform(want_display=False)
     state = first_state(lecture)
     if for_print:
-        state = state.with_options(preferences={"theme": "light"})
+        state = state.with_options(replace(state.options.preferences, theme="light"))
     run = WindowRun(platform, state, size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a build
     window = run.window

@@ -25,7 +25,7 @@ from app.instruments.outside.view import OUTSIDE, OutsideView
 from app.lecture.movement import Movement
 from app.lecture.view import LECTURE, LectureView
 from app.state.app_state import AppState, History
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.background import Background
 from app.ui.fly import Fly
@@ -328,7 +328,7 @@ class MainWindow:
         shown = hello_imgui.get_runner_params().imgui_window_params
         shown.show_menu_bar = not self.on_stage
         shown.show_status_bar = not self.state.preferences.presentation
-        if self.on_stage and (self.lecture.shows_controls or self.shell.has_popup):
+        if self.on_stage and self.lecture.shows_controls:
             menu_button(self, self.history, self.shell.stage.rects.get(LECTURE))
 
     def frame(self) -> None:

@@ -144,11 +144,15 @@ class Shell:
         elif chosen(window.state):
             window.amend(choose(window.state, ()))
         elif window.state.marked is not None:
-            window.change(window.state.with_options(marked=None))
+            window.change(window.state.with_options(replace(window.state.options, marked=None)))
         elif self.stage.maximised:
             self.stage.maximise()
         elif window.state.preferences.presentation:
-            window.change(window.state.with_options(preferences={"presentation": False}))
+            window.change(
+                window.state.with_options(
+                    replace(window.state.options.preferences, presentation=False)
+                )
+            )
         else:
             self.toasts.clear()
 
@@ -216,11 +220,6 @@ class Shell:
         """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = bool(imgui.is_popup_open("", int(any_popup)))
-
-    @property
-    def has_popup(self) -> bool:
-        """True if a popup was open at the end of the last frame."""
-        return self._popup
 
     def after_drawing(self, target: Target) -> None:
         """Once a frame, when all is drawn, before it is shown."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.instruments.stepper import loop_parts, raster_parts
 from app.instruments.stepper.loop_parts import Model
@@ -130,6 +131,6 @@ def test_one_of_a_texts_programs_is_shown():
 def test_the_language_stays_from_step_to_step():
     lecture = load_lecture(BUILTIN)
     step = lecture.steps[3]
-    base = AppState.for_scene(step.scene).with_options(language="julia", shadows=True)
+    base = with_options(AppState.for_scene(step.scene), language="julia", shadows=True)
     options = state_of(step, base).options
     assert options.language == "julia" and not options.shadows

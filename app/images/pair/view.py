@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import ClassVar
 
@@ -14,10 +14,9 @@ from imgui_bundle import ImVec2, imgui
 from app.cameras.remedies import helped, remedy_for
 from app.images.marking import Anchor, followed
 from app.images.pair.dark_note import DarkNote, note_button
-from app.images.pair.footprint import draw_footprint, draw_value, footprint
+from app.images.pair.footprint import draw_footprint, footprint
 from app.images.pair.image_mouse import Seen
 from app.images.pair.marks import walked
-from app.images.pair.options import PairOptions
 from app.images.pair.overlay import draw_told
 from app.images.pair.pane import Drawn, MouseState, Pane, image_pane
 from app.images.pair.pixelgrid import Values
@@ -27,12 +26,11 @@ from app.images.pair.toolbar import Strip, image_strip
 from app.images.pair.vanishing import draw_parallels
 from app.images.photograph.layer import PhotographLayer
 from app.images.photograph.model import path_of
-from app.images.photograph.options import PhotographOptions
 from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px
 from app.images.shown import Picture
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui.guest import Click, Guest, ShownIn
 from app.ui.view import DockedView, Host
 from renderer.camera.camera import Camera
@@ -269,7 +267,9 @@ class ImageView(DockedView):
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None
         if (marked, now_size) != (state.marked, marked_size):
-            host.amend(state.with_options(marked=marked, marked_size=now_size))
+            host.amend(
+                state.with_options(replace(state.options, marked=marked, marked_size=now_size))
+            )
 
     def _walk(self, host: Host, placement: Placement) -> None:
         """Move the mark by the arrow keys, and keep it in sight."""
@@ -283,7 +283,8 @@ class ImageView(DockedView):
         if pixel is None:
             return
         shared.walked_frame = frame
-        state = state.with_options(marked=pixel, images=shown_pixel(placement, pixel))
+        marked, images = replace(state.options, marked=pixel), state.images
+        state = state.with_options(marked, shown_pixel(images, placement, pixel))
         host.apply(state, self._gesture("walk"))
 
     def _gesture(self, kind: str) -> tuple[str, int]:
@@ -304,7 +305,7 @@ class PhotographedView(ImageView):
         self._footprint = Memo(footprint)
 
     def _laid(self, host: Host, picture: Drawn) -> Drawn:
-        layer, options = self.linked.photograph, host.state.of(PhotographOptions)
+        layer, options = self.linked.photograph, host.state.options.photograph
         if options.file and not options.shown:
             return picture
         if not layer.follow(host.renderers, host.state):
@@ -319,7 +320,7 @@ class PhotographedView(ImageView):
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         layer = self.linked.photograph
-        options, state = host.state.of(PairOptions), host.state
+        options, state = host.state.options.pair, host.state
         draw, both = imgui.get_window_draw_list(), host.renderers
         camera = both.camera(state)
         if options.straight_lines and not camera.is_parallel:
@@ -328,10 +329,8 @@ class PhotographedView(ImageView):
             draw_parallels(draw, screen, camera, both.size, options)
         if options.footprint and state.marked is not None:
             self._draw_footprint(host, screen, state.marked)
-        if options.value:
-            self._draw_value(host, screen)
         told = layer.problem or layer.note
-        if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
+        if told and path_of(host.state) and host.state.options.photograph.shown:
             draw_told(draw, screen, told, bool(layer.problem))
 
     def _draw_footprint(self, host: Host, screen: Screen, pixel: Pixel) -> None:
@@ -344,15 +343,6 @@ class PhotographedView(ImageView):
         samples = state.images.samples if self.is_ray else 1
         square = self._footprint(both.textures.rasterizer, request, pixel, samples)
         draw_footprint(screen, pixel, square)
-
-    def _draw_value(self, host: Host, screen: Screen) -> None:
-        if host.hovered is None or host.hovered[0] != self.name:
-            return
-        row, column = host.hovered[1]
-        read = host.renderers.ray_values if self.is_ray else host.renderers.raster_values
-        values = read(host.state, "color", (row, column, row + 1, column + 1))
-        if values is not None and values.size:
-            draw_value(screen, values[0, 0, :3], host.fonts)
 
 
 def _contains(size: tuple[int, int], pixel: Pixel) -> bool:

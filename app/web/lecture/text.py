@@ -20,7 +20,7 @@ from app.lecture.text import (
     Words,
     parse,
 )
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.languages import LANGUAGES
 from app.web.lecture.mathml import VECTORS, displayed, inline
 from renderer.system.errors import visible

@@ -6,6 +6,6 @@ Only the Python of this project's own programs is translated: numbers, vectors o
 
 from __future__ import annotations
 
-from app.state.options import Language
+from app.state.options.shared import Language
 
 LANGUAGES: dict[Language, str] = {"python": "Python", "julia": "Julia"}
