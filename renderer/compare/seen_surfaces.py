@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from renderer.camera.camera import NEAREST, Camera, Floats
 from renderer.camera.lens_faces import Face
 from renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
+from renderer.scene.boxes import corners_of
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
 from renderer.scene.sampling import between, gloss, on_spheres, on_triangles, opacity, sampled
@@ -32,7 +33,6 @@ STEP_PX = 1 / 256  # of central differences
 ROUNDING_32 = 2.0**-21  # float32's error after a few roundings, relative
 ROUNDING_64 = 1e-12  # float64's error at the eye, relative to the largest coordinate
 MARGIN = 1024  # pixels around the image that OpenGL clips to (raster/scene_data.py)
-_CORNERS = np.array(list(np.ndindex(2, 2, 2)))  # of a box
 
 # Degenerate primitives and misses: their NaN and infinities are replaced at the end.
 quiet = partial(np.errstate, divide="ignore", invalid="ignore", over="ignore")
@@ -198,7 +198,7 @@ class Surfaces:
             # OpenGL clips at NEAREST of the object's farthest depth. That displaces the rest of a
             # triangle by ROUNDING_32 of its size: if it is more than MARGIN, it may vanish.
             flat, owner = self._view.flat, self._owner[self._triangle]
-            corners = flat.object_bounds[owner][:, _CORNERS, np.arange(3)]
+            corners = corners_of(flat.object_bounds[owner])
             matrix = flat.world_from_object[owner]
             world = corners @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
             farthest = self._view.image_points(world)[..., 2].max(axis=1)

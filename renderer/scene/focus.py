@@ -6,13 +6,12 @@ Pure. A floor or a sky is not framed: it is only the background.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera.camera import Vector
-from renderer.scene.boxes import extent
+from renderer.scene.boxes import corners_of, extent
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
@@ -60,7 +59,7 @@ def scene_focus(scene: Scene) -> Focus:
         (x, y, z),
         float(f"{reach:.2g}"),
         np.concatenate([corners[k] for k in _things([radius for _, radius in balls], corners)]),
-        _box(everything.min(axis=0), everything.max(axis=0)),
+        corners_of(np.array([everything.min(axis=0), everything.max(axis=0)])),
     )
 
 
@@ -71,8 +70,8 @@ def object_corners(entry: SceneObject) -> Points:
     shape = entry.shape
     if isinstance(shape, Sphere):
         center = np.asarray(shape.center, float)
-        return _box(center - shape.radius, center + shape.radius)
-    box = _box(*extent(shape.vertices))
+        return corners_of(np.array([center - shape.radius, center + shape.radius]))
+    box = corners_of(np.array(extent(shape.vertices)))
     return box @ shape.transform[:3, :3].T + shape.transform[:3, 3]
 
 
@@ -93,7 +92,3 @@ def _ball(entry: SceneObject, corners: Points) -> tuple[Points, float]:
         return np.asarray(entry.shape.center, float), entry.shape.radius
     low, high = corners.min(axis=0), corners.max(axis=0)
     return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
-
-
-def _box(low: NDArray[np.floating], high: NDArray[np.floating]) -> Points:
-    return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))), float)
