@@ -16,8 +16,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from option_changes import with_options
-
 from app.instruments.objects.choosing import choose, rows_of
 from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
@@ -34,7 +32,7 @@ LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are Hel
 
 @dataclass(frozen=True)
 class Picture:
-    """options: as AppState.with_options takes them. step: its title in the built-in lecture, and it
+    """options: as Options.with_changes() takes them. step: its title in the built-in lecture, which
     says what is to be seen; empty: none. code: a student's file. chosen: an object, by its name.
     views: shown in addition to the layout's."""
 
@@ -88,7 +86,8 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
         run.window.lecture.give(lecture, BUILTIN, (number, 0))
         save_png(path, run.run())
         return path
-    state = with_options(AppState.for_scene(load_scene(picture.scene)), **picture.options)
+    state = AppState.for_scene(load_scene(picture.scene))
+    state = state.with_options(state.options.with_changes(picture.options))
     if picture.lens is not None:
         camera = replace(state.camera, distance=0.8, lens=picture.lens)
         state = state.with_camera(camera)

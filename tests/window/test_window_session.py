@@ -46,7 +46,8 @@ def step():
         window.views["Camera"].open_sections(("Look at",))
     elif frame == 10:
         window.shell.stage.show("Raster", False)
-        window.change(window.state.with_options(preferences={"theme": "light"}))
+        light = window.state.options.with_changes({"preferences": {"theme": "light"}})
+        window.change(window.state.with_options(light))
         window.open("spheres")
     elif frame > 20 and mode == "kill" and saved():
         os.kill(os.getpid(), signal.SIGKILL)

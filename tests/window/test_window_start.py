@@ -164,8 +164,8 @@ frames = iter(range(10**9))
 def step():
     frame = next(frames)
     if frame == 5:
-        window = run.window
-        window.change(window.state.with_options(shadows=True))
+        state = run.window.state
+        run.window.change(state.with_options(state.options.with_changes({"shadows": True})))
     run.params.app_shall_exit = frame == 20
 
 stepped(run, step)
