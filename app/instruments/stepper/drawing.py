@@ -86,9 +86,9 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
         f"code at {low.x}, {low.y}", best.code_px, 0, imgui.WindowFlags_.horizontal_scrollbar
     )
     with lettering(font, best.larger):
-        if best.code_px.y < best.larger * needed.y - 1:  # a small window: around the lit line
-            lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
-            imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
+        # In a small window: around the lit line.
+        lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
+        imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
         code(lines, drawn.lit, max(best.code_px.x, best.larger * needed.x))
     imgui.end_child()
     imgui.set_cursor_screen_pos(low)
