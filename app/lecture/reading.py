@@ -27,7 +27,7 @@ from app.lecture.schema import (
     StepTable,
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
-from app.lecture.written import formulas_written, pieces_written
+from app.lecture.written import formulas_written, texts_of
 from app.state.all_options import AllOptions
 from app.state.options import Notation
 from app.state.removed import without_removed, without_removed_views
@@ -41,7 +41,7 @@ from renderer.files.views import load_view, view_from_table
 from renderer.images.pixels import Indexing
 from renderer.scene.limits import TOML_BYTES, TRIANGLES
 from renderer.scene.model import Mesh, Scene, View
-from renderer.system.errors import LucidaError, under
+from renderer.system.errors import LucidaError, not_together, under
 from renderer.system.file_dependencies import noting
 
 _FOLDER = Path(__file__).parent / "lectures"
@@ -152,17 +152,20 @@ class _LectureReader:
             field = f"steps[{number}]"
             entry: StepTable = to_struct(table, StepTable, field)
             part = entry.part or part
-            self._at = field
-            with under(field):
-                builds += self._builds(entry, part, number)
-            pieces += pieces_written(table)
+            for path, text in texts_of(table, field):
+                with under(path):
+                    blocks = texts.parse(text)
+                pieces += texts.pieces(blocks)
+                written += formulas_written(text, blocks, path, self._places, self._source)
             if pieces > PIECES:
                 raise LucidaError(
                     field,
                     f"brings the lecture to more than {PIECES} formulas and runs of words",
                     "divide it into several lectures",
                 )
-            written += formulas_written(table, field, self._places, self._source)
+            self._at = field
+            with under(field):
+                builds += self._builds(entry, part, number)
         if self._old:
             self._notes.insert(0, self._old)
         return Lecture(
@@ -210,10 +213,7 @@ class _LectureReader:
             _check_title("part", table.part, "the part's title")
         if len(table.builds) >= BUILDS:
             raise LucidaError("builds", f"holds {len(table.builds)}", f"give fewer than {BUILDS}")
-        with under("notes"):
-            notes = texts.parse(table.notes)
-        with under("text"):
-            texts.parse(table.text)
+        notes = texts.parse(table.notes)
         given = self._present(table)
         first = self._build(given)
         first = replace(first, number=number, part=part, notes=notes)
@@ -352,14 +352,13 @@ def _builds_of(table: Any) -> list[Any]:
 
 def _check_build(build: BuildTable) -> None:
     if build.text and build.instead:
-        raise LucidaError("instead", "is given beside text", "give one of them")
+        raise not_together(
+            "instead", "text", "text is added below the text so far, instead replaces it"
+        )
     if not 0 <= build.move_s <= MOVE_S:
         raise LucidaError("move_s", f"{build.move_s:g} is out of range", f"give 0 to {MOVE_S}")
     if build.loop and not build.move_s:
         raise LucidaError("loop", "has no movement to repeat", "give move_s above 0")
-    for name in ("text", "instead"):
-        with under(name):
-            texts.parse(getattr(build, name))
 
 
 def _objects_of(table: Any) -> list[Any]:

@@ -98,7 +98,10 @@ def test_a_list_goes_on_across_builds_and_nothing_else_does(text, more, kinds):
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ("text = 'a'\ninstead = 'b'", "6: steps[0].builds[0].instead: is given beside text; give"),
+        (
+            "text = 'a'\ninstead = 'b'",
+            "6: steps[0].builds[0].instead: cannot be used together with text; ",
+        ),
         ("move_s = -1", "5: steps[0].builds[0].move_s: -1 is out of range; give 0 to 60"),
         ("move_s = 0\nloop = true", "6: steps[0].builds[0].loop: has no movement to repeat; give"),
         ("text = 'a $b'", "5: steps[0].builds[0].text: a formula does not end"),
