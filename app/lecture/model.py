@@ -26,7 +26,6 @@ class Step:
     views: the names of the views to show, the main one first.
     options: changes of the default options, by part.
     pixel: the marked one, (row, column), 0-based.
-    highlight: the names of controls to point out.
     exercise: of the step's last build; otherwise None.
     move_s: how long the movement from the build before takes; 0 for a cut.
     loop: the movement begins again until the next key.
@@ -46,7 +45,6 @@ class Step:
     views: tuple[str, ...]
     options: dict[str, Any]
     pixel: tuple[int, int] | None
-    highlight: tuple[str, ...]
     exercise: Exercise | None
     move_s: float
     loop: bool

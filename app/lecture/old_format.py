@@ -13,10 +13,10 @@ from app.lecture.schema import StepTable
 from app.lecture.text import Block, ItemList, parse
 
 Blocks = tuple[Block, ...]
-FIELDS = ("reveal", "answer", "links", "low")
+FIELDS = ("reveal", "answer", "links", "low", "highlight")
 REMEDY = (
     "is of an older format: write what is shown later as [[steps.builds]]; "
-    "links and low are ignored"
+    "links, low and highlight are ignored"
 )
 
 

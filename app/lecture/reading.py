@@ -19,8 +19,6 @@ from app.lecture.old_format import REMEDY, fields_of, old_builds
 from app.lecture.reading_exercises import exercise_of, pixel_of
 from app.lecture.schema import (
     DEFAULT_VIEWS,
-    HIGHLIGHTS,
-    PANEL,
     VIEWS,
     BuildTable,
     LectureFile,
@@ -279,7 +277,6 @@ class _LectureReader:
             views=_views(table.views),
             options=options,
             pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
-            highlight=_highlight(table.highlight),
             exercise=None,
             move_s=0.0,
             loop=False,
@@ -374,23 +371,13 @@ def _check_title(field: str, title: str, what: str) -> None:
         raise LucidaError(field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}")
 
 
-def _highlight(names: list[str]) -> tuple[str, ...]:
-    """Return each name once, because all are searched in each frame."""
-    for number, name in enumerate(names):
-        check_known(f"highlight[{number}]", name, HIGHLIGHTS)
-    return tuple(dict.fromkeys(names))
-
-
 def _views(names: list[str]) -> tuple[str, ...]:
     for number, name in enumerate(names):
-        check_known(f"views[{number}]", name, (*VIEWS, PANEL))
+        check_known(f"views[{number}]", name, VIEWS)
     if len(set(names)) < len(names):
         raise LucidaError("views", "names one twice", "name each view once")
-    pictures = [name for name in names if name != PANEL]
-    if not 1 <= len(pictures) <= 2:
+    if len(names) not in (1, 2):
         raise LucidaError(
-            "views",
-            f"names {len(pictures)} besides {PANEL!r}",
-            "give one or two: a class looks at one thing at a time",
+            "views", f"names {len(names)}", "give one or two: a class looks at one thing at a time"
         )
     return tuple(names)

@@ -16,23 +16,7 @@ from renderer.files.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
 VIEWS = tuple(name for room in ROOMS for name in room.views)
-PANEL = "camera"  # may stand beside them
 DEFAULT_VIEWS = ["raster"]
-
-# What a step can point out: fields of the camera's panel, and views.
-HIGHLIGHTS = (
-    "projection",
-    "eye",
-    "u",
-    "v",
-    "w",
-    "distance",
-    "viewport",
-    "lens",
-    "clip",
-    "keep_orthonormal",
-    *VIEWS,
-)
 
 
 class StepTable(StrictTable):
@@ -41,7 +25,7 @@ class StepTable(StrictTable):
     notes: for the lecturer, in the notes window of an exported page.
     pixel: the marked pixel, row and column, counted as the lecture does.
     exercise: asked in the last build.
-    reveal, answer, links, low: of the format before builds, see old_format.py.
+    reveal, answer, links, low, highlight: of the format before builds, see old_format.py.
     """
 
     title: str
@@ -53,13 +37,13 @@ class StepTable(StrictTable):
     views: list[str] = field(default_factory=DEFAULT_VIEWS.copy)
     options: dict[str, Any] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
-    highlight: list[str] = field(default_factory=list)
     exercise: dict[str, Any] | None = None
     builds: list[Any] = field(default_factory=list)
     reveal: bool = False
     answer: str = ""
     links: dict[str, Any] = field(default_factory=dict)
     low: bool = False
+    highlight: list[str] = field(default_factory=list)
 
 
 class BuildTable(StrictTable):
@@ -78,7 +62,6 @@ class BuildTable(StrictTable):
     views: list[str] | None = None
     options: dict[str, Any] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
-    highlight: list[str] | None = None
     move_s: float = 0.5
     loop: bool = False
 

@@ -19,7 +19,6 @@ from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note, note_height
-from app.lecture.arrangement import arrange
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.exercises import ChoiceExercise
@@ -263,7 +262,9 @@ class LectureView(DockedView):
             self.log.follow_quiz(session.lecture, session.step, host.state, size)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
-            arrange(self._others, self.session.step)
+            names = map(str.capitalize, self.session.step.views)
+            spaces = (layout.MAIN, layout.LOWER_SPACE)
+            layout.arrange(self._others, dict(zip(names, spaces, strict=False)))
             self.arrangements += 1
             self._arranged = True
             imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone

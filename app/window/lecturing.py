@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,6 @@ import numpy as np
 
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
-from app.lecture.schema import PANEL
 from app.ui.surface import Target
 from app.window.capture import cut
 from app.window.launch import start_drawing
@@ -132,10 +130,6 @@ def lecture_stills(
     """
     from app.web.lecture.page import Still
 
-    seen = [
-        replace(step, views=tuple(v for v in step.views if v != PANEL)) for step in lecture.builds
-    ]
-    lecture = replace(lecture, builds=tuple(seen))
     stills: list[list[Still]] = [[] for _ in lecture.builds]
 
     def take(place: int, window: MainWindow, target: Target) -> None:

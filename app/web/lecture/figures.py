@@ -29,7 +29,6 @@ SHOWN = {
     "outside": ("outside",),
     "compare": ("raster", "ray", "wipe"),
     "probe": ("probe",),
-    "camera": ("controls",),
 }
 # Drawings of the outside view that modules/outside.js does not draw.
 DRAWN_IN_THE_WINDOW = (
@@ -88,10 +87,9 @@ class Figures:
             options["outside"] = _outside(step, state)
         return {
             "scene": number,
-            "camera": _camera_table(step),
+            "camera": view_table(step.view),
             "shows": shows,
             "options": options,
-            "lens": "lens" in step.highlight,
             "photograph": _photograph(state),
             "folded": _has_more(step, state),
         }
@@ -133,14 +131,6 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
     return drawn if looking is None else drawn | {"camera": view_table(View(looking))}
 
 
-def _camera_table(step: Step) -> dict[str, Any]:
-    """Return a step's camera as JSON, with the numbers of a lens that the step is about."""
-    table = view_table(step.view)
-    if "lens" in step.highlight and table.get("lens", {}).get("model") == "brown":
-        table["lens"] = {"k1": 0.0, "k2": 0.0} | table["lens"]
-    return table
-
-
 def _photograph(state: AppState) -> dict[str, Any] | None:
     """Return the picture that is laid over a step's images, as JSON; None for none."""
     options = state.of(PhotographOptions)
@@ -165,7 +155,7 @@ def _has_more(step: Step, state: AppState) -> bool:
     return (
         (grows and step.exercise is None)  # whose figure shows the answers
         or images.dissolved > 0
-        or (pair.straight_lines and "lens" not in step.highlight)
+        or pair.straight_lines
         or pair.footprint
         or bool(pair.parallels)
         or (bool(state.of(PhotographOptions).file) and _photograph(state) is None)

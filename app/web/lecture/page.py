@@ -87,7 +87,7 @@ def page(
 
 def shows_as(step: Step, after: Step) -> bool:
     """Return True if two builds of a step differ in their texts only."""
-    names = ("scene", "view", "views", "options", "pixel", "highlight")
+    names = ("scene", "view", "views", "options", "pixel")
     return all(getattr(step, name) == getattr(after, name) for name in names)
 
 
