@@ -13,7 +13,8 @@ from renderer.files.saving import relocated
 from renderer.files.scene_file import changed_scene, new_keys
 from renderer.files.tables import VERSION, parse_toml
 from renderer.files.toml_writing import toml_text
-from renderer.scene.model import Keys, Origin, SavedFile, Scene, View
+from renderer.scene.model import Scene, View
+from renderer.scene.origin import Keys, Origin, SavedFile
 from renderer.system.atomic import atomic_write
 from renderer.system.errors import LucidaError
 from renderer.system.file_dependencies import noting, stamp

@@ -378,6 +378,21 @@ class Camera:
         """
         return _camera_from_world(self.eye, self.u, self.v, self.w)
 
+    def image_from_world(self, size: Size) -> Floats:
+        """Return the matrix (3, 4) from a world point (x, y, z, 1) to its place in the image, and
+        its ray parameter t. A lens is disregarded.
+
+        The place is in pixels from the image's centre, x right, y down. In perspective, it is
+        multiplied by t, and therefore affine in the point.
+        """
+        left, right, bottom, top = self.viewport
+        x, y, z, one = self.camera_from_world
+        t = -z if self.is_parallel else -z / self.distance
+        unit = one if self.is_parallel else t
+        across = (x - (left + right) / 2 * unit) * (size[0] / (right - left))
+        up = (y - (bottom + top) / 2 * unit) * (size[1] / (top - bottom))
+        return np.stack([across, -up, t])
+
     def clip_from_camera(self, near: float, far: float) -> Floats:
         """Return the projection matrix of the viewport's frustum (perspective) or box (parallel).
 

@@ -21,8 +21,6 @@ from renderer.camera.lenses import Lens
 _SCALES = 0.2, 2.0  # the least and the most by which an image's sides change
 _BLOCK = 1 << 20  # pixels resampled at a time, to bound the temporary memory
 
-Viewport = tuple[float, float, float, float]
-
 
 def undistorted_camera(camera: Camera, lens: Lens, size: Size) -> tuple[Camera, Size]:
     """Return the pinhole without the lens, and the size of its image.
@@ -41,8 +39,8 @@ def undistorted_camera(camera: Camera, lens: Lens, size: Size) -> tuple[Camera, 
     cx, cy = -left / (right - left) * width, top / (top - bottom) * height
     reached = []
     for x, y, axis in edges:
-        a, b = _on_plane(x, y, camera.viewport, size, camera.distance)
-        X, Y, Z = lens.direction(a, b)
+        a, b = camera.image_point(np.asarray(y) - 0.5, np.asarray(x) - 0.5, size)
+        X, Y, Z = lens.direction(a / camera.distance, -b / camera.distance)
         with np.errstate(all="ignore"):
             ideal = (X, Y)[axis] / np.where(Z > 0, Z, np.nan) * camera.distance
         units = (right - left) / width if axis == 0 else (top - bottom) / height
@@ -93,25 +91,9 @@ def _places(
     """Return for each pixel of the pinhole where the photograph shows it: columns and rows, with
     pixels' centres at integers; NaN outside of the lens.
     """
-    columns, rows = np.meshgrid(*(np.arange(side) + 0.5 for side in target_size))
-    a, b = _on_plane(columns, rows, target.viewport, target_size, target.distance)
-    a, b = lens.image_point(a, b, 1.0)
-    left, right, bottom, top = camera.viewport
-    x, y = a * camera.distance, -b * camera.distance
-    return (
-        ((x - left) / (right - left) * size[0] - 0.5).ravel(),
-        ((top - y) / (top - bottom) * size[1] - 0.5).ravel(),
-    )
-
-
-def _on_plane(
-    columns: ArrayLike, rows: ArrayLike, viewport: Viewport, size: Size, distance: float
-) -> tuple[Floats, Floats]:
-    """Return points of the image on the plane at distance 1, b downwards."""
-    left, right, bottom, top = viewport
-    a = (left + np.asarray(columns) / size[0] * (right - left)) / distance
-    b = -(top - np.asarray(rows) / size[1] * (top - bottom)) / distance
-    return a, b
+    target, camera = (replace(each, eye=(0.0, 0.0, 0.0)) for each in (target, camera))
+    seen = replace(camera, lens=lens).project(target.rays(target_size).direction, size)
+    return seen.column.ravel(), seen.row.ravel()
 
 
 def _interpolated(

@@ -9,7 +9,7 @@ All functions take arrays of pixels: i, j (n,) rows and columns, which may be fr
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -68,18 +68,13 @@ class View:
         return float(np.linalg.norm(self.camera.camera_from_world[2, :3]) * largest / unit)
 
     def image_points(self, world: Floats) -> Floats:
-        """Return world points in the image (..., 3): pixels from its centre, right and down,
-        multiplied by t in perspective; and t. Points behind the eye also have a position.
+        """Return the image points (..., 3) of world points, see Camera.image_from_world(). Points
+        behind the eye also have a position.
         """
-        camera, (width, height) = self.camera, self.size
-        left, right, bottom, top = camera.viewport
-        from_eye = world - np.asarray(camera.eye)
-        x, y, z = np.moveaxis(from_eye @ camera.camera_from_world[:3, :3].T, -1, 0)
-        t = -z if camera.is_parallel else -z / camera.distance
-        weight = 1.0 if camera.is_parallel else t
-        column = (x - (left + right) / 2 * weight) * (width / (right - left))
-        row = ((top + bottom) / 2 * weight - y) * (height / (top - bottom))
-        return np.stack([column, row, t], axis=-1)
+        eye = np.asarray(self.camera.eye)
+        matrix = replace(self.camera, eye=(0.0, 0.0, 0.0)).image_from_world(self.size)
+        points: Floats = (world - eye) @ matrix[:, :3].T + matrix[:, 3]
+        return points
 
 
 class Surfaces:

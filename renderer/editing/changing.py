@@ -23,14 +23,8 @@ from renderer.files.saving import light_table, scene_tables
 from renderer.files.scene_file import changed_scene, new_keys
 from renderer.files.schema import AnyLight, LightTable, MeshTable, ModelTable, SphereTable
 from renderer.files.tables import to_struct
-from renderer.scene.model import (
-    FileEntry,
-    ItemKind,
-    Keys,
-    Origin,
-    SavedFile,
-    Scene,
-)
+from renderer.scene.model import Scene
+from renderer.scene.origin import FileEntry, ItemKind, Keys, Origin, SavedFile
 from renderer.system.errors import LucidaError
 from renderer.system.file_dependencies import noting, stamp
 

@@ -15,7 +15,8 @@ from renderer.files.reading import full_path, read_file
 from renderer.files.saving import file_tables, relocated, scene_text
 from renderer.files.scene_file import changed_scene
 from renderer.scene.limits import TOML_BYTES
-from renderer.scene.model import SavedFile, Scene, View
+from renderer.scene.model import Scene, View
+from renderer.scene.origin import SavedFile
 from renderer.system.atomic import atomic_write, file_stem
 from renderer.system.errors import LucidaError
 from renderer.system.file_dependencies import stamp

@@ -9,7 +9,8 @@ from renderer.files.models.model_kinds import check_kind
 from renderer.files.models.models import MODEL_ENDINGS, model_scene
 from renderer.files.reading import absence, close_matches, full_path, path_of, suggestion
 from renderer.files.scene_file import read_scene_file
-from renderer.scene.model import Origin, Scene
+from renderer.scene.model import Scene
+from renderer.scene.origin import Origin
 from renderer.system.errors import LucidaError
 from renderer.system.file_dependencies import Noted, noting
 

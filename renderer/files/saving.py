@@ -23,13 +23,13 @@ from renderer.scene import framing
 from renderer.scene.model import (
     DirectionalLight,
     Material,
-    Origin,
     PointLight,
     Scene,
     SceneObject,
     Sphere,
     View,
 )
+from renderer.scene.origin import Origin
 from renderer.system.atomic import atomic_write
 from renderer.system.errors import LucidaError, under
 

@@ -39,20 +39,17 @@ from renderer.scene.material import parse_color
 from renderer.scene.model import (
     Checker,
     DirectionalLight,
-    FileEntry,
-    Keys,
     Material,
     Mesh,
     NamedView,
-    Origin,
     PointLight,
-    SavedFile,
     Scene,
     SceneObject,
     Sphere,
     View,
     triangles_of,
 )
+from renderer.scene.origin import FileEntry, Keys, Origin, SavedFile
 from renderer.system.cancelling import check_cancelled
 from renderer.system.errors import LucidaError, under
 

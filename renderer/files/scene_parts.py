@@ -25,7 +25,8 @@ from renderer.files.schema import (
 )
 from renderer.scene import shapes
 from renderer.scene.limits import SEGMENTS
-from renderer.scene.model import FileEntry, Material, Mesh, SceneObject
+from renderer.scene.model import Material, Mesh, SceneObject
+from renderer.scene.origin import FileEntry
 from renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
 from renderer.system.errors import LucidaError
 

@@ -29,7 +29,7 @@ POINT = np.dtype([("place", np.float32, 3), ("color", np.uint8, 3), ("unused", n
 class CloudLook:
     """The camera and the style of a cloud. Widths are in pixels.
 
-    screen_from_cloud: (3, 4), as screen_from_world() in overlay.py, from the cloud's origin. near:
+    screen_from_cloud: (3, 4), as Camera.image_from_world(), from the cloud's origin. near:
     the least t that is drawn. far: the end of the depth range in parallel projection. ink: the
     lines' colour. casing: the colour of their edges. Both colours are display values.
     """

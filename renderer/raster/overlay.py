@@ -53,19 +53,6 @@ class Plane:
     box: tuple[float, float, float, float]
 
 
-def screen_from_world(camera: Camera, size: Size) -> NDArray[np.float64]:
-    """Return the matrix (3, 4) from a world point (x, y, z, 1) to x and y, in pixels from the
-    image's centre, x right, y down, and t. In perspective, x and y are multiplied by t.
-    """
-    left, right, bottom, top = camera.viewport
-    rows = camera.camera_from_world[:3].copy()
-    t = -rows[2] if camera.is_parallel else -rows[2] / camera.distance
-    unit = np.array([0.0, 0.0, 0.0, 1.0]) if camera.is_parallel else t
-    x = (rows[0] - (left + right) / 2 * unit) * (size[0] / (right - left))
-    y = (rows[1] - (bottom + top) / 2 * unit) * (size[1] / (top - bottom))
-    return np.stack([x, -y, t])
-
-
 def plane_on_screen(
     camera: Camera, size: Size, corners: NDArray[np.float64], eye: NDArray[np.float64]
 ) -> Plane | None:
@@ -75,7 +62,7 @@ def plane_on_screen(
     mirrored.
     """
     first, across, down = corners[0], corners[1] - corners[0], corners[2] - corners[0]
-    matrix = screen_from_world(camera, size)
+    matrix = camera.image_from_world(size)
     of_plane = np.column_stack([matrix[:, :3] @ across, matrix[:, :3] @ down, matrix @ [*first, 1]])
     t_row = of_plane[2].copy()
     if camera.is_parallel:

@@ -17,6 +17,7 @@ where N.(a - eye) may cancel without harm.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -120,9 +121,8 @@ def image_space(
     u, v, w, eye = np.array((camera.u, camera.v, camera.w, camera.eye))
     across = x * u + y * v
     unit = 1.0 if camera.is_parallel else camera.distance
-    camera_from_eye = np.zeros((4, 4))
-    camera_from_eye[:3, :3], camera_from_eye[3, 3] = camera.camera_from_world[:3, :3], 1.0
-    t_row = -camera_from_eye[2] / unit
+    from_eye = replace(camera, eye=(0.0, 0.0, 0.0)).image_from_world(size)
+    t_row = from_eye[2]
     # The boxes of objects are in their own spaces.
     matrix, bounds = flat.world_from_object, flat.object_bounds
     middle = (setup.turned_middles + (matrix[:, :3, 3] - eye)) @ t_row[:3]
@@ -131,10 +131,9 @@ def image_space(
     fitted = _fitted(middle - half, middle + half, setup.is_seen)
     clip_near, clip_far = (1.0, 2.0) if not camera.is_parallel else fitted.box
     clip_from_camera = camera.clip_from_camera(clip_near * unit, clip_far * unit)
-    clip = clip_from_camera @ camera_from_eye / unit
     clip_z = (-clip_from_camera[2, 2], clip_from_camera[2, 3] / unit)
     return ImageSpace(
-        image_from_world=np.array((clip[0] * width / 2, clip[1] * height / 2, t_row)),
+        image_from_world=from_eye * np.array([[1.0], [-1.0], [1.0]]),
         step_x=(right - left) / width * u,
         step_y=(top - bottom) / height * v,
         eye=eye,

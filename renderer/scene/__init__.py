@@ -16,7 +16,6 @@ from renderer.scene.model import (
     DirectionalLight,
     Material,
     Mesh,
-    Origin,
     PointLight,
     Scene,
     SceneObject,
@@ -24,6 +23,7 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
+from renderer.scene.origin import Origin
 from renderer.scene.texture import Texture
 
 __all__ = [

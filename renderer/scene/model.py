@@ -8,11 +8,8 @@ from __future__ import annotations
 import copy
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from functools import cached_property
 from importlib import import_module
-from itertools import accumulate
 from pathlib import Path
-from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,17 +22,14 @@ from renderer.scene.material import Checker as Checker
 from renderer.scene.material import Color as Color
 from renderer.scene.material import Material, color, length, vector
 from renderer.scene.material import without_metal as without_metal
+from renderer.scene.origin import Origin
 from renderer.scene.texture import is_final
 from renderer.system.errors import LucidaError, one_line, shortened
-from renderer.system.file_dependencies import Noted
 
-ItemKind = Literal["objects", "lights"]
 Floats32 = NDArray[np.float32]
 
 LONGEST_NAME = 200  # letters
 PLAIN = Material()
-
-Keys = tuple[tuple[int, ...], tuple[int, ...]]  # of a scene's objects, and of its lights
 
 
 def _shown(name: str) -> str:
@@ -244,99 +238,12 @@ class NamedView:
 
 
 @dataclass(frozen=True, eq=False)
-class FileEntry:
-    """One of the [[objects]] of a scene file, and the objects made from it. Never modified.
-
-    key: a number that no other entry has in this process, and that editing keeps.
-    table, fields: as in the file, and as a structure of schema.py.
-    material: the one that it names or gives; None for neither.
-    made: its shapes before they were placed; none for a sphere.
-    objects: the scene's, in their order; one for each part of a model.
-    views: the model's own cameras.
-    path: of the model's file, absolute.
-    notes: what of its textures is not shown.
-    """
-
-    key: int
-    table: dict[str, Any]
-    fields: Any
-    material: Material | None
-    made: tuple[SceneObject, ...]
-    objects: tuple[SceneObject, ...]
-    views: tuple[NamedView, ...] = ()
-    path: str = ""
-    notes: tuple[str, ...] = ()
-
-
-class SavedFile:
-    """The contents of a scene's file when this program last read or wrote it.
-
-    All versions that editing makes of a scene share it, including those that undo restores: when
-    one is saved, all know it. Only saving changes it, on one window's thread at a time.
-
-    path: None while there is no such file.
-    text: the file's own, the basis for writing another one; "" for none.
-    tables: its contents; None for none yet.
-    keys: of its objects and of its lights, in their order there.
-    """
-
-    def __init__(
-        self,
-        path: Path | None = None,
-        text: str = "",
-        tables: dict[str, Any] | None = None,
-        keys: Keys = ((), ()),
-    ) -> None:
-        self.path, self.text, self.tables, self.keys = path, text, tables, keys
-
-
-@dataclass(frozen=True, eq=False)
-class Origin:
-    """The origin of a scene, for writing it again.
-
-    source: an argument of load_scene, a built-in scene's name or an absolute path; "" for neither.
-    tables: of its scene file, as read or edited, never modified; None for a model alone.
-    folder: the start of its paths.
-    files: all that it was read from, as they were then; none for a built-in scene.
-    entries: one for each of the tables' objects.
-    light_keys: one for each of their lights, as FileEntry.key.
-    saved: the file itself.
-    """
-
-    source: str
-    tables: dict[str, Any] | None = None
-    folder: Path = Path()
-    files: Noted = field(default_factory=dict)
-    entries: tuple[FileEntry, ...] = ()
-    light_keys: tuple[int, ...] = ()
-    saved: SavedFile = field(default_factory=SavedFile)
-
-    @cached_property
-    def keys(self) -> Keys:
-        """Return the keys of the objects and of the lights."""
-        return tuple(entry.key for entry in self.entries), self.light_keys
-
-    @cached_property
-    def places(self) -> dict[int, tuple[ItemKind, int]]:
-        """Return for each key the list of the tables that the item is in, and its index there."""
-        kinds: tuple[ItemKind, ItemKind] = ("objects", "lights")
-        return {
-            key: (kind, number)
-            for kind, keys in zip(kinds, self.keys, strict=True)
-            for number, key in enumerate(keys)
-        }
-
-    @cached_property
-    def first_ids(self) -> tuple[int, ...]:
-        """Return the first id of each entry in images, and then the number of all ids."""
-        return tuple(accumulate((len(entry.objects) for entry in self.entries), initial=0))
-
-
-@dataclass(frozen=True, eq=False)
 class Scene:
-    """Objects in the order of their ids, lights, and a view to begin with. origin: None for a
-    scene that was made in Python. views: others that its file has: a glTF file's cameras. notes:
-    what of its files is not shown, a line each."""
+    """Objects in the order of their ids, lights, and a view to begin with.
+
+    origin: None for a scene that was made in Python. views: other views of its file, such as a glTF
+    file's cameras. notes: a line for everything in its files that is not shown.
+    """
 
     objects: tuple[SceneObject, ...]
     lights: tuple[PointLight | DirectionalLight, ...] = ()

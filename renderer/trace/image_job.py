@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections.abc import Callable
 from typing import Any
 
 from renderer.camera.camera import Camera
@@ -17,9 +16,7 @@ from renderer.images.frame import Frame
 from renderer.system.child import check_not_forked
 from renderer.trace.arguments.buffers import Buffers
 from renderer.trace.arguments.image import Image, Rows, new_image, to_frame
-from renderer.trace.threads.thread_pool import DONE, Control, cancel, new_control
-
-TraceCall = Callable[[Camera, Image, Control, Rows], None]
+from renderer.trace.threads.thread_pool import DONE, cancel, new_control
 
 
 class Task:
@@ -48,11 +45,10 @@ class Task:
         self._frame: Frame | None = None
 
     def run(self, engine: Any) -> None:
-        """Trace the image with an engine (engine.py)."""
-        self.trace(engine.trace)
+        """Trace the image, unless it was cancelled before. Called once, by the Tracer's thread.
 
-    def trace(self, trace: TraceCall) -> None:
-        """Trace the image, unless cancelled before. Called once, by the Tracer's thread."""
+        engine: a ReferenceEngine or a PacketEngine.
+        """
         if self.finished.is_set():
             return
         image = new_image(self.size, self.channels, self._buffers)
@@ -62,7 +58,7 @@ class Task:
             self._image, self._blocks = image, image.finished.size
             self._tracing = True
         start_s = time.perf_counter()
-        trace(self.camera, image, self._control, self.rows)
+        engine.trace(self.camera, image, self._control, self.rows)
         self._time_s = time.perf_counter() - start_s
         self.finished.set()
 

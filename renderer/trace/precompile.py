@@ -10,34 +10,14 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable, Sequence
-from importlib import import_module
 
-from renderer.scene.model import Scene, has_textures
 from renderer.system import compile_note
 from renderer.system.child import end_child, interpreter, start_child
+from renderer.trace import compile_child
 from renderer.trace.compile.cache_folder import cache_folder
-from renderer.trace.compile_child import is_copied
-from renderer.trace.image_job import Task
-from renderer.trace.ray_batch import RayBatch
 from renderer.trace.threads.thread_pool import default_threads
 
 _POLL_S = 0.01
-_CHILD = "renderer.trace.compile_child"
-
-
-def parts_of(method: str, effects: bool, scene: Scene, task: Task | RayBatch) -> tuple[str, ...]:
-    """Return the parts (compile_child.py) that a task on a scene needs, the slowest first.
-
-    method: of tracer.METHODS. effects: True if there are shadows or mirrors.
-    """
-    if method == "reference":
-        return ("reference",)
-    if isinstance(task, RayBatch):
-        return "rays", "trees", *(["shade"] if task.method == "shaded" else [])
-    if task.camera.lens is not None:
-        return "write-lens", "walk-lens", "trees", "lens"
-    variant = "-rich" if effects or has_textures(scene) else ""
-    return f"walk{variant}", f"write{variant}", "trees"
 
 
 def precompile(parts: Sequence[str], is_closed: Callable[[], bool]) -> None:
@@ -56,10 +36,10 @@ def precompile(parts: Sequence[str], is_closed: Callable[[], bool]) -> None:
         return
     processes = []
     try:
-        for group in [missing] if is_copied() else [[part] for part in missing]:
+        for group in [missing] if compile_child.can_fork() else [[part] for part in missing]:
             with contextlib.suppress(OSError):
-                processes.append((start_child(python, _CHILD, *group), group))
-        import_module(_CHILD).import_compiler()  # what loading needs, meanwhile
+                processes.append((start_child(python, compile_child.__name__, *group), group))
+        compile_child.import_compiler()  # what loading needs, meanwhile
         while any(process.poll() is None for process, _ in processes) and not is_closed():
             time.sleep(_POLL_S)
     finally:

@@ -19,6 +19,7 @@ from renderer.scene.model import Scene
 from renderer.system.child import check_not_forked
 from renderer.system.errors import LucidaError
 from renderer.trace.image_job import Task
+from renderer.trace.parts import compile_part, parts_of
 from renderer.trace.ray_batch import RayBatch
 from renderer.trace.threads.thread_pool import AbandonedError, Team
 
@@ -127,19 +128,26 @@ class Worker:
         if scene is not self._prepared:
             self._prepared = None  # stays None if preparing fails
             if self._engine is None:
-                from renderer.trace.engine import new_engine  # imports numba
-
-                self._engine = new_engine(scene, self._team, self._method, *self._effects)
+                self._engine = self._new_engine(scene)
             else:
                 self._engine.set_scene(scene)
             self._prepared = scene
         self._team.is_over = None  # a running image is cancelled by its own control
         task.run(self._engine)
 
+    def _new_engine(self, scene: Scene) -> Any:
+        """Return the scene prepared for this worker's method. Imports numba."""
+        if self._method == "reference":
+            from renderer.trace.reference_engine import ReferenceEngine
+
+            return ReferenceEngine(scene, self._team)
+        from renderer.trace.tiles.engine import PacketEngine
+
+        return PacketEngine(scene, self._team, *self._effects)
+
     def _compile(self, scene: Scene, task: Work) -> None:
         """Compile the parts that a task needs, in other processes, and load them."""
-        from renderer.trace.compile_child import compile_part
-        from renderer.trace.precompile import parts_of, precompile
+        from renderer.trace.precompile import precompile
 
         parts = parts_of(self._method, any(self._effects), scene, task)
         new = [part for part in parts if part not in self._compiled]

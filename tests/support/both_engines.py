@@ -10,7 +10,7 @@ from renderer.images.frame import Frame
 from renderer.scene.flat import flatten
 from renderer.scene.model import Scene
 from renderer.trace.arguments.image import new_image, to_frame
-from renderer.trace.engine import Engine
+from renderer.trace.reference_engine import ReferenceEngine
 from renderer.trace.threads.thread_pool import Team, new_control
 from renderer.trace.tiles.engine import PacketEngine
 
@@ -21,7 +21,10 @@ class Both:
     def __init__(self, scene: Scene) -> None:
         self.team = Team(2)
         self.scene, self.flat = scene, flatten(scene)
-        self.packets, self.reference = PacketEngine(scene, self.team), Engine(scene, self.team)
+        self.packets, self.reference = (
+            PacketEngine(scene, self.team),
+            ReferenceEngine(scene, self.team),
+        )
 
     def frames(
         self, camera: Camera, size: tuple[int, int], channels: tuple[str, ...] = CHANNELS

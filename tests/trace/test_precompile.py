@@ -23,7 +23,7 @@ from renderer.scene.model import Scene
 from renderer.scene.texture import Texture
 from renderer.trace import Tracer, compile_child, precompile
 from renderer.trace.compile import compiled
-from renderer.trace.compile_child import is_copied
+from renderer.trace.compile_child import can_fork
 
 PATIENT_S = 60.0
 
@@ -157,7 +157,8 @@ def test_a_child_reports_a_cache_that_could_not_be_written(
 COPIED = """
 import os, time
 from renderer.system.child import interpreter, start_child
-child = start_child(interpreter(), "renderer.trace.compile_child", "walk", "trees", "write")
+parts = "walk-plain", "trees", "write-plain"
+child = start_child(interpreter(), "renderer.trace.compile_child", *parts)
 def copies():
     with open(f"/proc/{child.pid}/task/{child.pid}/children") as file:
         return len(file.read().split())
@@ -166,7 +167,7 @@ print(child.pid)
 """
 
 
-@pytest.mark.skipif(not is_copied(), reason="each part has a process of its own")
+@pytest.mark.skipif(not can_fork(), reason="each part has a process of its own")
 def test_copies_of_a_compiling_process_end_with_its_parent(tmp_path: Path) -> None:
     env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     done = subprocess.run(

@@ -12,7 +12,6 @@ from app.instruments.outside.paint import CASING, line_color
 from app.instruments.outside.screen import OutsideScreen
 from app.ui import theme
 from renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
-from renderer.raster.overlay import screen_from_world
 
 NEAREST = 1e-3  # of the cloud's reach: what is nearer to the outside camera's eye is not drawn
 CASING_PX = 0.9  # on each side of a line, in widths of a line
@@ -64,7 +63,7 @@ class CloudLayer:
 
 
 def _look(cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudLook:
-    matrix = screen_from_world(screen.camera, screen.size)
+    matrix = screen.camera.image_from_world(screen.size)
     matrix[:, 3] += matrix[:, :3] @ cloud.origin
     middle = cloud.middle - cloud.origin
     away = float(matrix[2, :3] @ middle + matrix[2, 3])

@@ -25,7 +25,6 @@ from app.ui.theme import framebuffer_scale
 from app.ui.view import Host
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.camera.navigation import depth_of
-from renderer.raster.overlay import screen_from_world
 from renderer.system.memo import Memo, same
 
 NOTHING = np.zeros((0, 3))
@@ -86,12 +85,12 @@ class Scopes:
         return scope
 
 
-_kept_screen_from_world = lru_cache(maxsize=1)(screen_from_world)
+_kept_image_from_world = lru_cache(maxsize=1)(Camera.image_from_world)
 
 
 def is_in_picture(camera: Camera, looking: Camera) -> bool:
     """Return True if a camera's eye, basis and image plane are in the picture of another one."""
-    matrix = _kept_screen_from_world(looking, (2, 2))  # it stays while the other one is dragged
+    matrix = _kept_image_from_world(looking, (2, 2))  # it stays while the other one is dragged
     x, y, t = matrix[:, :3] @ around(NOTHING, camera).T + matrix[:, 3:]
     edge = 1.0 if looking.is_parallel else t
     return bool((np.maximum(abs(x), abs(y)) <= edge).all())

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.instruments.outside.frustum import has_plane, plane_corners
 from renderer.camera.camera import Camera, Floats, Size
-from renderer.raster.overlay import Plane, plane_on_screen, screen_from_world
+from renderer.raster.overlay import Plane, plane_on_screen
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
 NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene
@@ -50,7 +50,7 @@ class OutsideScreen:
         self.camera, self.size, self.unit_px = camera, size, unit_px
         self.symbol_px = unit_px if symbol_px is None else symbol_px
         self.near = max(near, 1e-30)
-        self._matrix = screen_from_world(camera, size)
+        self._matrix = camera.image_from_world(size)
         self._middle = np.asarray(size, float) / 2
         # Half-spaces of (X, Y, T, 1) that are drawn: beyond near, inside the guard.
         x, y = GUARD * self._middle

@@ -114,6 +114,12 @@ def value_of(x: Any) -> Value:
     return Value(kind, context.get_constant_generic(builder, kind, x))
 
 
+def with_fields(data: Value, **changes: Any) -> Any:
+    """Return a NamedTuple with some of its fields replaced."""
+    fields = {name: getattr(data, name) for name in data.kind.fields}
+    return data.kind.instance_class(**fields | changes)
+
+
 @cache
 def _signature(typing: Any, function: Any, kinds: tuple[Any, ...]) -> Any:
     signature = typing.resolve_function_type(function, kinds, {})

@@ -36,6 +36,13 @@ def cancel(control: Control) -> None:
     control[NEXT] = CANCELLED
 
 
+def cancelled_control() -> Control:
+    """Return the control array of a launch that does nothing: to compile its kernel."""
+    control = new_control()
+    cancel(control)
+    return control
+
+
 def default_threads() -> int:
     """Return the number of processors that this process may use."""
     if hasattr(os, "process_cpu_count"):  # Python 3.13

@@ -1,6 +1,6 @@
 """A scene prepared for packets: flat arrays and trees, and the packet kernel run on them.
 
-Same interface as engine.py's Engine, many times faster.
+Same interface as ReferenceEngine, many times faster.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from renderer.camera.camera import Camera
 from renderer.camera.lenses import Lens
 from renderer.scene.flat import flatten
-from renderer.scene.model import Scene, has_textures
+from renderer.scene.model import Scene
 from renderer.scene.positions import lights_from, near_point
 from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
@@ -21,13 +21,14 @@ from renderer.trace.bvh.instances import Instances, World
 from renderer.trace.compile.stage import StagedCode, new_room
 from renderer.trace.rays.query import Vectors, closest_hits
 from renderer.trace.reference.kernel import shade_rays
-from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
+from renderer.trace.threads.thread_pool import Control, Team, cancelled_control
 from renderer.trace.tiles.cells import cells_of
 from renderer.trace.tiles.effects import Effects, effects_of
 from renderer.trace.tiles.kernel import trace_packets
 from renderer.trace.tiles.lens_table import NO_FRAMES, LensTable, lens_table
 from renderer.trace.tiles.surface import SceneArrays, scene_arrays
 from renderer.trace.tiles.texture import NO_TEXTURES, PacketTextures
+from renderer.trace.tiles.variants import Variant, variant_of
 from renderer.trace.tiles.view import PacketView, packet_view
 from renderer.trace.tiles.write import writing_stage
 
@@ -64,22 +65,26 @@ class PacketEngine:
         self._cells = cells_of(self._flat)
         self.instances = Instances(scene, self._flat, team)
 
-    def compile(self, part: str) -> None:
-        """Compile a part (compile_child.py), or load it from the cache, by tracing an image
-        that is already cancelled.
-        """
-        over = new_control()
-        cancel(over)
-        if part == "lens":
-            lens_table(_LENS_CAMERA, _ONE_PIXEL, over)
-            return
-        kernel, *variant = part.split("-")
-        lens = NO_FRAMES if variant == ["lens"] else None
-        seen = self._seen(Camera.canonical(), _ONE_PIXEL, lens, bool(variant))
-        if kernel == "walk":
-            self._walk(seen, StagedCode(0, new_room()), np.zeros((1, 1), np.uint8), over)
-        else:
-            self._writing(seen, new_image((1, 1), ()))
+    # Kernels are compiled, or loaded from the cache, by tracing an image that is cancelled.
+
+    def compile_lens(self) -> None:
+        """Compile the kernels of a lens's table."""
+        lens_table(_LENS_CAMERA, _ONE_PIXEL, cancelled_control())
+
+    def compile_walk(self, variant: Variant) -> None:
+        """Compile the kernel that finds closest hits."""
+        nothing = StagedCode(0, new_room())
+        self._walk(
+            self._one_pixel(variant), nothing, np.zeros((1, 1), np.uint8), cancelled_control()
+        )
+
+    def compile_write(self, variant: Variant) -> None:
+        """Compile the stage that shades hits."""
+        writing_stage(*self._one_pixel(variant), new_image((1, 1), ()))
+
+    def _one_pixel(self, variant: Variant) -> _Seen:
+        lens = NO_FRAMES if variant is Variant.LENS else None
+        return self._seen(Camera.canonical(), _ONE_PIXEL, variant, lens)
 
     def set_scene(self, scene: Scene) -> None:
         """Follow a changed scene; unchanged meshes (the same arrays) keep their trees."""
@@ -120,25 +125,22 @@ class PacketEngine:
         lens = None if camera.lens is None else lens_table(camera, rows, control)
         if camera.lens is not None and lens is None:
             return  # cancelled
-        is_rich = any(self._effects) or has_textures(self._scene) or lens is not None
-        seen = self._seen(camera, rows, lens, is_rich)
-        self._walk(seen, self._writing(seen, image), image.finished, control)
+        variant = variant_of(self._scene, camera, any(self._effects))
+        seen = self._seen(camera, rows, variant, lens)
+        self._walk(seen, writing_stage(*seen, image), image.finished, control)
 
-    def _seen(self, camera: Camera, rows: Rows, lens: LensTable | None, is_rich: bool) -> _Seen:
+    def _seen(self, camera: Camera, rows: Rows, variant: Variant, lens: LensTable | None) -> _Seen:
         flat, world = self._flat, self.instances.world
         point = near_point(flat, camera.eye)
         view = packet_view(KernelView.of(camera), rows, self.instances, point, self._cells, lens)
         near = flat._replace(lights=lights_from(flat, point))
-        if not is_rich:
+        if variant is Variant.PLAIN:
             world = world._replace(uv=None, textures=None, texels=None)
             return _Seen(view, world, scene_arrays(near, NO_TEXTURES), None)
         texels = flat.texels if len(flat.texels) else _ONE_TEXEL
         textures = PacketTextures(flat.uv, flat.textures, texels)
         effects = effects_of(*self._effects, flat.bounds)
         return _Seen(view, world, scene_arrays(near, textures), effects)
-
-    def _writing(self, seen: _Seen, image: Image) -> StagedCode:
-        return writing_stage(*seen, image)
 
     def _walk(
         self, seen: _Seen, writing: StagedCode, finished: NDArray[np.uint8], control: Control

@@ -56,7 +56,7 @@ def trace_packets(camera, world, writing, finished, stack_size, control):
             first, end = frames_of(camera.lens, number)
             for frame in range(first, end):
                 # Find the closest objects.
-                set_frame(camera.lens, frame, first, room, scratch)
+                set_frame(camera, frame, first, room, scratch)
                 view = tile_view(camera, scratch)
                 tile = new_tile(view, row, column, scratch)
                 least = clear_tile(view, tile, row, column, scratch)

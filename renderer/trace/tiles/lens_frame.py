@@ -7,8 +7,8 @@ as any other. Without a lens, all of this is compiled to nothing.
 
 from __future__ import annotations
 
-from renderer.trace.compile.emit import emitted, f32, i64
-from renderer.trace.tiles.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS, PacketView
+from renderer.trace.compile.emit import emitted, f32, i64, with_fields
+from renderer.trace.tiles.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from renderer.trace.vector.memory import as_float64, shifted
 
 _RAY = 32  # float32: room for twelve float64, in whole cache lines
@@ -29,20 +29,26 @@ def frames_of(lens, number):
 
 
 @emitted
-def set_frame(lens, frame, first, room, scratch):
+def set_frame(camera, frame, first, room, scratch):
     """Choose a tile's frame, and compute the numbers of its rays."""
-    if lens is None:
+    if camera.lens is None:
         return
     scratch.frame[0], scratch.frame[1], scratch.frame[2] = frame, room, frame - first
-    ray, back = as_float64(shifted(scratch.coefficients, -room)), lens.back
+    ray, back, pinhole = _ray_of_tile(room, scratch), camera.lens.back, camera.ray
     for axis in range(3):
         # The pinhole's direction is varying + x across + y down.
-        z, x, y = lens.ray[axis], lens.ray[3 + axis], lens.ray[6 + axis]
+        z, x, y = pinhole[axis], pinhole[3 + axis], pinhole[6 + axis]
         for column in range(3):
             at = 9 * frame + column
             turned = x * back[at] + y * back[at + 3] + z * back[at + 6]
             ray[3 * (column + 1 if column < 2 else 0) + axis] = turned
-        ray[9 + axis] = lens.ray[9 + axis]
+        ray[9 + axis] = pinhole[9 + axis]
+
+
+@emitted
+def _ray_of_tile(room, scratch):
+    """Return the pointer to the numbers of the tile's rays."""
+    return as_float64(shifted(scratch.coefficients, -room))
 
 
 @emitted
@@ -52,16 +58,13 @@ def tile_view(view, scratch):
     if lens is None:
         return view
     room = i64(scratch.frame[1])
-    ray = as_float64(shifted(scratch.coefficients, -room))
-    exact = as_float64(shifted(scratch.coefficients, _RAY - room))
-    rows = shifted(scratch.coefficients, -((room - _RAY) // 3))
-    z_near = view.z_near * lens.least_ahead[scratch.frame[0]]
-    return PacketView(
-        view.parallel, view.left, view.above, view.width, view.height,
-        view.slack_px, view.key_far, view.key_near,
-        view.z_far, z_near, view.scale, view.coarse, rows, exact, view.exact, ray,
-        view.near_point, view.back, view.sphere_box, lens,
-    )  # fmt: skip
+    return with_fields(
+        view,
+        z_near=view.z_near * lens.least_ahead[scratch.frame[0]],
+        rows=shifted(scratch.coefficients, -((room - _RAY) // 3)),
+        rows_exact=as_float64(shifted(scratch.coefficients, _RAY - room)),
+        ray=_ray_of_tile(room, scratch),
+    )
 
 
 @emitted
@@ -71,7 +74,7 @@ def turn_rows(view, space, scratch):
     if lens is None:
         return
     r, first = space * ROWS, 9 * i64(scratch.frame[0])
-    turn, pinhole = lens.turn, lens.rows
+    turn, pinhole = lens.turn, view.pinhole_rows
     for column in range(4):
         x = pinhole[r + ROW_X + column]
         y = pinhole[r + ROW_Y + column]

@@ -62,22 +62,7 @@ class LensTable(NamedTuple):
     ahead: F32
 
 
-class SeenLens(NamedTuple):
-    """A LensTable, and the numbers of the pinhole camera for it: those of PacketView."""
-
-    first: NDArray[np.int64]
-    turn: F64
-    back: F64
-    bounds: F32
-    least_ahead: F32
-    right: F32
-    down: F32
-    ahead: F32
-    rows: F64
-    ray: F64
-
-
-# Of the types of any.
+# A table with the types of all, to compile kernels for.
 NO_FRAMES = LensTable(
     np.zeros(2, np.int64), *(np.empty(0, kind) for kind in ["f8"] * 2 + ["f4"] * 5)
 )
@@ -189,6 +174,23 @@ def _axes(rays):
     return axis, cosine
 
 
+class _Fit(NamedTuple):
+    """An affine map from a frame's plane to the tile's grid, of which the point (x, y) is at
+    (column, row):
+
+    (column + a (x' - x) + b (y' - y), row + c (x' - x) + d (y' - y)) for a point (x', y').
+    """
+
+    x: float
+    y: float
+    column: float
+    row: float
+    a: float
+    b: float
+    c: float
+    d: float
+
+
 @kernel
 def _fit(rays, tile, face, turned, widest):
     """Fit each frame's image to the grid. Return (image, float64 (n, 3, 3), bounds and least_ahead,
@@ -203,63 +205,77 @@ def _fit(rays, tile, face, turned, widest):
     x, y, ahead = np.empty(_PIXELS), np.empty(_PIXELS), np.empty(_PIXELS)
     for frame in range(count):
         top, left = tile[frame] // across * TILE, tile[frame] % across * TILE
-        seen = 0
-        mean_x = mean_y = mean_column = mean_row = 0.0
         for k in range(_PIXELS):
             ray = _ray(rays, top, left, k)
-            ahead[k] = _along(turned, frame, 2, ray)
-            if np.isnan(ray[0]) or (face[frame] >= 0 and _face_of(ray) != face[frame]):
-                ahead[k] = np.nan
-                continue
+            is_own = face[frame] < 0 or _face_of(ray) == face[frame]
+            # NaN outside of the lens, and in other frames of the tile.
+            ahead[k] = _along(turned, frame, 2, ray) if is_own else np.nan
             x[k] = _along(turned, frame, 0, ray) / ahead[k]
             y[k] = _along(turned, frame, 1, ray) / ahead[k]
+        fit = _affine_fit(x, y, ahead, widest)
+        image[frame, 0, 0], image[frame, 0, 1] = fit.a, fit.b
+        image[frame, 1, 0], image[frame, 1, 1] = fit.c, fit.d
+        image[frame, 0, 2] = fit.column - fit.a * fit.x - fit.b * fit.y
+        image[frame, 1, 2] = fit.row - fit.c * fit.x - fit.d * fit.y
+        image[frame, 2, 2] = 1.0
+        _write_places(fit, x, y, ahead, frame, bounds, places)
+    return image, bounds, places
+
+
+@inlined
+def _affine_fit(x, y, ahead, widest):
+    """Return the least squares fit of points to their pixels' columns and rows."""
+    seen = 0
+    mean_x = mean_y = mean_column = mean_row = 0.0
+    for k in range(_PIXELS):
+        if not np.isnan(ahead[k]):
             seen += 1
             mean_x, mean_y = mean_x + x[k], mean_y + y[k]
             mean_column, mean_row = mean_column + k % TILE, mean_row + k // TILE
-        if seen > 0:
-            mean_x, mean_y = mean_x / seen, mean_y / seen
-            mean_column, mean_row = mean_column / seen, mean_row / seen
-        # Least squares: the affine map of (x, y) to columns and rows.
-        xx = xy = yy = x_column = y_column = x_row = y_row = 0.0
-        for k in range(_PIXELS):
-            if not np.isnan(ahead[k]):
-                dx, dy = x[k] - mean_x, y[k] - mean_y
-                column, row = k % TILE - mean_column, k // TILE - mean_row
-                xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
-                x_column, y_column = x_column + dx * column, y_column + dy * column
-                x_row, y_row = x_row + dx * row, y_row + dy * row
-        volume = xx * yy - xy * xy
-        a, b = x_column * yy - y_column * xy, y_column * xx - x_column * xy
-        c, d = x_row * yy - y_row * xy, y_row * xx - x_row * xy
-        if volume > 1e-9 * (xx + yy) ** 2 and a * d > b * c:
-            a, b, c, d = a / volume, b / volume, c / volume, d / volume
-        else:
-            a, b, c, d = 1 / widest, 0.0, 0.0, 1 / widest
-        image[frame, 0, 0], image[frame, 0, 1] = a, b
-        image[frame, 1, 0], image[frame, 1, 1] = c, d
-        image[frame, 0, 2] = mean_column - a * mean_x - b * mean_y
-        image[frame, 1, 2] = mean_row - c * mean_x - d * mean_y
-        image[frame, 2, 2] = 1.0
-        least_x = least_y = most_x = most_y = 0.0
-        least_ahead = np.inf
-        for k in range(_PIXELS):
-            column, row = k % TILE, k // TILE
-            at = row // SQUARE * 64 + column // SQUARE * 16 + row % SQUARE * 4 + column % SQUARE
-            right = down = 0.0
-            if not np.isnan(ahead[k]):
-                dx, dy = x[k] - mean_x, y[k] - mean_y
-                right = (mean_column - column) + a * dx + b * dy
-                down = (mean_row - row) + c * dx + d * dy
-                least_x, most_x = min(least_x, right), max(most_x, right)
-                least_y, most_y = min(least_y, down), max(most_y, down)
-                least_ahead = min(least_ahead, ahead[k])
-            places[0, frame, at] = right + column % SQUARE
-            places[1, frame, at] = down + row % SQUARE
-            places[2, frame, at] = ahead[k]
-        bounds[frame, 0], bounds[frame, 1] = least_x, most_x + (TILE - 1)
-        bounds[frame, 2], bounds[frame, 3] = least_y, most_y + (TILE - 1)
-        bounds[frame, 4] = least_ahead
-    return image, bounds, places
+    if seen > 0:
+        mean_x, mean_y = mean_x / seen, mean_y / seen
+        mean_column, mean_row = mean_column / seen, mean_row / seen
+    xx = xy = yy = x_column = y_column = x_row = y_row = 0.0
+    for k in range(_PIXELS):
+        if not np.isnan(ahead[k]):
+            dx, dy = x[k] - mean_x, y[k] - mean_y
+            column, row = k % TILE - mean_column, k // TILE - mean_row
+            xx, xy, yy = xx + dx * dx, xy + dx * dy, yy + dy * dy
+            x_column, y_column = x_column + dx * column, y_column + dy * column
+            x_row, y_row = x_row + dx * row, y_row + dy * row
+    # Solve the normal equations by Cramer's rule.
+    volume = xx * yy - xy * xy
+    a, b = x_column * yy - y_column * xy, y_column * xx - x_column * xy
+    c, d = x_row * yy - y_row * xy, y_row * xx - x_row * xy
+    if volume > 1e-9 * (xx + yy) ** 2 and a * d > b * c:
+        a, b, c, d = a / volume, b / volume, c / volume, d / volume
+    else:
+        a, b, c, d = 1 / widest, 0.0, 0.0, 1 / widest
+    return _Fit(mean_x, mean_y, mean_column, mean_row, a, b, c, d)
+
+
+@inlined
+def _write_places(fit, x, y, ahead, frame, bounds, places):
+    """Write a frame's pixels, relative to the grid, and the bounds around all of them."""
+    least_x = least_y = most_x = most_y = 0.0
+    least_ahead = np.inf
+    for k in range(_PIXELS):
+        column, row = k % TILE, k // TILE
+        at = row // SQUARE * 64 + column // SQUARE * 16 + row % SQUARE * 4 + column % SQUARE
+        right = down = 0.0
+        if not np.isnan(ahead[k]):
+            dx, dy = x[k] - fit.x, y[k] - fit.y
+            right = (fit.column - column) + fit.a * dx + fit.b * dy
+            down = (fit.row - row) + fit.c * dx + fit.d * dy
+            least_x, most_x = min(least_x, right), max(most_x, right)
+            least_y, most_y = min(least_y, down), max(most_y, down)
+            least_ahead = min(least_ahead, ahead[k])
+        places[0, frame, at] = right + column % SQUARE
+        places[1, frame, at] = down + row % SQUARE
+        places[2, frame, at] = ahead[k]
+    bounds[frame, 0], bounds[frame, 1] = least_x, most_x + (TILE - 1)
+    bounds[frame, 2], bounds[frame, 3] = least_y, most_y + (TILE - 1)
+    bounds[frame, 4] = least_ahead
 
 
 @inlined

@@ -46,7 +46,7 @@ _FLOATS = {
     # tile's first square.
     "coefficients": 12 * LANES,
     "bounds": 4 * LANES,
-    "keys": 2 * LANES,  # of triangles at pixels of their own (small.py)
+    "keys": 2 * LANES,  # of triangles at pixels of their own (by_boxes.py)
     "depths": LANES,  # of a node's children
     "least": SQUARES,  # the least key of each square
     "best": _PIXELS,  # the best key of each pixel
@@ -73,7 +73,7 @@ _INTS = {
     "farthest": 32,  # where each plane finds the coordinates that it needs of a box
     "covered": LANES,  # the squares that each of a leaf's triangles may cover
     "footprints": LANES,  # of a node's children
-    "pixels": 2 * LANES,  # those; or the few that a leaf covers (sample.py)
+    "pixels": 2 * LANES,  # those; or the few that a leaf covers (by_pixels.py)
     # The triangle whose edges were used last, its slot and instance; and its edges, nine float64.
     "kept": 2,
     "kept_edges": 2 * LANES - 2,

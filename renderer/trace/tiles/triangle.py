@@ -17,6 +17,8 @@ functions and 1 / Z).
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
@@ -38,6 +40,19 @@ EDGE_ON = np.float64(1e-13)
 SLIVER = np.float32(1 / 8)
 # An edge function of corners that are `x` pixels from the image's middle is that much of x wrong.
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
+
+
+class Triangles(NamedTuple):
+    """A leaf's triangles in a tile: their edge functions, positive inside, and keys, in lanes.
+
+    Lane k is slot leaf * WIDTH + k. space: the instance. Coordinates are relative to the tile's
+    first pixel.
+    """
+
+    edges: tuple[Any, Any, Any]
+    key: Any
+    leaf: np.int64
+    space: np.int64
 
 
 @emitted

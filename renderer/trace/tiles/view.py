@@ -28,7 +28,7 @@ from renderer.trace.arguments.image import Rows
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
 from renderer.trace.tiles.cells import Cells, are_blurred
-from renderer.trace.tiles.lens_table import LensTable, SeenLens
+from renderer.trace.tiles.lens_table import LensTable
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
 # a (p - o)_x + b (p - o)_y + c (p - o)_z + d; and the largest |p - o| of a coordinate.
@@ -62,8 +62,8 @@ class PacketView(NamedTuple):
     back: float32, for each space 0, or, where backs are not seen, the sign of their triangles'
         volumes (triangle.py).
     sphere_box: float32, 4 a sphere: left, top, right, bottom of its image, or a superset.
-    lens: None without one. With one, all numbers are those of the camera without it, for the
-        kernels to turn into each tile's (lens_frame.py).
+    lens, pinhole_rows: None without a lens. With one, all numbers are those of the camera without
+        it, and pinhole_rows is rows_exact; kernels compute each tile's from these (lens_frame.py).
     """
 
     parallel: bool
@@ -85,7 +85,8 @@ class PacketView(NamedTuple):
     near_point: NDArray[np.float64]
     back: NDArray[np.float32]
     sphere_box: NDArray[np.float32]
-    lens: SeenLens | None
+    lens: LensTable | None
+    pinhole_rows: NDArray[np.float64] | None
 
 
 def packet_view(
@@ -156,7 +157,8 @@ def packet_view(
             near_point=near_point,
             back=_backs(rows, instances),
             sphere_box=_sphere_boxes(linear, shift, eye, view.parallel, instances, lens),
-            lens=lens and SeenLens(*lens, rows.reshape(-1), ray),
+            lens=lens,
+            pinhole_rows=None if lens is None else rows.reshape(-1),
         )
 
 

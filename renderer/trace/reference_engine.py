@@ -1,8 +1,6 @@
-"""A scene prepared for tracing: flat arrays and BVH, and the kernel that runs on them.
+"""A scene prepared for the simple method: one ray after another, in float64.
 
-The only way from the tracer's threads to compiled code: importing this module imports numba, so
-only a Tracer's own thread imports it. Contains the simple method, one ray after another in float64,
-and the choice between it and tiles (tiles/engine.py).
+Same interface as tiles/engine.py.
 """
 
 from __future__ import annotations
@@ -14,22 +12,10 @@ from renderer.trace.arguments.image import Image, Rows, new_image
 from renderer.trace.arguments.view import KernelView
 from renderer.trace.bvh.binary import tree_of_scene
 from renderer.trace.reference.kernel import trace_image
-from renderer.trace.threads.thread_pool import Control, Team, cancel, new_control
-from renderer.trace.tiles.engine import PacketEngine
+from renderer.trace.threads.thread_pool import Control, Team, cancelled_control
 
 
-def new_engine(
-    scene: Scene, team: Team, method: str, shadows: bool, mirror_depth: int
-) -> Engine | PacketEngine:
-    """Return the scene prepared for one of tracer.METHODS; only packets have shadows and
-    mirrors.
-    """
-    if method == "reference":
-        return Engine(scene, team)
-    return PacketEngine(scene, team, shadows, mirror_depth)
-
-
-class Engine:
+class ReferenceEngine:
     """Traces images of one scene with a team of threads. Raises LucidaError (see flatten)."""
 
     def __init__(self, scene: Scene, team: Team) -> None:
@@ -38,9 +24,7 @@ class Engine:
 
     def compile(self) -> None:
         """Compile the kernel by tracing an image that is already cancelled."""
-        over = new_control()
-        cancel(over)
-        self.trace(Camera.canonical(), new_image((1, 1), ()), over)
+        self.trace(Camera.canonical(), new_image((1, 1), ()), cancelled_control())
 
     def set_scene(self, scene: Scene) -> None:
         """Prepare another scene."""

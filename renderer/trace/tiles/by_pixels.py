@@ -1,10 +1,10 @@
 """A leaf's 16 triangles against single pixels, for leaves whose boxes hold few pixels' centres.
 
-Where triangles are smaller than pixels, nearly all of a leaf's cover none: it takes far less to ask
-of a few pixels which triangle covers each, than of each triangle which pixels it covers. At some
-thirty triangles a pixel, two leaves in three end here, before their keys are set up. The functions
-are evaluated by the same operations as in leaf.py, to the same last bit: a pixel's answer does not
-depend on who asks.
+If triangles are smaller than pixels, nearly all of a leaf's triangles cover none. Finding the
+triangle that covers each of a few pixels then takes far less than finding the pixels that each
+triangle covers. At some thirty triangles a pixel, two leaves in three end here, before their keys
+are set up. The functions are evaluated by the same operations as in by_squares.py, to the same last
+bit: a pixel's result does not depend on the method.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from renderer.trace.tiles.tile import keep_hits, nearest_key_of, pixel_point
 from renderer.trace.vector.lanes import LANES, bits, fma, lowest_bit, mask_of, select, smallest
 from renderer.trace.vector.memory import load
 
-FEW_PIXELS = 8  # more go by squares
+FEW_PIXELS = 8
 
 
 @emitted
@@ -33,7 +33,7 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
     """Return (mask, mask, count): triangles that cover a pixel of the footprint if their volume is
     positive, and if it is negative; and the number of covered pixels, stored in scratch.pixels.
 
-    squares, depth: as for rasterize_leaf(). Pixels that see something nearer are left out.
+    squares, depth: as for rasterize_leaf(). Pixels that see something nearer are skipped.
     """
     zero = np.float32(0)
     front = back = mask_of(0)
@@ -58,9 +58,9 @@ def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
 
 
 @inlined
-def sample_pixels(view, world, e0, e1, e2, key, leaf, space, tile, count, least, scratch):
+def sample_pixels(view, world, triangles, tile, count, least, scratch):
     """Sample a leaf's triangles at the stored pixels. Return the tile's new least key."""
-    zero = np.float32(0)
+    zero, (e0, e1, e2), leaf = np.float32(0), triangles.edges, triangles.leaf
     changed = np.int64(0)
     for k in range(count):
         pixel = np.int64(scratch.pixels[k])
@@ -68,7 +68,7 @@ def sample_pixels(view, world, e0, e1, e2, key, leaf, space, tile, count, least,
         x, y = pixel_point(view, tile, square, lane)
         inside = (_value(e0, x, y) >= zero) & (_value(e1, x, y) >= zero)
         inside = inside & (_value(e2, x, y) >= zero)
-        own = _value(key, x, y)
+        own = _value(triangles.key, x, y)
         hit = inside & (own > scratch.best[pixel]) & (own < nearest_key_of(view, pixel, scratch))
         if bits(hit) == 0:
             continue
@@ -76,7 +76,7 @@ def sample_pixels(view, world, e0, e1, e2, key, leaf, space, tile, count, least,
         largest = -smallest(-own)
         scratch.best[pixel] = largest
         scratch.hit_slot[pixel] = np.int32(leaf * WIDTH + lowest_bit(bits(own == largest)))
-        scratch.hit_instance[pixel] = np.int32(space)
+        scratch.hit_instance[pixel] = np.int32(triangles.space)
         changed |= 1 << square
     if changed == 0:
         return least

@@ -2,8 +2,8 @@
 
 Most triangles of a dense mesh cover no pixel's centre, or one or two. Each lane steps through the
 centres in the rectangle around its own triangle, row by row, so that 16 triangles are tested at
-once, each at a pixel of its own. The functions are evaluated by the same operations as in leaf.py,
-to the same last bit: a pixel's answer does not depend on who asks.
+once, each at a pixel of its own. The functions are evaluated by the same operations as in
+by_squares.py, to the same last bit: a pixel's result does not depend on the method.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ _NEAREST = np.float32(1e-6)  # H of corners that are divided by it
 
 class PixelBoxes(NamedTuple):
     """The first and last column and row of the tile's pixels whose centres are in the rectangles
-    around a leaf's triangles; F32, whole numbers."""
+    around a leaf's triangles; F32, whole numbers.
+    """
 
     left: Any
     right: Any
@@ -99,9 +100,10 @@ def _last(x):
 
 
 @inlined
-def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, scratch):
+def sample_boxes(view, world, triangles, boxes, small, tile, scratch):
     """Sample small triangles at the pixels of their rectangles. tile: from_first_pixel()."""
     zero, one = np.float32(0), np.float32(1)
+    (e0, e1, e2), key, leaf = triangles.edges, triangles.key, triangles.leaf
     column, row = boxes.left, boxes.top
     todo, changed = small, np.int64(0)
     while bits(todo) != 0:
@@ -124,13 +126,13 @@ def sample_boxes(view, world, boxes, small, e0, e1, e2, key, leaf, space, tile, 
             hits &= hits - 1
             pixel, own = np.int64(scratch.pixels[i]), scratch.keys[i]
             slot, best = np.int32(leaf * WIDTH + (i & (LANES - 1))), scratch.best[pixel]
-            # Of equally near triangles, as in leaf.py, the first.
+            # Of equally near triangles, as in by_squares.py, the first.
             is_nearer = own > best or (
                 own == best and slot < scratch.hit_slot[pixel] <= slot | (LANES - 1)
             )
             if is_nearer and own < nearest_key_of(view, pixel, scratch):
                 scratch.best[pixel] = own
                 scratch.hit_slot[pixel] = slot
-                scratch.hit_instance[pixel] = np.int32(space)
+                scratch.hit_instance[pixel] = np.int32(triangles.space)
                 changed |= 1 << (pixel >> 4)
     keep_hits(world, leaf, changed, scratch)

@@ -1,0 +1,71 @@
+"""The tracer's parts: groups of kernels that are compiled separately, each under a name.
+
+The name marks the part in the cache folder, and tells another process what to compile:
+
+    trees      builds the trees of a scene
+    walk-...   finds the closest hits of an image's viewing rays, in a variant (tiles/variants.py)
+    write-...  shades those hits, in the same variant
+    lens       computes the frames of a lens's tiles
+    rays       traces rays that a user hands in
+    shade      shades the hits of such rays
+    reference  traces images by the simple method
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from renderer.scene.model import Mesh, Scene, SceneObject
+from renderer.trace.image_job import Task
+from renderer.trace.ray_batch import RayBatch
+from renderer.trace.tiles.variants import Variant, variant_of
+
+
+def parts_of(method: str, effects: bool, scene: Scene, task: Task | RayBatch) -> tuple[str, ...]:
+    """Return the parts that a task on a scene needs, the slowest first.
+
+    method: of tracer.METHODS. effects: True for shadows or mirrors.
+    """
+    if method == "reference":
+        return ("reference",)
+    if isinstance(task, RayBatch):
+        return "rays", "trees", *(["shade"] if task.method == "shaded" else [])
+    variant = variant_of(scene, task.camera, effects)
+    if variant is Variant.LENS:
+        return f"write-{variant}", f"walk-{variant}", "trees", "lens"
+    return f"walk-{variant}", f"write-{variant}", "trees"
+
+
+def compile_part(part: str) -> None:
+    """Compile a part, or load it from the cache, by running it on nothing. Imports numba."""
+    import numpy as np
+
+    from renderer.scene.flat import flatten
+    from renderer.trace.bvh.instances import Instances
+    from renderer.trace.reference_engine import ReferenceEngine
+    from renderer.trace.threads.thread_pool import Team
+    from renderer.trace.tiles.engine import PacketEngine
+
+    alone, nothing = Team(1), Scene(())
+    triangle = SceneObject(Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)))
+    ray = np.zeros((1, 3)), np.zeros((1, 3)), 0.0, np.inf
+
+    def packets() -> PacketEngine:
+        return PacketEngine(nothing, alone)
+
+    def compile_walk(variant: Variant) -> Callable[[], object]:
+        return lambda: packets().compile_walk(variant)
+
+    def compile_write(variant: Variant) -> Callable[[], object]:
+        return lambda: packets().compile_write(variant)
+
+    compilers: dict[str, Callable[[], object]] = {
+        "trees": lambda: Instances(Scene((triangle,)), flatten(Scene((triangle,))), alone),
+        "lens": lambda: packets().compile_lens(),
+        "rays": lambda: packets().closest_hits(*ray),
+        "shade": lambda: packets().shaded(*ray),
+        "reference": lambda: ReferenceEngine(nothing, alone).compile(),
+        **{f"walk-{variant}": compile_walk(variant) for variant in Variant},
+        **{f"write-{variant}": compile_write(variant) for variant in Variant},
+    }
+    compilers[part]()
