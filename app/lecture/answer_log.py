@@ -12,13 +12,8 @@ from pathlib import Path
 
 import msgspec
 
-from app.instruments.mistakes.model import situation_of
-from app.instruments.mistakes.options import MistakesOptions
-from app.instruments.mistakes.question import right_at
 from app.lecture.model import Lecture, Step
-from app.state.app_state import AppState
 from app.state.kept_lecture import Answers, Judgement
-from renderer.camera.camera import Size
 from renderer.system.atomic import check_writable
 from renderer.system.errors import LucidaError, describe
 
@@ -61,7 +56,6 @@ class AnswerLog:
         self.path, self.name, self.problem, self.count = path, "", "", 0
         self._sitting = secrets.token_hex(4)
         self._hidden: set[str] = set()
-        self._quizzed: int | None = None  # answers to the quiz, until the last frame
         with open(target, "ab+") as file:
             file.seek(0)
             first = file.readline(1 << 20)
@@ -90,20 +84,6 @@ class AnswerLog:
         if said.right and step.title not in self._hidden:
             self._hidden.add(step.title)
             self.keep(lecture, step, said, "", solved)
-
-    def follow_quiz(self, lecture: Lecture, step: Step, state: AppState, size: Size) -> None:
-        """Keep an answer to the mistakes' quiz that is new in this frame. size: of the images."""
-        quiz, was = state.of(MistakesOptions), self._quizzed
-        self._quizzed = quiz.score[1]
-        if was is None or self._quizzed != was + 1 or not quiz.answer:
-            return
-        asked = quiz.names[right_at(quiz)]
-        right = quiz.answer == asked
-        mistakes = situation_of(state, size).program.mistakes
-        read = next((one.part for one in mistakes if one.name == asked), "")
-        mistake = "" if right else f"{asked}: not recognised"
-        verdict = Judgement(right, f"Taken for: {quiz.answer}.", "", mistake, read)
-        self.keep(lecture, step, verdict, quiz.answer)
 
     def keep(
         self,

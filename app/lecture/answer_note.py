@@ -10,15 +10,10 @@ from app.ui.messages import wrapped
 from app.ui.rows import button_width
 
 
-def note_height(log: AnswerLog, is_asked: bool, width: float) -> float:
-    """Return the height of the note in a column of that width."""
-    text = imgui.calc_text_size(_text(log), wrap_width=width).y + imgui.get_style().item_spacing.y
-    return float(text + imgui.get_frame_height_with_spacing() * is_asked)
-
-
 def note(log: AnswerLog, is_asked: bool) -> bool:
     """Draw the note; in a step with an exercise, with the name. Return True to keep no more."""
-    wrapped(_text(log), theme.legible(theme.ERROR if log.problem else theme.MARK))
+    text = log.problem or f"Answers are kept in {log.path.name}: {log.count} so far"
+    wrapped(text, theme.legible(theme.ERROR if log.problem else theme.MARK))
     imgui.set_item_tooltip(str(log.path.absolute()))
     if not is_asked:
         return False
@@ -30,7 +25,3 @@ def note(log: AnswerLog, is_asked: bool) -> bool:
     stopped = bool(imgui.button("Stop"))
     imgui.set_item_tooltip("Keep no more answers; the file stays")
     return stopped
-
-
-def _text(log: AnswerLog) -> str:
-    return log.problem or f"Answers are kept in {log.path.name}: {log.count} so far"

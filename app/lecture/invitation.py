@@ -1,4 +1,4 @@
-"""The ways into a lecture: beginning one, and going on where the sitting before ended."""
+"""The way into a lecture."""
 
 from __future__ import annotations
 
@@ -22,11 +22,4 @@ def invitation(host: Host) -> Path | None:
     if imgui.button("Open lecture..."):
         host.files.open_lecture_dialog()
     wrapped("A lecture's file can be dropped on the window, too.", theme.DIM)
-    return asked
-
-
-def continuation(number: int) -> bool:
-    """Draw the offer to go on at a step, from 0. Return True if it was taken."""
-    asked = bool(imgui.button(f"Continue at step {number + 1} (End)##continue"))
-    imgui.set_item_tooltip("Where the lecture was left, with the answers given there")
     return asked

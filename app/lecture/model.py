@@ -24,6 +24,7 @@ class Step:
     part: the part of the lecture that it belongs to.
     before: the part of the text that the build before shows already.
     views: the names of the views to show, the main one first.
+    full: the picture fills the window, and the text lies over it.
     options: changes of the default options, by part.
     pixel: the marked one, (row, column), 0-based.
     exercise: of the step's last build; otherwise None.
@@ -43,6 +44,7 @@ class Step:
     scene: Scene
     view: View
     views: tuple[str, ...]
+    full: bool
     options: dict[str, Any]
     pixel: tuple[int, int] | None
     exercise: Exercise | None

@@ -275,6 +275,7 @@ class _LectureReader:
             scene=scene,
             view=view,
             views=_views(table.views),
+            full=table.full,
             options=options,
             pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
             exercise=None,

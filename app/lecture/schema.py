@@ -24,6 +24,7 @@ class StepTable(StrictTable):
 
     notes: for the lecturer, in the notes window of an exported page.
     pixel: the marked pixel, row and column, counted as the lecture does.
+    full: the picture fills the window, and the text lies over it.
     exercise: asked in the last build.
     reveal, answer, links, low, highlight: of the format before builds, see old_format.py.
     """
@@ -35,6 +36,7 @@ class StepTable(StrictTable):
     scene: str = ""
     camera: dict[str, Any] | str | None = None
     views: list[str] = field(default_factory=DEFAULT_VIEWS.copy)
+    full: bool = False
     options: dict[str, Any] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
     exercise: dict[str, Any] | None = None

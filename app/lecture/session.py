@@ -114,11 +114,6 @@ class LectureSession:
         """The answers to the current step."""
         return self._answers.setdefault(self.step.title, Answers())
 
-    @property
-    def ends(self) -> tuple[bool, bool]:
-        """True if this is the first build of the lecture; if it is the last one."""
-        return self._at == 0, self._at == len(self.lecture.builds) - 1
-
     def go(self, number: int, build: int = 0) -> bool:
         """Go to a build of a step, or to the nearest one. Return True if it is another."""
         return self._to(self.lecture.place(number, build))

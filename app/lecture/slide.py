@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -18,14 +19,19 @@ from app.ui.lettering import lettering
 from app.ui.theme import Fonts, framebuffer_scale
 
 ASCENT = 0.78  # of the line's height, in all our fonts
-TITLE = 1.4  # of a step's title, in parts of the type's size
+# In parts of the window's type size: a step's title, and its text, as large as fits.
+TITLE, LARGER = 1.5, (1.4, 1.3, 1.2, 1.1)
 
 
 class Slides:
-    """Draws texts, in a notation. Keeps the last layouts, because they take long to find."""
+    """Draws texts, in a notation. Keeps the last layouts, because they take long to find.
+
+    larger: the size of the texts' type, in parts of the window's.
+    """
 
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
+        self.larger = 1.0
         self.lit = ""  # the stage of the growing formula whose term is pointed out
         self.notation: Notation = "book"
         self._lay = functools.lru_cache(256)(self._laid)
@@ -57,11 +63,22 @@ class Slides:
         """Return the height of a text."""
         return self._of(blocks, width).height
 
-    def _of(self, blocks: tuple[Block, ...], width: float) -> Laid:
+    def fit(self, texts: Iterable[tuple[Block, ...]], width: float, height: float) -> None:
+        """Set the largest size at which each text fits, and breaks no formula and no line of code
+        that the window's own size does not break.
+        """
+        for self.larger in (*LARGER, 1.0):
+            if all(self._fits(blocks, width, height) for blocks in texts):
+                return
+
+    def _fits(self, blocks: tuple[Block, ...], width: float, height: float) -> bool:
+        laid, usual = self._of(blocks, width), self._of(blocks, width, 1.0)
+        return laid.height <= height and laid.width <= width and _rows(laid) == _rows(usual)
+
+    def _of(self, blocks: tuple[Block, ...], width: float, larger: float = 0.0) -> Laid:
         look = (framebuffer_scale(), theme.TEXT.x)
-        return self._lay(
-            in_notation(blocks, self.notation), max(round(width), 40), theme.type_px(), look
-        )
+        size_px = theme.whole_px(theme.type_px() * (larger or self.larger))
+        return self._lay(in_notation(blocks, self.notation), max(round(width), 40), size_px, look)
 
     def _laid(
         self, blocks: tuple[Block, ...], width: float, size_px: float, look: tuple[float, ...]
@@ -118,3 +135,8 @@ class Slides:
     def _font(self, style: str) -> imgui.ImFont | None:
         fonts = self._fonts
         return {"bold": fonts.bold, "vector": fonts.bold, "code": fonts.mono}.get(style, fonts.text)
+
+
+def _rows(laid: Laid) -> int:
+    """Count the rows of formulas and code."""
+    return sum(placed.kind in ("formula", "code") for placed in laid.pieces)

@@ -18,14 +18,14 @@ from app.instruments.outside.growing import stage_at, stages_of
 from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.lecture.answer_log import AnswerLog
-from app.lecture.answer_note import note, note_height
+from app.lecture.answer_note import note
 from app.lecture.drawn_answer import DrawnAnswer
 from app.lecture.exercise import exercise
 from app.lecture.exercises import ChoiceExercise
 from app.lecture.foot import BACK, END, NEXT, RESTORE, foot, foot_height
 from app.lecture.hiding import HideExercise
 from app.lecture.inheriting import changed_view
-from app.lecture.invitation import continuation, invitation
+from app.lecture.invitation import invitation
 from app.lecture.model import Lecture, Step
 from app.lecture.reading import load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
@@ -49,6 +49,9 @@ LECTURE = "Lecture"
 CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
 FADE_S = 0.5  # of a text that is added
 CONTROLS_S = 2.0  # until controls go after the mouse rests
+# Of a text over a picture: its part of the window's width, its least width, the part of the height
+# that it may take, and the opacity of its ground.
+OVER, LEAST_OVER_EM, MOST_OVER, GROUND = 0.6, 28.0, 0.3, 0.85
 
 
 class LectureView(DockedView):
@@ -76,10 +79,12 @@ class LectureView(DockedView):
         self._layout = ""  # the one that was shown when the lecture began
         self._moved_s = 0.0  # when the mouse moved last
         self._typed = ""  # digits of a step's number
+        self._lies_over = False  # the text, in the last frame
         self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
         self._seek = False  # the text is scrolled to what was just added
         self._added_s: float | None = None  # when that was, while it fades in
+        self._fitted: tuple[object, ...] = ()  # what the size of the text follows from
         self._drawn_answer = DrawnAnswer()
 
     @property
@@ -251,15 +256,15 @@ class LectureView(DockedView):
         """Take steps and newer files. Call once a frame, also while the view is hidden."""
         if self.session is None:
             return
+        if self._lies_over != self._is_over(host):
+            self._lies_over = not self._lies_over
+            self._arrange()
         if not self._entered:  # to be seen from the last row, whichever way it was begun
             if host.state.step is None:  # otherwise one lecture follows another
                 self._before, self._layout = host.state, layout.current().name
             self.restore(host, presentation=True)
             self._begun = True
-        self._controls(host)
-        if self.log is not None:
-            session, size = self.session, host.renderers.size
-            self.log.follow_quiz(session.lecture, session.step, host.state, size)
+        self._follow_mouse(host)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             names = map(str.capitalize, self.session.step.views)
@@ -276,10 +281,13 @@ class LectureView(DockedView):
         """True while the mouse moves, and two seconds after it."""
         return time.monotonic() - self._moved_s < CONTROLS_S or bool(self._typed)
 
-    def _controls(self, host: Host) -> None:
+    def _follow_mouse(self, host: Host) -> None:
         """Follow the mouse, and the digits of a step's number that are typed before Enter."""
         io = imgui.get_io()
         if host.moves and (io.mouse_delta.x or io.mouse_delta.y):
+            self._moved_s = time.monotonic()
+        popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
+        if imgui.is_popup_open("", int(popup)):
             self._moved_s = time.monotonic()
         if self.shows_controls:
             host.animate()
@@ -326,31 +334,62 @@ class LectureView(DockedView):
         self._keys(host)
         assert slides is not None
         slides.notation = host.state.options.notation
-        self._head(host, session)
-        avail = imgui.get_content_region_avail()
-        error = self._error_height(session, avail.x)
-        log, is_asked = self.log, session.step.exercise is not None
-        kept = 0.0 if log is None else note_height(log, is_asked, avail.x)
         position = host.state.of(OutsideOptions).formula
         stages = stages_of(host.renderers.camera(host.state))
         slides.lit = stage_at(position, stages) if position is not None else ""
-        offer = imgui.get_frame_height_with_spacing() if session.left is not None else 0.0
-        below = foot_height(avail.x) + error + kept + offer
-        child = ImVec2(avail.x, max(1.0, avail.y - below))
-        if imgui.begin_child("step", child, imgui.ChildFlags_.nav_flattened):
+        if self._lies_over:
+            self._over(host, session, slides)
+        else:
+            self._column(host, session, slides)
+        self._drawn_answer.show(host, view_of(self._views, OutsideView), session)
+
+    def _column(self, host: Host, session: LectureSession, slides: Slides) -> None:
+        """Draw the text, which is scrolled if it is longer than the column, and what is below."""
+        imgui.text_colored(theme.DIM, session.step.part or session.lecture.title)
+        with lettering(host.fonts.bold, TITLE):
+            wrapped(session.step.title)
+        imgui.dummy(ImVec2(0, 0.25 * imgui.get_font_size()))
+        if session.error:
+            wrapped(session.error, theme.ERROR)
+        if self.log is not None and note(self.log, session.step.exercise is not None):
+            self.log = None
+        room = ImVec2(0, -foot_height())
+        if imgui.begin_child("step", room, imgui.ChildFlags_.nav_flattened):
             if self._to_top:
                 imgui.set_scroll_y(0.0)
                 self._to_top = False
-            self._body(host, session, slides)
+            self._body(host, session, slides, imgui.get_content_region_avail().y)
         imgui.end_child()
+        self._controls(host, session)
+
+    # Over the picture.
+
+    def _is_over(self, host: Host) -> bool:
+        """Return True if the picture fills the window and the text lies over it."""
+        session = self.session
+        return session is not None and session.step.full and not host.has_tools
+
+    def placed(self, host: Host) -> int:
+        session, whole = self.session, layout.whole()
+        if session is None or whole is None or not self._lies_over:
+            return 0
+        (left, top), (wide, high) = whole
+        width = max(OVER * wide, min(LEAST_OVER_EM * imgui.get_font_size(), wide))
+        is_empty = not (session.step.blocks or session.error or self.shows_controls)
+        imgui.set_next_window_pos((left + 0.5 * (wide - width), top - high * is_empty))
+        imgui.set_next_window_size_constraints((width, 0), (width, high))
+        imgui.set_next_window_bg_alpha(GROUND)
+        flags = imgui.WindowFlags_
+        return int(flags.no_decoration | flags.always_auto_resize | flags.no_move)
+
+    def _over(self, host: Host, session: LectureSession, slides: Slides) -> None:
+        """Draw the text over the picture, and the controls below it while the mouse moves."""
+        if session.step.blocks:
+            self._body(host, session, slides, MOST_OVER * layout.window_px()[1])
         if session.error:
             wrapped(session.error, theme.ERROR)
-        if log is not None and note(log, is_asked):
-            self.log = None
-        if session.left is not None and continuation(session.left_at(session.left)):
-            self.go_on(host)
-        self._foot(host, session)
-        self._drawn_answer.show(host, view_of(self._views, OutsideView), session)
+        if self.shows_controls:
+            self._controls(host, session)
 
     def _keys(self, host: Host) -> None:
         """Handle the arrow keys while the column has the keyboard. Page Up and Page Down are
@@ -362,18 +401,12 @@ class LectureView(DockedView):
             if imgui.shortcut(int(key)):
                 self.advance(host, steps)
 
-    def _head(self, host: Host, session: LectureSession) -> None:
-        step = session.step
-        imgui.text_colored(theme.DIM, step.part or session.lecture.title)
-        with lettering(host.fonts.bold, TITLE):
-            wrapped(step.title)
-        imgui.dummy(ImVec2(0, 0.25 * imgui.get_font_size()))
-
-    def _body(self, host: Host, session: LectureSession, slides: Slides) -> None:
-        """Draw the text, which is scrolled if it is longer than the column."""
+    def _body(self, host: Host, session: LectureSession, slides: Slides, height: float) -> None:
+        """Draw the text and the exercise. height: the room for the longest text of the step."""
         step = session.step
         blocks, width = self._in_language(host, step), imgui.get_content_region_avail().x
         old, alpha = in_language(step.before, host.state.options.language), self._alpha(host)
+        self._fit(session, slides, host.state.options.language, ImVec2(width, height))
         if blocks:
             slides.text(blocks, width, before=old, alpha=alpha)
         if self._seek:
@@ -405,6 +438,17 @@ class LectureView(DockedView):
         if self.log is not None and said is not None:
             self.log.hidden(session.lecture, step, said, answers.solved)
 
+    def _fit(self, session: LectureSession, slides: Slides, language: str, room: ImVec2) -> None:
+        """Make the text as large as all builds of the step allow; an exercise needs its room."""
+        builds = [one for one in session.lecture.builds if one.number == session.number]
+        fitted = *builds, room, theme.used(), slides.notation, language
+        if fitted == self._fitted:
+            return
+        self._fitted = fitted
+        texts = [in_language(one.blocks, language) for one in builds]
+        is_asked = any(one.exercise is not None for one in builds)
+        slides.fit(texts, room.x, 0.0 if is_asked else room.y)
+
     def _alpha(self, host: Host) -> float:
         """Return the opacity of the text that was just added."""
         if self._added_s is None:
@@ -434,12 +478,7 @@ class LectureView(DockedView):
                 host.apply(host.state.with_options(language=name))
         return in_language(step.blocks, host.state.options.language)
 
-    def _error_height(self, session: LectureSession, width: float) -> float:
-        if not session.error:
-            return 0.0
-        return float(imgui.calc_text_size(session.error, wrap_width=width).y) + 8.0
-
-    def _foot(self, host: Host, session: LectureSession) -> None:
+    def _controls(self, host: Host, session: LectureSession) -> None:
         is_shown = not host.state.preferences.presentation or self.shows_controls
         imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
         asked = foot(session, self._typed)

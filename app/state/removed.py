@@ -65,6 +65,7 @@ REMOVED: dict[str, Removed] = {
     ),
     "outside.see": Removed("a step says from where to look by outside.camera", []),
     "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
+    "pair.value": Removed("the laboratory's page 'function' reads an image", False),
     "outside.answers": Removed("a wrong answer is always drawn", True),
     "highlight": Removed("a step's pictures point out what it is about", []),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),

@@ -17,7 +17,8 @@ def lettering(font: imgui.ImFont | None, larger: float = 1.0) -> Iterator[None]:
 
     larger: the type's size, in parts of the window's; for titles.
     """
-    imgui.push_font(font, theme.TEXT_PX * larger)
+    usual = theme.type_px()
+    imgui.push_font(font, theme.TEXT_PX * theme.whole_px(usual * larger) / usual)
     try:
         yield
     finally:

@@ -265,7 +265,7 @@ class Stage:
             around = [one for one in self.shown if one is not view and one.name not in NARROW]
             if dock := layout.largest(around):
                 imgui.set_next_window_dock_id(dock, imgui.Cond_.always)
-        opened, visible = imgui.begin(view.label, True, view.flags)
+        opened, visible = imgui.begin(view.label, True, view.flags | view.placed(host))
         if not visible:  # closed; does not overrule a simultaneous hide
             window.is_visible = False
         if padding is not None:

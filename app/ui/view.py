@@ -171,6 +171,12 @@ class DockedView:
     def begin(self, host: Host, context: moderngl.Context) -> None:
         """Prepare the view. Called once, when there is a context."""
 
+    def placed(self, host: Host) -> int:
+        """Place the ImGui window of this frame if it lies over the others. Return its flags; 0 if
+        it is docked.
+        """
+        return 0
+
     def draw(self, host: Host) -> None:
         """Draw the view inside its ImGui window. Called in each frame in which it is visible."""
 

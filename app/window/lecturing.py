@@ -130,6 +130,7 @@ def lecture_stills(
     """
     from app.web.lecture.page import Still
 
+    lecture = replace(lecture, builds=tuple(replace(one, full=False) for one in lecture.builds))
     stills: list[list[Still]] = [[] for _ in lecture.builds]
 
     def take(place: int, window: MainWindow, target: Target) -> None:

@@ -327,7 +327,7 @@ class MainWindow:
         shown = hello_imgui.get_runner_params().imgui_window_params
         shown.show_menu_bar = not self.on_stage
         shown.show_status_bar = not self.state.preferences.presentation
-        if self.on_stage and (self.lecture.shows_controls or self.shell.has_popup):
+        if self.on_stage and self.lecture.shows_controls:
             menu_button(self, self.history, self.shell.stage.rects.get(LECTURE))
 
     def frame(self) -> None:

@@ -217,11 +217,6 @@ class Shell:
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = bool(imgui.is_popup_open("", int(any_popup)))
 
-    @property
-    def has_popup(self) -> bool:
-        """True if a popup was open at the end of the last frame."""
-        return self._popup
-
     def after_drawing(self, target: Target) -> None:
         """Once a frame, when all is drawn, before it is shown."""
         self.captures.after_drawing(target)

@@ -14,10 +14,7 @@ from app.checking.results.model import ClassAnswer, NamedMistake, class_results
 from app.checking.results.page import page
 from app.checking.results.reading import read_answers
 from app.cli import main
-from app.instruments.mistakes.options import MistakesOptions
-from app.instruments.mistakes.question import right_at
 from app.lecture.answer_log import AnswerLog
-from app.state.app_state import AppState
 from app.state.kept_lecture import Answers
 from renderer.system.errors import LucidaError
 
@@ -50,13 +47,6 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
     log.name = "Ada"
     right = {"origin": "0 0 0", "direction": "1/16, 5/16, -1"}
     answer(lecture, log, RAY, texts=right, solved=True)
-    state = AppState.for_scene(lecture.steps[0].scene)
-    quiz = MistakesOptions(names=(FLIPPED, "no eye", "along +w", "no half pixel"), seed=1)
-    wrong = quiz.names[right_at(quiz) - 1]
-    for score, name in ((0, ""), (1, wrong), (1, wrong)):  # frame by frame
-        options = {"names": quiz.names, "seed": 1, "answer": name, "score": (0, score)}
-        now = state.with_options(mistakes=options)
-        log.follow_quiz(lecture, lecture.steps[0], now, (64, 48))
     lines = [json.loads(line) for line in (tmp_path / "answers.jsonl").read_text().splitlines()]
     assert log.count == len(lines) and log.problem == ""
     assert {line["sitting"] for line in lines} == {lines[0]["sitting"]}

@@ -17,7 +17,6 @@ from app.images.screen import Screen
 from app.images.window_rasterizer import WindowRasterizer
 from app.state.options import Pixel
 from app.ui import theme
-from app.ui.theme import Fonts
 from renderer.camera.camera import Camera
 from renderer.images.display import to_srgb8
 from renderer.images.samples import offsets
@@ -120,29 +119,3 @@ def draw_footprint(screen: Screen, pixel: Pixel, seen: Footprint) -> None:
 def _ink(color: Colors) -> int:
     red, green, blue = (int(value) for value in color)
     return 0xFF000000 | blue << 16 | green << 8 | red
-
-
-def draw_value(screen: Screen, color: NDArray[np.float32], fonts: Fonts) -> None:
-    """Draw the value of the image, a function of a place in its plane, next to the pointer.
-
-    The place is on a viewport of width and height 1: u to the right and v up, from the middle.
-    """
-    low, far = screen.visible
-    mouse, em = imgui.get_io().mouse_pos, imgui.get_font_size()
-    u = min(max((mouse.x - low.x) / (far.x - low.x), 0.0), 1.0) - 0.5
-    v = min(max((far.y - mouse.y) / (far.y - low.y), 0.0), 1.0) - 0.5
-    red, green, blue = (float(value) for value in color)
-    text = f"I({u:.2f}, {v:.2f}) = ({red:.2f}, {green:.2f}, {blue:.2f})"
-    pad, large = 0.4 * em, 1.3 * em
-    imgui.push_font(fonts.mono, large)
-    fitting = (far.x - low.x - 2 * pad) / imgui.calc_text_size(text).x
-    imgui.pop_font()
-    imgui.push_font(fonts.mono, large * min(1.0, fitting))
-    size, draw = imgui.calc_text_size(text), imgui.get_window_draw_list()
-    left = max(low.x, min(mouse.x + em, far.x - size.x - 2 * pad))
-    top = mouse.y - size.y - 2 * em if mouse.y - size.y - 2 * em > low.y else mouse.y + 1.5 * em
-    corner = ImVec2(left, top)
-    end = ImVec2(left + size.x + 2 * pad, top + size.y + 2 * pad)
-    draw.add_rect_filled(corner, end, theme.u32(theme.PANEL, 0.94), pad)
-    draw.add_text(ImVec2(left + pad, top + pad), theme.u32(theme.TEXT), text)
-    imgui.pop_font()

@@ -20,7 +20,6 @@ class PairOptions:
     how far, from their near ends.
     straight_lines: a grid of straight lines around the eye, bent as the lens bends them.
     footprint: an inset of the marked pixel's square, with the samples that its colour is made of.
-    value: the colour at the pointer, as a function of its place.
     """
 
     parallels: Annotated[tuple[Point, ...], AtMost(32)] = ()
@@ -29,7 +28,6 @@ class PairOptions:
     extended: Annotated[float, Range(0, 1)] = 1.0
     straight_lines: bool = False
     footprint: bool = False
-    value: bool = False
 
 
 OPTIONS = PairOptions

@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, imgui
 from app.cameras.remedies import helped, remedy_for
 from app.images.marking import Anchor, followed
 from app.images.pair.dark_note import DarkNote, note_button
-from app.images.pair.footprint import draw_footprint, draw_value, footprint
+from app.images.pair.footprint import draw_footprint, footprint
 from app.images.pair.image_mouse import Seen
 from app.images.pair.marks import walked
 from app.images.pair.options import PairOptions
@@ -328,8 +328,6 @@ class PhotographedView(ImageView):
             draw_parallels(draw, screen, camera, both.size, options)
         if options.footprint and state.marked is not None:
             self._draw_footprint(host, screen, state.marked)
-        if options.value:
-            self._draw_value(host, screen)
         told = layer.problem or layer.note
         if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
             draw_told(draw, screen, told, bool(layer.problem))
@@ -344,15 +342,6 @@ class PhotographedView(ImageView):
         samples = state.images.samples if self.is_ray else 1
         square = self._footprint(both.textures.rasterizer, request, pixel, samples)
         draw_footprint(screen, pixel, square)
-
-    def _draw_value(self, host: Host, screen: Screen) -> None:
-        if host.hovered is None or host.hovered[0] != self.name:
-            return
-        row, column = host.hovered[1]
-        read = host.renderers.ray_values if self.is_ray else host.renderers.raster_values
-        values = read(host.state, "color", (row, column, row + 1, column + 1))
-        if values is not None and values.size:
-            draw_value(screen, values[0, 0, :3], host.fonts)
 
 
 def _contains(size: tuple[int, int], pixel: Pixel) -> bool:

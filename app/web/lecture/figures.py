@@ -81,8 +81,6 @@ class Figures:
                 options["mark"] = state.marked
         if "compare" in step.views and state.of(CompareOptions).mode == "wipe":
             options["mode"] = "wipe"
-        if state.of(PairOptions).value:
-            options["value"] = True
         if "outside" in step.views:
             options["outside"] = _outside(step, state)
         return {

@@ -1,6 +1,6 @@
 // A live figure: images of one scene from one camera, beside one another, and what explains them.
 
-import { cameraForSize, checkedCamera, imagePoint, viewingRay } from "./camera.js";
+import { cameraForSize, checkedCamera, viewingRay } from "./camera.js";
 import { comparison } from "./comparing.js";
 import { cameraControls } from "./controls.js";
 import { element, vectorText } from "./elements.js";
@@ -27,7 +27,6 @@ import { unpackScene } from "./scene.js";
  * @property {import("./outside.js").OutsideParts} [outside] of the outside view: its camera, and what it draws
  * @property {[number, number]} [mark] the marked pixel's row and column from 0, where size is given
  * @property {0 | 1} [from] what the first row and column are called; 0 by default
- * @property {boolean} [value] whether an image's value is shown where it is pointed at
  * @property {(camera: Camera) => void} [onChange] is told of another camera
  * @property {(scene: import("./scene.js").Scene, place: Vec) => void} [onShift] is told where an object was moved
  */
@@ -77,7 +76,7 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
   };
   /** Return the marked pixel. @param {Size} size @returns {[number, number]} */
   const pixelOf = ([width, height]) => [Math.min(Math.floor(place[1] * height), height - 1), Math.min(Math.floor(place[0] * width), width - 1)];
-  const isMarking = options.value || shows.includes("probe") || (shows.includes("outside") && options.outside?.ray !== false);
+  const isMarking = shows.includes("probe") || (shows.includes("outside") && options.outside?.ray !== false);
 
   /** @param {number} rows @param {number} columns */
   const step = (rows, columns) => {
@@ -100,10 +99,6 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
     const ray = viewingRay(fitted, ...pixel, size);
     outside?.show(camera, size, isMarking && !Number.isNaN(ray.direction[0]) ? { ...ray, t: hit ? hit.t : Infinity } : null);
     probe?.show(fitted, size, pixel, hit);
-    if (options.value && hit) {
-      const at = vectorText(imagePoint(fitted, ...pixel, size), 3), value = vectorText(hit.color.map((byte) => byte / 255), 3);
-      for (const { kind, caption } of views) caption.textContent = `${TITLES[kind]}. I${at} = ${value}`;
-    }
   };
 
   const draw = async () => {
@@ -150,9 +145,6 @@ export function figure(parent, { scene: packed, camera: first, shows, options = 
       zoom: (factor) => change(zoomed(camera, pivot(), factor)),
       mark,
       step,
-    });
-    if (options.value) canvas.addEventListener("pointermove", ({ buttons, offsetX, offsetY }) => {
-      if (!buttons) mark(offsetX / canvas.clientWidth, offsetY / canvas.clientHeight);
     });
   }
 
