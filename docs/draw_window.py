@@ -16,6 +16,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from option_changes import with_options
+
 from app.instruments.objects.choosing import choose, rows_of
 from app.lecture.reading import BUILTIN, load_lecture
 from app.state.app_state import AppState
@@ -86,7 +88,7 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
         run.window.lecture.give(lecture, BUILTIN, (number, 0))
         save_png(path, run.run())
         return path
-    state = AppState.for_scene(load_scene(picture.scene)).with_options(**picture.options)
+    state = with_options(AppState.for_scene(load_scene(picture.scene)), **picture.options)
     if picture.lens is not None:
         camera = replace(state.camera, distance=0.8, lens=picture.lens)
         state = state.with_camera(camera)

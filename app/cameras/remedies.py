@@ -32,7 +32,9 @@ def helped(state: AppState, reason: Reason, darkness: Darkness, focus: Focus) ->
     """
     camera, remedy = state.camera, remedy_for(reason)
     if remedy == EXPOSE:
-        return state.with_options(images={"exposure_ev": exposure_for(darkness.brightest)})
+        return state.with_options(
+            replace(state.options.images, exposure_ev=exposure_for(darkness.brightest))
+        )
     if remedy == FRAME:
         return state.with_camera(framed(camera, focus.framed, focus.bounds))
     if remedy == CUT_NOTHING:

@@ -11,7 +11,7 @@ from typing import Any
 from app.checking.conventions import Conventions
 from app.checking.kinds import KINDS
 from app.checking.tasks import CheckTask
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.symbols import spoken
 from renderer.images.shared_numbers import LUMINANCE
 

@@ -25,7 +25,7 @@ from app.checking.kinds.basis import PARTS
 from app.checking.kinds.kind import CheckKind
 from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
 from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from renderer.files.places import Places, located
 from renderer.files.reading import decode_text, read_file, suggestion
 from renderer.files.tables import parse_toml, to_struct

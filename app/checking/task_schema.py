@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, field
 
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from renderer.files.schema import Numbers3, StrictTable
 
 Seed = Annotated[int, Meta(ge=0)]

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 from app.checking.conventions import Conventions
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from renderer.camera.camera import Camera, Size, Vector
 from renderer.images.shared_numbers import LUMINANCE
 

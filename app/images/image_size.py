@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.images.placement import Placement, common_pane, own_size, place
 from app.state.app_state import AppState
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
 from renderer.system.memo import Memo
 

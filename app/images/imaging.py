@@ -6,10 +6,11 @@ Their names, and the changes of the state for menus, keys and strips.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import get_args
 
 from app.state.app_state import AppState
-from app.state.options import Channel, Component, ImageOptions
+from app.state.options.shared import Channel, Component, ImageOptions, Transfer
 from renderer.images.frame import check_size
 from renderer.system.errors import LucidaError
 
@@ -25,7 +26,7 @@ COMPONENTS: dict[Component, tuple[str, str]] = {
     "green": ("Green", "the green channel only, as gray"),
     "blue": ("Blue", "the blue channel only, as gray"),
 }
-TRANSFERS = {
+TRANSFERS: dict[Transfer, tuple[str, str]] = {
     "srgb": (
         "sRGB",
         "linear light through the standard's curve, about light^(1/2.2), as screens expect it",
@@ -54,25 +55,29 @@ def with_component(state: AppState, component: Component) -> AppState:
     """Show only that component of the colour; if it is shown already, all of them."""
     if state.images.component == component:
         component = "rgb"
-    return state.with_options(images={"component": component})
+    return state.with_options(replace(state.options.images, component=component))
 
 
 def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:
     """Make the images this large, entirely visible; None: as large as the window."""
-    whole = {"magnification": None, "center": (0.5, 0.5)}
-    return state.with_options(images={"resolution": resolution, **whole})
+    images = replace(state.images, resolution=resolution, magnification=None, center=(0.5, 0.5))
+    return state.with_options(images)
 
 
 def with_pixel_size(state: AppState, pixel_size: int) -> AppState:
     """Make the images as large as the window, with pixels that are this many screen pixels wide."""
-    return with_resolution(state.with_options(images={"pixel_size": pixel_size}), None)
+    return with_resolution(
+        state.with_options(replace(state.options.images, pixel_size=pixel_size)), None
+    )
 
 
 def with_magnification(state: AppState, magnification: float | None) -> AppState:
     """Magnify about the centre; None: show the whole image."""
     if magnification is None:
-        return state.with_options(images={"magnification": None, "center": (0.5, 0.5)})
-    return state.with_options(images={"magnification": float(magnification)})
+        return state.with_options(
+            replace(state.options.images, magnification=None, center=(0.5, 0.5))
+        )
+    return state.with_options(replace(state.options.images, magnification=float(magnification)))
 
 
 def samples_text(samples: int) -> str:

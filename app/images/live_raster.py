@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from app.images.lens_tables import LensTables
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import FAILURES, WindowRasterizer
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.images.coarseness import FACTORS, reduced
 from renderer.images.frame import CHANNELS, Frame
 from renderer.raster import Rasterizer

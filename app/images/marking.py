@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera.camera import Size
 from renderer.scene.model import View
 

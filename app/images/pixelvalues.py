@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer.images.display import LUMINANCE, from_srgb, picture, to_srgb8
 from renderer.images.frame import Frame
 from renderer.images.shared_numbers import FARTHEST_GRAY

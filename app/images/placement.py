@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from app.state.bounds import range_of
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer.camera.camera import Size
 
 LEAST, MOST = range_of(ImageOptions, "magnification")
@@ -255,42 +255,42 @@ def _first(steps: Sequence[float], above: float, otherwise: float) -> float:
 
 
 def zoomed_at(
+    images: ImageOptions,
     placement: Placement,
     part: tuple[float, float],
     x: float,
     y: float,
     magnification: float | None,
-) -> dict[str, object]:
-    """Return the changes of the options that magnify, with the part `part` of the image at (x, y),
-    or as close to it as leaves nothing of the window empty. magnification None: fit.
+) -> ImageOptions:
+    """Return the options magnified, with the part `part` of the image at (x, y), or as close to it
+    as leaves nothing of the window empty. magnification None: fit.
     """
     if magnification is None:
-        return {"magnification": None, "center": (0.5, 0.5)}
-    center = placement.center_with(part, x, y, magnification)
-    return {"magnification": magnification, "center": clamped(center, placement, magnification)}
+        return replace(images, magnification=None, center=(0.5, 0.5))
+    center = clamped(placement.center_with(part, x, y, magnification), placement, magnification)
+    return replace(images, magnification=magnification, center=center)
 
 
 def panned(
-    placement: Placement, part: tuple[float, float], x: float, y: float
-) -> dict[str, object]:
-    """Return the changes of the options that bring the part `part` of the image to (x, y)."""
-    return zoomed_at(placement, part, x, y, placement.magnification)
+    images: ImageOptions, placement: Placement, part: tuple[float, float], x: float, y: float
+) -> ImageOptions:
+    """Return the options that bring the part `part` of the image to (x, y)."""
+    return zoomed_at(images, placement, part, x, y, placement.magnification)
 
 
-def shown_pixel(placement: Placement, pixel: tuple[int, int]) -> dict[str, object]:
-    """Return the changes of the options that bring a (row, column) into view; none if it is
-    visible.
-    """
+def shown_pixel(images: ImageOptions, placement: Placement, pixel: tuple[int, int]) -> ImageOptions:
+    """Return the options that bring a (row, column) into view; the same if it is visible."""
     top, left, bottom, right = placement.visible_pixels
     if top <= pixel[0] < bottom and left <= pixel[1] < right:
-        return {}
+        return images
     part = (pixel[1] + 0.5) / placement.size[0], (pixel[0] + 0.5) / placement.size[1]
     center = placement.part_at(*placement.middle_at(placement.magnification))
     kept = tuple(  # along an axis on which it is in sight, nothing moves
         center[k] if low <= pixel[1 - k] < high else part[k]
         for k, (low, high) in enumerate(((left, right), (top, bottom)))
     )
-    return {"center": clamped((kept[0], kept[1]), placement, placement.magnification)}
+    center = clamped((kept[0], kept[1]), placement, placement.magnification)
+    return replace(images, center=center)
 
 
 def clamped(

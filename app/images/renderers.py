@@ -25,7 +25,7 @@ from app.images.shown import Picture
 from app.images.textures import ImageTextures
 from app.images.window_rasterizer import FAILURES
 from app.state.app_state import AppState
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from app.ui.background import lower_priority
 from renderer.camera.camera import Camera
 from renderer.compare.why_black import Reason

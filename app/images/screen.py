@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from app.images.placement import Placement
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui.theme import framebuffer_scale
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner

@@ -8,7 +8,6 @@ from dataclasses import replace
 from imgui_bundle import ImVec2, imgui
 
 from app.instruments.outside.growing import stage_at, stages_of
-from app.instruments.outside.options import OutsideOptions
 from app.lecture.answer_log import AnswerLog
 from app.lecture.answer_note import note
 from app.lecture.exercise import exercise
@@ -19,12 +18,9 @@ from app.lecture.inheriting import changed_view
 from app.lecture.model import Exercise, Step
 from app.lecture.session import LectureSession
 from app.lecture.slide import TITLE, Slides
-from app.lecture.text import Block, in_language, languages
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.kept_lecture import Answers
 from app.ui import layout, theme
-from app.ui.checks import radio_button
-from app.ui.explaining.languages import LANGUAGES
 from app.ui.lettering import lettering
 from app.ui.messages import wrapped
 from app.ui.view import Host
@@ -93,15 +89,14 @@ class Column:
     def _body(self, host: Host, session: LectureSession, height: float) -> None:
         """Draw the text and the exercise. height: the room for the longest text of the step."""
         step, options = session.step, host.state.options
-        blocks, width = self._in_language(host, step), imgui.get_content_region_avail().x
+        blocks, width = step.blocks, imgui.get_content_region_avail().x
         stages = stages_of(host.renderers.camera(host.state))
-        formula = host.state.of(OutsideOptions).formula
+        formula = options.outside.formula
         self._slides.notation = options.notation
         self._slides.lit = "" if formula is None else stage_at(formula, stages)
-        self._fit(session, options.language, ImVec2(width, height))
+        self._fit(session, ImVec2(width, height))
         if blocks:
-            old = in_language(step.before, options.language)
-            self._slides.text(blocks, width, before=old, alpha=self._alpha(host))
+            self._slides.text(blocks, width, before=step.before, alpha=self._alpha(host))
         if self._seek:
             imgui.set_scroll_here_y(1.0)
             self._seek = False
@@ -125,14 +120,14 @@ class Column:
         if self.log is not None and said is not None:
             self.log.hidden(session.lecture, session.step, said, answers.solved)
 
-    def _fit(self, session: LectureSession, language: str, room: ImVec2) -> None:
+    def _fit(self, session: LectureSession, room: ImVec2) -> None:
         """Make the text as large as all builds of the step allow; an exercise needs its room."""
         builds = [one for one in session.lecture.builds if one.number == session.number]
-        fitted = *builds, room, theme.used(), self._slides.notation, language
+        fitted = *builds, room, theme.used(), self._slides.notation
         if fitted == self._fitted:
             return
         self._fitted = fitted
-        texts = [in_language(one.blocks, language) for one in builds]
+        texts = [one.blocks for one in builds]
         is_asked = any(one.exercise is not None for one in builds)
         self._slides.fit(texts, room.x, 0.0 if is_asked else room.y)
 
@@ -146,21 +141,6 @@ class Column:
             return 1.0
         host.animate()
         return alpha
-
-    def _in_language(self, host: Host, step: Step) -> tuple[Block, ...]:
-        """Draw the choice of languages if the step's programs have several. Return its text
-        in one.
-        """
-        chosen = host.state.options.language
-        offered = languages(step.blocks)
-        for number, (name, title) in enumerate(LANGUAGES.items()):
-            if name not in offered:
-                continue
-            if number:
-                imgui.same_line(0, imgui.get_font_size())
-            if radio_button(f"{title}##language", name == chosen):
-                host.apply(host.state.with_options(language=name))
-        return in_language(step.blocks, host.state.options.language)
 
 
 def _solve(host: Host, task: Exercise) -> None:

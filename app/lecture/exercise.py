@@ -10,7 +10,7 @@ from app.lecture.model import Exercise
 from app.lecture.slide import Slides
 from app.lecture.text import parse
 from app.state.kept_lecture import Answers, Judgement
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.areas import press_area
 from app.ui.checks import verdict_sign

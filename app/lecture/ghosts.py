@@ -19,7 +19,7 @@ from app.lecture.exercises import (
 )
 from app.lecture.model import Exercise
 from app.state.kept_lecture import Judgement
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from renderer.camera.camera import Camera, Floats
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}

@@ -14,7 +14,6 @@ from app.checking.task_file import check_known
 from app.lecture import text as texts
 from app.lecture.inheriting import inherited
 from app.lecture.model import Lecture, Step, Written
-from app.lecture.notation import explained
 from app.lecture.old_format import REMEDY, fields_of, old_builds
 from app.lecture.reading_exercises import exercise_of, pixel_of
 from app.lecture.schema import (
@@ -26,8 +25,8 @@ from app.lecture.schema import (
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
 from app.lecture.written import formulas_written, texts_of
-from app.state.all_options import AllOptions
-from app.state.options import Notation
+from app.state.options import Options
+from app.state.options.shared import Notation
 from app.state.removed import without_removed, without_removed_views
 from renderer.files.load import BUILTIN_SCENES, load_scene
 from renderer.files.outside import check_inside, kept_inside
@@ -169,7 +168,7 @@ class _LectureReader:
         return Lecture(
             file.title,
             file.author,
-            explained(builds),
+            tuple(builds),
             self._source,
             tuple(written),
             notes=tuple(self._notes),
@@ -308,7 +307,7 @@ class _LectureReader:
         one_based = self._indexing is Indexing.LECTURE
         if self._notation is not None:
             options = {"notation": self._notation} | options
-        if one_based != AllOptions().one_based:
+        if one_based != Options().one_based:
             options = {"one_based": one_based} | options
         if options.get("one_based", one_based) != one_based:
             raise LucidaError(

@@ -10,12 +10,14 @@ from typing import Any, Literal
 from msgspec import field
 
 from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
-from app.state.options import Notation
-from app.state.rooms import ROOMS
+from app.state.options.shared import Notation
 from renderer.files.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
-VIEWS = tuple(name for room in ROOMS for name in room.views)
+VIEWS = (
+    *("raster", "ray", "compare", "outside", "objects", "inspector", "probe", "stepper"),
+    *("costs", "laboratory", "mistakes", "your-code", "poses"),
+)
 DEFAULT_VIEWS = ["raster"]
 
 

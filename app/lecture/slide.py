@@ -11,7 +11,7 @@ from app.instruments.outside.growing import lit_in
 from app.lecture.flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
 from app.lecture.notation import in_notation
 from app.lecture.text import Block
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.formula import lit, vector_colors
 from app.ui.inline_math import inline_math

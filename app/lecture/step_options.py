@@ -16,9 +16,9 @@ import msgspec
 from app.checking.task_file import camera_view
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState, is_orthonormal
 from app.state.bounds import check, files_of
+from app.state.options import Options
 from app.state.paths import stored
 from renderer.camera.camera import Camera
 from renderer.files.reading import suggestion
@@ -31,12 +31,12 @@ OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 CHOSEN = ("language", "notation")  # by the user, until a step changes them
 ELSEWHERE = (*OWN, "marked", "marked_size")  # what has a field of its own in a step
 
-NAMES = tuple(entry.name for entry in fields(AllOptions) if entry.name not in ELSEWHERE)
+NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
 
 
-def own(options: AllOptions) -> AllOptions:
+def own(options: Options) -> Options:
     """Return the options with the user's own, the rest as on the first day."""
-    return replace(AllOptions(), **{name: getattr(options, name) for name in (*OWN, *CHOSEN)})
+    return replace(Options(), **{name: getattr(options, name) for name in (*OWN, *CHOSEN)})
 
 
 def state_of(step: Step, base: AppState) -> AppState:
@@ -50,26 +50,26 @@ def state_of(step: Step, base: AppState) -> AppState:
     keep = is_orthonormal(step.view.camera)
     state = AppState(step.scene, step.view, keep, options, base.step)
     if isinstance(step.exercise, HideExercise):
-        state = state.with_options(objects={"chosen": (step.exercise.item,)})
-    return state.with_options(**step.options)
+        state = state.with_options(replace(state.options.objects, chosen=(step.exercise.item,)))
+    return state.with_options(state.options.with_changes(step.options))
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
-    """Return the changes for AppState.with_options(). Raises LucidaError."""
-    types = _types(AllOptions)
+    """Return the changes for Options.with_changes(). Raises LucidaError."""
+    types = _types(Options)
     changes: dict[str, Any] = {}
     for name, value in tables.items():
         if name not in NAMES:
             raise LucidaError(name, "is unknown", suggestion(name, NAMES))
         kind = types[name]
         if not is_dataclass(kind):
-            changes[name] = getattr(to_struct({name: value}, _struct(AllOptions)), name)
+            changes[name] = getattr(to_struct({name: value}, _struct(Options)), name)
         elif not isinstance(value, dict):
             raise LucidaError(name, "is not a table", f"give e.g. {name}.{fields(kind)[0].name}")
         else:
             with under(name):
                 changes[name] = _part(kind, value)
-    check(AllOptions, changes)
+    check(Options, changes)
     return changes
 
 
@@ -97,7 +97,7 @@ def with_files(changes: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 def _with_files(tables: dict[str, Any]) -> Iterator[tuple[type, str, dict[str, Any]]]:
     """Yield the parts of options that can name files: class, name and content."""
-    types = _types(AllOptions)
+    types = _types(Options)
     for name, part in tables.items():
         kind = types.get(name)
         if isinstance(kind, type) and is_dataclass(kind) and isinstance(part, dict):

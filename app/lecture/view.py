@@ -136,7 +136,7 @@ class LectureView(DockedView):
         state = replace(state, options=own(state.options), step=None)
         if self._before is not None and any(step.scene is state.scene for step in steps):
             state = state.with_scene(self._before.scene, self._before.view)
-        window.change(state.with_options(preferences={"presentation": False}))
+        window.change(state.with_options(replace(state.options.preferences, presentation=False)))
         layout.switch(self._layout or layout.LAYOUTS[0].name)
 
     @property
@@ -209,7 +209,7 @@ class LectureView(DockedView):
         """Show the present build's own state, after a movement."""
         assert self.session is not None
         state = replace(window.state, step=self.session.place)
-        state = state.with_options(preferences=preferences)
+        state = state.with_options(state.options.with_changes({"preferences": preferences}))
         window.move(state_of(self.session.step, state), move_s, loop)
 
     def _arrange(self) -> None:

@@ -8,15 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
 
-from app.state.all_options import AllOptions
 from app.state.bounds import clamped
-from app.state.options import ImageOptions, Pixel, Preferences
+from app.state.options import Options, Part
+from app.state.options.shared import ImageOptions, Pixel, Preferences
 from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, View
 
-T = TypeVar("T")
 MOST_UNDO_STEPS = 500
 ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 
@@ -25,7 +23,7 @@ ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
 class AppState:
     """Everything that the window shows. Scenes are compared by identity.
 
-    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see all_options.py;
+    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see app/state/options;
     the properties below name its parts. step: of the lecture that the state was shown in: the
     lecture's source, the numbers of the step and its build, from 0; None outside of lectures.
     """
@@ -33,7 +31,7 @@ class AppState:
     scene: Scene
     view: View
     keep_orthonormal: bool
-    options: AllOptions = field(default_factory=AllOptions)
+    options: Options = field(default_factory=Options)
     step: tuple[str, int, int] | None = None
 
     @classmethod
@@ -64,23 +62,16 @@ class AppState:
         """True if the ray image shows what only rays find."""
         return self.options.shadows or self.options.mirrors
 
-    def of(self, kind: type[T]) -> T:
-        """One instrument's own options, by their class: state.of(StepperOptions)."""
-        return self.options.of(kind)
+    def with_options(self, *parts: Options | Part) -> AppState:
+        """Return the state with other parts of its options, each within its bounds.
 
-    def with_options(self, **changes: Any) -> AppState:
-        """The state with other options: fields of AllOptions, or of one of its parts by its name,
-        as in with_options(images={"exposure_ev": 1.0}, shadows=True). What a key or a field asks
-        for beyond an option's bounds comes to the nearest bound. Another mark is of no size yet."""
-        if changes.get("marked", self.marked) != self.marked:
-            changes = {"marked_size": None} | changes
-        changes = {
-            name: replace(getattr(self.options, name), **value)
-            if isinstance(value, dict)
-            else value
-            for name, value in changes.items()
-        }
-        return replace(self, options=clamped(replace(self.options, **changes)))
+        A part comes from replace(), as in with_options(replace(state.images, exposure_ev=1.0)).
+        Another mark belongs to no image's size yet.
+        """
+        options = self.options.with_parts(*parts)
+        if options.marked != self.marked and options.marked_size == self.options.marked_size:
+            options = replace(options, marked_size=None)
+        return replace(self, options=clamped(options))
 
     def with_camera(self, camera: Camera) -> AppState:
         """The state with another camera; itself where nothing changes."""
@@ -158,9 +149,10 @@ class History:
             return self
         before = self.past[-1]
         shared = self.present.options
-        marks = {"marked": shared.marked, "marked_size": shared.marked_size}
-        same = self._again(before).with_options(**marks) == self.present
-        return History(self._again(before), self.past[:-1]) if same else self
+        again = self._again(before)
+        mark = replace(again.options, marked=shared.marked, marked_size=shared.marked_size)
+        same = replace(again, options=mark) == self.present
+        return History(again, self.past[:-1]) if same else self
 
     def undo(self) -> History:
         """One step back; itself at the beginning."""

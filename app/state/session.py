@@ -10,11 +10,11 @@ from dataclasses import dataclass, field, replace
 
 import msgspec
 
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import check
 from app.state.kept_lecture import KeptLecture
 from app.state.kept_scene import KeptScene, kept_scene
+from app.state.options import Options
 from app.state.paths import restored, stored
 from app.state.removed import without_removed
 from renderer.files import BUILTIN_SCENES, load_scene
@@ -70,7 +70,7 @@ class Session:
     scene: str
     view: View
     keep_orthonormal: bool = True
-    options: AllOptions = field(default_factory=AllOptions)
+    options: Options = field(default_factory=Options)
     arrangement: Arrangement = field(default_factory=Arrangement)
     lecture: KeptLecture | None = None
     edited: KeptScene | None = None

@@ -1,7 +1,6 @@
-"""The contribution of a room to the window: its views, its actions, words for both.
+"""What an instrument gives the window: its views, its actions, words for both.
 
-A room's instrument.py has one such value, INSTRUMENT. app/state/rooms.py lists the rooms and their
-options.
+An instrument's instrument.py has one such value, INSTRUMENT; app/window/instruments.py lists them.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from app.ui.view import DockedView
 class Instrument:
     """An instrument.
 
-    make: makes its views, given those of the rooms before it; the list grows later.
+    make: makes its views, given those of the instruments before it; the list grows later.
     actions: for menus, keys and the palette, in the order of the menus.
     synonyms: other names that people use, by the names of actions, pages and views.
     pages: what the palette finds in its view, by name: the options that show it.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import moderngl
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.areas import press_area
 from app.ui.canvas import pressed_pixel, walked_pixel

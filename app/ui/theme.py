@@ -16,7 +16,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
-from app.state.options import Preferences
+from app.state.options.shared import Preferences
 from app.ui.contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
 
 TEXT_PX = 16.0

@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2
 
 from app.images.renderers import Renderers
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui.recent import RecentFiles
 from app.ui.theme import Fonts
 from renderer.camera.camera import Camera

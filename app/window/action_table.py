@@ -6,6 +6,8 @@ from the window's own and the instruments'; knows nothing of how menus are drawn
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from imgui_bundle import imgui
 
 from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
@@ -37,14 +39,22 @@ EFFECTS = (
     Action(
         "View",
         "Shadows (ray image only)",
-        changing(lambda state: state.with_options(shadows=not state.options.shadows)),
+        changing(
+            lambda state: state.with_options(
+                replace(state.options, shadows=not state.options.shadows)
+            )
+        ),
         is_on=lambda state: state.options.shadows,
         separated=True,
     ),
     Action(
         "View",
         "Mirrors (ray image only)",
-        changing(lambda state: state.with_options(mirrors=not state.options.mirrors)),
+        changing(
+            lambda state: state.with_options(
+                replace(state.options, mirrors=not state.options.mirrors)
+            )
+        ),
         is_on=lambda state: state.options.mirrors,
     ),
 )

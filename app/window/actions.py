@@ -5,9 +5,11 @@ shell.py, files.py and bookmarks.py carry them out.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.state.app_state import AppState
 from app.state.bounds import range_of
-from app.state.options import Notation, Preferences, Theme
+from app.state.options.shared import Notation, Preferences, Theme
 from app.ui import layout
 from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
 from app.ui.explaining import symbols
@@ -22,7 +24,7 @@ def _theme(name: Theme, title: str) -> Action:
     return Action(
         "View/Theme",
         title,
-        changing(lambda state: state.with_options(preferences={"theme": name})),
+        changing(lambda state: state.with_options(replace(state.options.preferences, theme=name))),
         is_on=lambda state: state.preferences.theme == name,
     )
 
@@ -31,14 +33,14 @@ def _notation(name: Notation) -> Action:
     return Action(
         "View/Notation",
         f"Notation of {symbols.NAMES[name]}",
-        changing(lambda state: state.with_options(notation=name)),
+        changing(lambda state: state.with_options(replace(state.options, notation=name))),
         is_on=lambda state: state.options.notation == name,
     )
 
 
 def _presentation(state: AppState) -> AppState:
     on = not state.preferences.presentation
-    return state.with_options(preferences={"presentation": on})
+    return state.with_options(replace(state.options.preferences, presentation=on))
 
 
 def scaled(state: AppState, step: int) -> AppState:
@@ -50,7 +52,7 @@ def scaled(state: AppState, step: int) -> AppState:
         scale = max((s for s in FONT_SCALES if s < scale - 1e-6), default=SMALLEST_SCALE)
     else:
         scale = 1.0
-    return state.with_options(preferences={"font_scale": scale})
+    return state.with_options(replace(state.options.preferences, font_scale=scale))
 
 
 def _layout(number: int, one: layout.Layout) -> Action:
@@ -145,7 +147,7 @@ BOOKMARKS = (
     Action(
         "Camera/Bookmarks",
         "Forget all bookmarks",
-        changing(lambda state: state.with_options(bookmarks=())),
+        changing(lambda state: state.with_options(replace(state.options, bookmarks=()))),
         can=lambda w: bool(w.state.options.bookmarks),
         separated=True,
     ),

@@ -5,11 +5,13 @@ Owns their storing, recall and names. They are options (options.py), so undo and
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.cameras.films.key_file import keys_text
 from app.cameras.films.paths import Key
 from app.cameras.lens_choices import KINDS
 from app.state.app_state import AppState
-from app.state.options import MOST_BOOKMARKS, Bookmark
+from app.state.options.shared import MOST_BOOKMARKS, Bookmark
 from app.ui.action import Window
 from renderer.scene import View
 from renderer.system.atomic import atomic_write
@@ -28,14 +30,16 @@ def with_bookmark(state: AppState, number: int) -> AppState:
     mark = Bookmark(number, describe(state.view), state.view)
     others = [other for other in state.options.bookmarks if other.number != number]
     return state.with_options(
-        bookmarks=tuple(sorted([*others, mark], key=lambda entry: entry.number))
+        replace(
+            state.options, bookmarks=tuple(sorted([*others, mark], key=lambda entry: entry.number))
+        )
     )
 
 
 def without(state: AppState, number: int) -> AppState:
     """The state without a bookmark."""
     kept = tuple(mark for mark in state.options.bookmarks if mark.number != number)
-    return state.with_options(bookmarks=kept)
+    return state.with_options(replace(state.options, bookmarks=kept))
 
 
 def renamed(state: AppState, number: int, name: str) -> AppState:
@@ -44,7 +48,7 @@ def renamed(state: AppState, number: int, name: str) -> AppState:
         Bookmark(mark.number, name, mark.view) if mark.number == number else mark
         for mark in state.options.bookmarks
     )
-    return state.with_options(bookmarks=tuple(marks))
+    return state.with_options(replace(state.options, bookmarks=tuple(marks)))
 
 
 def store(window: Window, number: int) -> None:

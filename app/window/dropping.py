@@ -7,9 +7,10 @@ option, which the menu Scene changes.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Literal
 
 from app.instruments.objects.editing import with_scene
-from app.instruments.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from app.ui.view import Host
 from app.window.opening import Opened
@@ -35,7 +36,7 @@ def is_for_the_scene(state: AppState, opened: Opened) -> bool:
 
 def settle(host: Host, opened: Opened, open_: Callable[[], None]) -> None:
     """Adds such a model, or opens it, or asks which. open_: opens it."""
-    wanted = "add" if opened.adds else host.state.of(ObjectsOptions).dropped
+    wanted = "add" if opened.adds else host.state.options.objects.dropped
     if wanted == "open":
         open_()
     elif wanted == "add":
@@ -72,6 +73,6 @@ def _add(host: Host, opened: Opened) -> None:
     host.files.say(one_line(f"{opened.scene.name} is in the scene. Shift+F frames all of it."))
 
 
-def _as_answered(host: Host, answer: str, do: Callable[[], None]) -> None:
-    host.amend(host.state.with_options(objects={"dropped": answer}))
+def _as_answered(host: Host, answer: Literal["add", "open"], do: Callable[[], None]) -> None:
+    host.amend(host.state.with_options(replace(host.state.options.objects, dropped=answer)))
     do()

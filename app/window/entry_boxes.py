@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.images.pair.boxes import EntryBox, pixel_box, resolution_box
 from app.images.placement import shown_pixel
 from app.images.renderers import Renderers
@@ -40,6 +42,7 @@ class EntryBoxes:
             self.pixel, pixel = pixel_box(self.pixel, state)
             if pixel is not None:
                 placement = renderers.placement(state)
-                moved = shown_pixel(placement, pixel) if placement is not None else {}
-                state = state.with_options(marked=pixel, images=moved)
+                state = state.with_options(replace(state.options, marked=pixel))
+                if placement is not None:
+                    state = state.with_options(shown_pixel(state.images, placement, pixel))
         return state

@@ -161,7 +161,7 @@ def _draw_builds(
     platform = start_platform(want_display=False)
     state = first_state(lecture)
     if for_print:
-        state = state.with_options(preferences={"theme": "light"})
+        state = state.with_options(replace(state.options.preferences, theme="light"))
     run = WindowRun(platform, state, size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a build
     window = run.window

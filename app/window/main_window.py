@@ -25,7 +25,7 @@ from app.instruments.outside.view import OUTSIDE, OutsideView
 from app.lecture.movement import Movement
 from app.lecture.view import LECTURE, LectureView
 from app.state.app_state import AppState, History
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.background import Background
 from app.ui.fly import Fly

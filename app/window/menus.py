@@ -7,6 +7,7 @@ Owns its look. Knows nothing of what actions do.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
@@ -214,7 +215,7 @@ def _bookmarks(window: Window) -> None:
                 window.change(bookmarks.without(window.state, mark.number))
         imgui.separator()
         if imgui.menu_item("All", "", False)[0]:
-            window.change(window.state.with_options(bookmarks=()))
+            window.change(window.state.with_options(replace(window.state.options, bookmarks=())))
         imgui.end_menu()
 
 

@@ -10,7 +10,6 @@ from functools import partial
 
 from app.cameras.camera_panel.actions import go_to_view
 from app.lecture.view import LectureView
-from app.state.rooms import ROOMS, Room
 from app.ui.action import Action, Window
 from app.window.action_table import ACTIONS
 from app.window.bookmarks import recall
@@ -89,19 +88,20 @@ def pages(window: Window) -> list[Entry]:
     """Return the entries of the instruments' pages."""
     return [
         Entry(
-            name,
+            page,
             "View > Views",
-            partial(_show_page, window, room, options),
-            also=SYNONYMS.get(name, ""),
+            partial(_show_page, window, name, options),
+            also=SYNONYMS.get(page, ""),
         )
-        for room in ROOMS
-        for name, options in INSTRUMENTS[room.name].pages.items()
+        for name, instrument in INSTRUMENTS.items()
+        for page, options in instrument.pages.items()
     ]
 
 
-def _show_page(window: Window, room: Room, options: Mapping[str, object]) -> None:
-    window.shell.stage.show(room.views[0].capitalize())
-    window.change(window.state.with_options(**{room.name: options}))
+def _show_page(window: Window, name: str, options: Mapping[str, object]) -> None:
+    window.shell.stage.show(name.capitalize())
+    changed = window.state.options.with_changes({name: options})
+    window.change(window.state.with_options(changed))
 
 
 def _of_action(action: Action, window: Window) -> Entry:

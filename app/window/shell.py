@@ -144,11 +144,15 @@ class Shell:
         elif chosen(window.state):
             window.amend(choose(window.state, ()))
         elif window.state.marked is not None:
-            window.change(window.state.with_options(marked=None))
+            window.change(window.state.with_options(replace(window.state.options, marked=None)))
         elif self.stage.maximised:
             self.stage.maximise()
         elif window.state.preferences.presentation:
-            window.change(window.state.with_options(preferences={"presentation": False}))
+            window.change(
+                window.state.with_options(
+                    replace(window.state.options.preferences, presentation=False)
+                )
+            )
         else:
             self.toasts.clear()
 

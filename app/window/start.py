@@ -17,9 +17,9 @@ from app.instruments.poses.model import PoseSet
 from app.lecture.model import Lecture
 from app.lecture.session import LectureSession
 from app.lecture.step_options import own, state_of
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.kept_lecture import KeptLecture
+from app.state.options import Options
 from app.state.session import Session
 from app.window.opening import Opened, opened_scene
 from app.window.session_store import Keeper, SessionFile, take_place
@@ -143,8 +143,8 @@ def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start
     """A scene that the command line named is the session from now on. What is the user's own in the
     last one stays, at a desk; the rest ends. fresh, folder: as in begin_session."""
     options, start = _in_place(start, folder)
-    state = replace(start.state, options=own(AllOptions() if fresh else options))
-    state = state.with_options(preferences={"presentation": False})
+    state = replace(start.state, options=own(Options() if fresh else options))
+    state = state.with_options(replace(state.options.preferences, presentation=False))
     return replace(start, state=state, fresh=fresh)
 
 
@@ -157,7 +157,7 @@ def begin_lecture(
     return replace(start, state=first_state(lecture, at, options))
 
 
-def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
+def _in_place(start: Start, folder: Path | None) -> tuple[Options, Start]:
     """Let a start take the last session's place.
 
     Return the last session's options, and the start with a message for the user. Changes that were
@@ -165,12 +165,12 @@ def _in_place(start: Start, folder: Path | None) -> tuple[AllOptions, Start]:
     """
     place = take_place(folder)
     if place is None:
-        return AllOptions(), replace(start, message=UNKEPT)
+        return Options(), replace(start, message=UNKEPT)
     found = place.load()
     start = replace(start, keeper=Keeper(place, hello_imgui.request_refresh), message=found.message)
     session = found.session
     if session is None:
-        return AllOptions(), start
+        return Options(), start
     start = replace(start, left=session.lecture)
     if session.edited is not None:
         told = f"The last session left unsaved changes of {one_line(session.edited.name)}."
@@ -191,7 +191,7 @@ def _rescued(session: Session, place: SessionFile) -> Path | None:
 
 
 def first_state(
-    lecture: Lecture, at: tuple[int, int] = (0, 0), options: AllOptions | None = None
+    lecture: Lecture, at: tuple[int, int] = (0, 0), options: Options | None = None
 ) -> AppState:
     """Return the state that a lecture begins with, for the last row.
 
@@ -200,10 +200,12 @@ def first_state(
     step = lecture.builds[lecture.place(*at)]
     seen = replace(
         AppState.for_scene(step.scene, step.view),
-        options=options or AllOptions(),
+        options=options or Options(),
         step=(lecture.source, step.number, step.build),
     )
-    seen = seen.with_options(preferences={"presentation": True, "reduced_motion": False})
+    seen = seen.with_options(
+        replace(seen.options.preferences, presentation=True, reduced_motion=False)
+    )
     return state_of(step, seen)
 
 

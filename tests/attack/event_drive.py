@@ -16,12 +16,13 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from window_driver import SIZE, Driver, Key
 
 from app.images.pair.view import RASTER, RAY
 from app.lecture.reading import BUILTIN, load_lecture
-from app.state.all_options import AllOptions
 from app.state.bounds import check
+from app.state.options import Options
 from app.state.session import from_bytes, session_of, to_bytes
 from app.ui import layout
 from app.window.action_table import ACTIONS
@@ -213,7 +214,7 @@ class Attack:
             )
         )
         self.tell("option", changes)
-        self.window.change(self.window.state.with_options(**changes))
+        self.window.change(with_options(self.window.state, **changes))
 
     def do_camera(self) -> None:
         """A legal one, however strange."""
@@ -259,7 +260,7 @@ class Attack:
 
     def _check(self) -> None:
         state, stage = self.window.state, self.window.shell.stage
-        check(AllOptions, state.options)
+        check(Options, state.options)
         kept = from_bytes(to_bytes(session_of(state, stage.arrangement())))
         assert (kept.view, kept.options) == (state.view, state.options), "no session can hold this"
         assert not stage.failed.errors, stage.failed.errors

@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+from option_changes import with_options
 
 from app.cameras.camera_panel.view import CameraView
 from app.state.app_state import AppState
@@ -13,7 +14,7 @@ from renderer.scene.focus import scene_focus
 
 
 def test_before_images_have_a_size_a_mark_of_the_last_session_is_nowhere() -> None:
-    state = AppState.for_scene(load_scene("canonical")).with_options(marked=(3, 4))
+    state = with_options(AppState.for_scene(load_scene("canonical")), marked=(3, 4))
     focus = scene_focus(state.scene)
     renderers = SimpleNamespace(size=(0, 0), camera=lambda state: state.camera)
     host = SimpleNamespace(renderers=renderers, focus=focus)

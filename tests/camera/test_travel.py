@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from option_changes import with_options
 from test_animation import PRESET, SIZE
 
 from app.cameras.presets import preset_view
@@ -102,10 +103,10 @@ class TestTraveller:
     def test_another_option_does_not(self, scene: Scene) -> None:
         clock, transition, target = self.begin(scene)
         clock.s += 0.1
-        state = transition.step(AppState.for_scene(scene)).with_options(shadows=True)
+        state = with_options(transition.step(AppState.for_scene(scene)), shadows=True)
         clock.s += DURATION_S
         state = transition.step(state)
-        assert state == target.with_options(shadows=True)
+        assert state == with_options(target, shadows=True)
 
     def test_all_of_it_is_one_step_of_undo(self, scene: Scene) -> None:
         clock, transition, target = self.begin(scene)
@@ -123,13 +124,13 @@ class TestTraveller:
         end = Camera.look_at((0.0, 12.0, 1.0), (0.0, 0.0, 0.0))
         for there in (end, None):  # None: the view finds it
             transition = CameraTransition(clock)
-            target = state.with_options(outside={"camera": there}, shadows=True)
+            target = with_options(state, outside={"camera": there}, shadows=True)
             ends = Ends(
                 start,
                 end,
                 SIZE,
                 of=lambda state: state.options.outside.camera,
-                put=lambda state, camera: state.with_options(outside={"camera": camera}),
+                put=lambda state, camera: with_options(state, outside={"camera": camera}),
             )
             assert transition.begin(state, target, scene_focus(scene), SIZE, ends) is state
             history = History(state)
@@ -140,7 +141,7 @@ class TestTraveller:
                 if part == 0.5:
                     middle = found.options.outside.camera
             assert middle not in (None, start, end)
-            assert history.present == state.with_options(outside={"camera": there})
+            assert history.present == with_options(state, outside={"camera": there})
             # Where it ends as it began there is nothing to undo.
             assert [step.options.outside.camera for step in history.past] == [None] * bool(there)
             assert not transition.under_way
@@ -149,7 +150,7 @@ class TestTraveller:
             clock.s += 0.1
             found = transition.step(target_of(state, "Front"))
             assert found.view == target_of(state, "Front").view
-            moved = found.with_options(outside={"camera": end})
+            moved = with_options(found, outside={"camera": end})
             assert transition.step(moved) is moved
             assert not transition.under_way
 
@@ -160,7 +161,7 @@ class TestTraveller:
         if how == "instant":
             transition.instant = True
         elif how == "reduced":
-            state = state.with_options(preferences={"reduced_motion": True})
+            state = with_options(state, preferences={"reduced_motion": True})
         elif how == "mirrored":
             target = target.with_camera(replace(target.camera, u=(0.0, 0.0, -1.0)))
         elif how == "scene":

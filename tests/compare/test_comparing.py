@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from flawed_images import changed, image
+from option_changes import with_options
 
 from app.images.compare import comparing
 from app.state.app_state import AppState
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer import Camera, load_scene
 from renderer.compare.raster_and_ray import CAUSES, SHADING, UNEXPLAINED, compare_frames
 from renderer.images.difference import LARGEST_GAIN
@@ -91,7 +92,7 @@ def test_a_step_marks_and_magnifies(state):
     assert after.marked == (3, 4)
     assert after.images.magnification == comparing.MARKED_MAGNIFICATION
     assert after.images.center == (4.5 / 8, 3.5 / 6)
-    closer = state.with_options(images={"magnification": 64.0})
+    closer = with_options(state, images={"magnification": 64.0})
     assert comparing.stepped(closer, comparison).images.magnification == 64.0
     assert comparing.stepped(state, compared()) is state
 
@@ -100,7 +101,7 @@ def test_the_worst_pixel_is_the_channels(state):
     comparison = compared(color=((3, 4), 0.9), depth=((1, 1), 5), normal=((2, 7), (1, 0, 0)))
     worst = {
         channel: comparing.at_worst(
-            state.with_options(images={"channel": channel}), comparison
+            with_options(state, images={"channel": channel}), comparison
         ).marked
         for channel in ("color", "depth", "normal")
     }
@@ -171,6 +172,6 @@ def test_a_pixels_values():
 
 def test_effects_have_names(state):
     assert comparing.effects_of(state) == ""
-    both = state.with_options(shadows=True, mirrors=True)
+    both = with_options(state, shadows=True, mirrors=True)
     assert comparing.effects_of(both) == "shadows and mirrors"
-    assert comparing.effects_of(state.with_options(mirrors=True)) == "mirrors"
+    assert comparing.effects_of(with_options(state, mirrors=True)) == "mirrors"

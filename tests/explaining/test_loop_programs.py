@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.instruments.stepper import loop_parts, raster_parts
 from app.instruments.stepper.loop_parts import Model
 from app.instruments.stepper.recording import Order
 from app.instruments.stepper.source import shown_lines, source_of
-from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
 from app.state.app_state import AppState
@@ -114,22 +114,9 @@ def test_every_line_has_its_line_in_julia(order):
     assert "j - 0.5" in "".join(written.lines) and "j + 0.5" in "".join(lines)
 
 
-def test_one_of_a_texts_programs_is_shown():
-    blocks = texts.parse(
-        "a\n```python\nP\n```\n```julia\nJ\n```\nb\n```\nplain\n```\n```julia\nD\n```"
-    )
-    assert texts.languages(blocks) == ("python", "julia")
-    for language, shown in (("python", "PplainD"), ("julia", "JplainD")):
-        kept = texts.in_language(blocks, language)
-        code = [block.text for block in kept if isinstance(block, texts.Code)]
-        assert "".join(code) == shown
-        assert len(kept) == len(blocks) - 1
-    assert texts.languages(texts.parse("```julia\nx\n```")) == ()
-
-
 def test_the_language_stays_from_step_to_step():
     lecture = load_lecture(BUILTIN)
     step = lecture.steps[3]
-    base = AppState.for_scene(step.scene).with_options(language="julia", shadows=True)
+    base = with_options(AppState.for_scene(step.scene), language="julia", shadows=True)
     options = state_of(step, base).options
     assert options.language == "julia" and not options.shadows

@@ -19,7 +19,7 @@ from compilers import needs_julia, run_julia
 from app.instruments.probe.copying import as_julia, as_python
 from app.instruments.probe.model import Probe
 from app.instruments.probe.reading import Reading
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.languages import julia
 from app.ui.explaining.symbols import TABLE
 from renderer.camera.lenses import Lens

@@ -7,12 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from option_changes import with_options
 
 from app.images import imaging
 from app.images.marking import followed, moved
 from app.images.pixelvalues import is_dark, line_count, shown_bytes, value_lines
 from app.state.app_state import AppState
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer.camera.camera import Camera
 from renderer.images.display import picture
 from renderer.images.frame import Frame
@@ -40,23 +41,23 @@ def test_what_is_no_resolution_is_told(text):
 
 def test_a_resolution_is_seen_whole():
     state = AppState.for_scene(Scene(()))
-    state = state.with_options(images={"magnification": 8.0, "center": (0.1, 0.1)})
+    state = with_options(state, images={"magnification": 8.0, "center": (0.1, 0.1)})
     state = imaging.with_resolution(state, (64, 36))
     assert (state.images.magnification, state.images.center) == (None, (0.5, 0.5))
     assert imaging.with_pixel_size(state, 4).images.resolution is None
     assert imaging.resolution_text(state.images) == "64 x 36"
-    many = state.with_options(images={"samples": 16})
+    many = with_options(state, images={"samples": 16})
     assert imaging.resolution_text(many.images) == "64 x 36, 16 samples"
     names = [imaging.samples_text(samples) for samples in (1, 64)]
     assert names == ["Ray: 1 sample per pixel", "Ray: mean of 64 samples"]
 
 
 def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
-    state = AppState.for_scene(Scene(())).with_options(images={"center": (0.1, 0.2)})
+    state = with_options(AppState.for_scene(Scene(())), images={"center": (0.1, 0.2)})
     closer = imaging.with_magnification(state, 8)
-    assert closer == state.with_options(images={"magnification": 8.0})
+    assert closer == with_options(state, images={"magnification": 8.0})
     whole = imaging.with_magnification(closer, None)
-    assert whole == state.with_options(images={"center": (0.5, 0.5)})
+    assert whole == with_options(state, images={"center": (0.5, 0.5)})
 
 
 def test_one_component_and_back():

@@ -9,6 +9,7 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
@@ -221,7 +222,7 @@ def test_the_raster_image_goes_alone_where_no_view_shows_the_ray_image(window):
 
 
 def test_several_samples_are_for_a_camera_at_rest(window):
-    window.state = window.state.with_options(images={"samples": 16})
+    window.state = with_options(window.state, images={"samples": 16})
     begun(window)
     assert window.asked[-1][0].samples == 16
     window.move()

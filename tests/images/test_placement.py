@@ -18,7 +18,7 @@ from app.images.placement import (
     zoomed_at,
 )
 from app.images.shown import section_of, whole
-from app.state.options import MAGNIFICATIONS, ImageOptions
+from app.state.options.shared import MAGNIFICATIONS, ImageOptions
 
 SIZES = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 PANES = st.tuples(st.integers(1, 2500), st.integers(1, 2500))
@@ -139,9 +139,7 @@ def test_magnifying_keeps_what_is_under_the_pointer(size, pane, rulers, center, 
         data.draw(st.integers(top, bottom - 1)) + 0.5,
     )
     options = replace(ImageOptions(resolution=size), magnification=factor, center=center)
-    closer = place(
-        replace(options, **zoomed_at(at, at.part_at(x, y), x, y, 2.0 * factor)), size, pane, rulers
-    )
+    closer = place(zoomed_at(options, at, at.part_at(x, y), x, y, 2.0 * factor), size, pane, rulers)
     assume(all(e > p for e, p in zip(at.extent, pane, strict=True)))
     # What a new ruler covers cannot stay where it was.
     assume(x >= closer.margin[0])
@@ -225,9 +223,9 @@ def test_every_pixel_can_be_brought_into_sight():
     for row in range(30):
         for column in range(40):
             seen = left <= column < right, top <= row < bottom
-            changes = shown_pixel(at, (row, column))
-            assert (changes == {}) == all(seen)
-            moved = place(replace(options, **changes), size, pane)
+            changed = shown_pixel(options, at, (row, column))
+            assert (changed is options) == all(seen)
+            moved = place(changed, size, pane)
             for k, number in enumerate((column, row)):
                 middle = pane[k] / 2 - (number + 0.5) * 16
                 centered = min(max(middle, pane[k] - 16 * size[k]), 0)
@@ -244,8 +242,9 @@ def test_windows_are_nearly_as_large_from_85_percent_on_both_ways():
 
 def test_panning_brings_the_part_to_the_pointer():
     at = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
-    changes = placement.panned(at, at.part_at(200, 150), 230, 130)
-    assert placed((640, 360), (400, 300), **changes).origin == (
+    options = ImageOptions(magnification=8.0)
+    changed = placement.panned(options, at, at.part_at(200, 150), 230, 130)
+    assert place(changed, (640, 360), (400, 300)).origin == (
         at.origin[0] + 30,
         at.origin[1] - 20,
     )

@@ -11,12 +11,12 @@ import pytest
 from app.instruments.laboratory import array, images, light, ruler, shapes, storage
 from app.instruments.laboratory.kinds import KINDS
 from app.instruments.laboratory.looks import look_of
-from app.instruments.laboratory.options import LONGEST, LaboratoryOptions
 from app.instruments.laboratory.page import Page
 from app.instruments.laboratory.pages import PAGES, drawn
 from app.instruments.laboratory.sheet import LIGHTS, between, reached
 from app.instruments.outside.figure import Figure, Label, Line, Picture, Polygon
 from app.instruments.outside.svg import svg
+from app.state.options.laboratory import LONGEST, LaboratoryOptions
 from app.ui import theme
 from app.ui.uploads import nearest
 from renderer.camera.camera import Camera

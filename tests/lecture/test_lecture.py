@@ -6,13 +6,14 @@ from dataclasses import fields
 
 import pytest
 from both_lectures import both_lectures
+from option_changes import with_options
 from sample_lecture import FILE, read
 
 from app.lecture.exercises import ChoiceExercise, RayExercise
 from app.lecture.reading import lecture_from_toml, load_lecture
 from app.lecture.step_options import ELSEWHERE, state_of
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState
+from app.state.options import Options
 from renderer.camera.camera import Camera
 from renderer.files import load_scene
 from renderer.system.errors import LucidaError
@@ -45,8 +46,8 @@ class TestReading:
     def test_a_step_is_a_state_whatever_was_before(self):
         one, two, _ = read().steps
         before = AppState.for_scene(load_scene("columns"))
-        before = before.with_options(
-            preferences={"presentation": True}, mirrors=True, images={"exposure_ev": 2.0}
+        before = with_options(
+            before, preferences={"presentation": True}, mirrors=True, images={"exposure_ev": 2.0}
         )
         state = state_of(one, before)
         assert state.scene is one.scene and state.camera == one.view.camera
@@ -68,7 +69,7 @@ class TestReading:
             assert (step.pixel, step.exercise.pixel) == (pixel, asked)
             assert step.exercise.solution().startswith(told)
             for number in (0, 1, 2):
-                base = AppState.for_scene(step.scene).with_options(one_based=lecture is other)
+                base = with_options(AppState.for_scene(step.scene), one_based=lecture is other)
                 state = state_of(lecture.steps[number], base)
                 assert state.options.one_based == (lecture is one)
         assert other.steps[0].exercise.indexing.text((1, 3)) == "(1, 3)"
@@ -94,7 +95,7 @@ class TestReading:
 
     def test_every_option_is_known_to_a_step(self):
         lines = [line for line in FILE.splitlines() if not line.startswith("options.")]
-        for name in {entry.name for entry in fields(AllOptions)} - set(ELSEWHERE):
+        for name in {entry.name for entry in fields(Options)} - set(ELSEWHERE):
             broken = "\n".join([*lines[:20], f"options.{name} = []", *lines[20:]])
             with pytest.raises(LucidaError, match=rf"x\.toml:21: steps\[0\]\.options\.{name}: "):
                 read(broken)

@@ -13,8 +13,8 @@ from plain_text import plain_text
 
 from app.instruments.outside.camera_diagram import Content, diagram
 from app.instruments.outside.diagram import Dot, Eye, Item, Label, RayEnd
-from app.instruments.outside.options import OutsideOptions
 from app.lecture.reading import BUILTINS
+from app.state.options.outside import OutsideOptions
 
 STEPS = {build.title: build for build in both_lectures().builds}  # at their last builds
 VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720

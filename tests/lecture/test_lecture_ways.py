@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 from both_lectures import both_lectures
+from option_changes import with_options
 
 from app.images.marking import followed
 from app.lecture.step_options import OWN, state_of
@@ -17,7 +18,8 @@ LECTURE = both_lectures()
 
 def spoiled(state: AppState) -> AppState:
     """Return a state as a user may have changed it."""
-    changed = state.with_options(
+    changed = with_options(
+        state,
         marked=(1, 2),
         shadows=not state.options.shadows,
         images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
@@ -37,7 +39,7 @@ def test_a_steps_state_does_not_depend_on_the_way(number):
         came = state_of(before, begun)
         assert state_of(step, came) == own
         assert state_of(step, spoiled(came)) == own
-    user = begun.with_options(preferences={"theme": "light", "font_scale": 1.5})
+    user = with_options(begun, preferences={"theme": "light", "font_scale": 1.5})
     kept = {name: getattr(user.options, name) for name in OWN}
     assert state_of(step, user) == replace(own, options=replace(own.options, **kept))
 

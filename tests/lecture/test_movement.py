@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.instruments.outside.frustum import plane_corners
-from app.instruments.outside.options import OutsideOptions
 from app.lecture.movement import Movement
 from app.state.app_state import AppState
 from app.state.bounds import check
@@ -36,7 +36,7 @@ def changed(state: AppState) -> AppState:
     camera = replace(state.camera, eye=(1.0, 0.5, 1.0), projection="parallel")
     end = replace(state, view=View(camera, state.view.fit))
     options = {"camera": EYE, "grid": False, "target": (1.0, 2.0, 3.0), "up": (0.0, 0.0, 1.0)}
-    return end.with_options(
+    return with_options(end,
         images={"exposure_ev": 4.0, "channel": "depth", "samples": 16}, outside=options,
         marked=(3, 4), laboratory={"after_ev": 1.5},
     )  # fmt: skip
@@ -53,7 +53,7 @@ def test_ends_are_exact(state, changed):
 def test_everything_else_changes_when_it_begins(state, changed):
     first = movement(state, changed).at(0)
     assert (first.images.channel, first.images.samples, first.marked) == ("depth", 16, (3, 4))
-    outside = first.of(OutsideOptions)
+    outside = first.options.outside
     assert (outside.camera, outside.grid, outside.target) == (EYE, False, (1.0, 2.0, 3.0))
 
 
@@ -64,7 +64,7 @@ def test_all_between_is_legal_and_goes_one_way(state, changed):
         check(AppState, one)
     for values in (
         [one.images.exposure_ev for one in states],
-        [one.of(OutsideOptions).up[2] for one in states],
+        [one.options.outside.up[2] for one in states],
     ):
         assert values == sorted(values) and len(set(values)) == len(PARTS)
     assert movement(changed, state).at(0.25).images.exposure_ev == pytest.approx(
@@ -74,8 +74,8 @@ def test_all_between_is_legal_and_goes_one_way(state, changed):
 
 def test_cameras_in_options_take_the_same_path(state):
     other = Camera.look_at((-4, 3, 5), (0, 0, 0))
-    ends = [state.with_options(outside={"camera": camera}) for camera in (EYE, other)]
-    eyes = [movement(*ends).at(part).of(OutsideOptions).camera.eye for part in PARTS]
+    ends = [with_options(state, outside={"camera": camera}) for camera in (EYE, other)]
+    eyes = [movement(*ends).at(part).options.outside.camera.eye for part in PARTS]
     np.testing.assert_allclose([eyes[0], eyes[-1]], [EYE.eye, other.eye])
     assert np.all(np.linalg.norm(eyes, axis=1) > 5)  # around the scene, not through it
 

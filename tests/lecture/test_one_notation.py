@@ -19,22 +19,22 @@ from app.cameras.camera_panel import panel, projection
 from app.checking.builtin import builtin_tasks
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.starter import starter
-from app.instruments.laboratory.options import LaboratoryOptions
 from app.instruments.laboratory.page import Page
 from app.instruments.laboratory.ruler import ruler
 from app.instruments.laboratory.sheet import Look
 from app.instruments.outside import figure
 from app.instruments.outside.camera_diagram import Content, diagram
 from app.instruments.outside.diagram import Label, RayEnd
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
 from app.instruments.probe.model import Probe
 from app.instruments.stepper import loop_parts, raster_parts
 from app.instruments.stepper.recording import Order
 from app.instruments.stepper.source import shown_code, shown_lines, source_of
 from app.lecture import text as texts
-from app.lecture.notation import TwiceUsed, in_notation
-from app.state.options import Notation
+from app.lecture.notation import in_notation
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.outside import OutsideOptions
+from app.state.options.shared import Notation
 from app.ui.explaining import symbols
 from app.ui.explaining.symbols import TABLE
 from renderer.files import load_scene
@@ -171,13 +171,6 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
     assert count > 20
     other = NOTATIONS[notation == "book"]
     assert any(foreign(kind, text, other) for _, kind, text in room(notation))  # it can fail
-
-
-def test_the_first_step_with_a_letter_twice_says_so():
-    said = [b for b in LECTURE.builds if any(isinstance(block, TwiceUsed) for block in b.blocks)]
-    assert {build.title for build in said} == {"Any camera"}
-    assert said[-1].build + 1 == LECTURE.count(said[-1].number)
-    assert len(in_notation(said[0].blocks, "code")) == len(said[0].blocks) - 1
 
 
 def test_a_word_and_its_symbol_are_one_in_code():

@@ -13,7 +13,6 @@ from both_lectures import both_lectures
 
 from app.checking.results.reading import read_answers
 from app.cli import main
-from app.instruments.outside.options import OutsideOptions
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
@@ -218,7 +217,7 @@ def test_figures_begin_as_their_steps_do(lecture):
         figure = figures.of(step, state)
         options = figure["options"] if figure else {}
         modes.add(options.get("mode"))
-        has_camera = state.of(OutsideOptions).image and not step.view.camera.is_parallel
+        has_camera = state.options.outside.image and not step.view.camera.is_parallel
         if "outside" in options and has_camera:
             looking = view_from_table(options["outside"]["camera"]).camera
             seen = looking.project(step.view.camera.eye, OUTSIDE)

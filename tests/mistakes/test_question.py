@@ -7,13 +7,14 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.images.ray_pictures import RayPainter
 from app.instruments.mistakes import model
 from app.instruments.mistakes import question as quiz
-from app.instruments.mistakes.options import MistakesOptions
 from app.lecture.step_options import options_from_table
 from app.state.app_state import AppState
+from app.state.options.mistakes import MistakesOptions
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from renderer.files import load_scene
 from renderer.scene.model import Scene
@@ -34,7 +35,7 @@ def painter():
 
 
 def situation(state: AppState = STATE):
-    return model.situation_of(state.with_options(mistakes={"columns": 64}), SIZE)
+    return model.situation_of(with_options(state, mistakes={"columns": 64}), SIZE)
 
 
 @pytest.mark.parametrize("state", [STATE, PARALLEL])
@@ -70,7 +71,7 @@ def test_a_lecture_s_own_question_is_asked(painter) -> None:
 
 def test_no_two_of_them_look_the_same(painter) -> None:
     """These two lines do the same, in other words."""
-    tiny = model.situation_of(STATE.with_options(mistakes={"columns": 16}), SIZE)
+    tiny = model.situation_of(with_options(STATE, mistakes={"columns": 16}), SIZE)
     for seed in range(30):
         asked = quiz.question(painter, tiny, MistakesOptions(seed=seed, asked="rows count upwards"))
         assert "v the wrong way round" not in asked.names and len(asked.names) == quiz.CHOICES
@@ -111,21 +112,20 @@ def test_answers_are_kept_counted_and_only_once() -> None:
     names = ("a", "b", "c", "d")
     options = MistakesOptions(seed=1)
     right = quiz.right_at(options)
-    changes = quiz.answered(options, names, right)
-    after = replace(options, **changes)
+    after = quiz.answered(options, names, right)
     assert after.score == (1, 1) and after.revealed and after.answer == names[right]
     assert after.names == names
-    assert quiz.answered(after, names, 0) == {} and quiz.revealed(after, names) == {}
-    wrong = replace(options, **quiz.answered(options, names, (right + 1) % 4))
+    assert quiz.answered(after, names, 0) == after == quiz.revealed(after, names)
+    wrong = quiz.answered(options, names, (right + 1) % 4)
     assert wrong.score == (0, 1)
-    assert quiz.answered(options, names, 4) == {} and quiz.answered(options, (), 0) == {}
-    assert quiz.answered(options, names, -1) == {}
-    assert [quiz.answered(options, names, n)["answer"] for n in range(4)] == list(names)
-    shown = replace(options, **quiz.revealed(options, names))
+    assert quiz.answered(options, names, 4) == options == quiz.answered(options, (), 0)
+    assert quiz.answered(options, names, -1) == options
+    assert [quiz.answered(options, names, n).answer for n in range(4)] == list(names)
+    shown = quiz.revealed(options, names)
     assert shown.revealed and shown.score == (0, 0)
-    assert quiz.answered(shown, names, right) == {}  # who has looked does not score
-    assert not replace(shown, **quiz.revealed(shown, names)).revealed
-    again = replace(after, **quiz.next_question(after))
+    assert quiz.answered(shown, names, right) == shown  # who has looked does not score
+    assert not quiz.revealed(shown, names).revealed
+    again = quiz.next_question(after)
     assert (again.seed, again.names, again.answer, again.revealed) == (2, (), "", False)
     assert again.score == (1, 1)
 
@@ -145,16 +145,16 @@ def test_a_session_keeps_the_question_and_the_score() -> None:
         "mode": "which-picture", "seed": 7, "names": ("a", "b", "c", "d"), "answer": "b",
         "revealed": True, "score": (3, 4), "chosen": ("no eye", "along +w"),
     }  # fmt: skip
-    state = STATE.with_options(mistakes=options)
+    state = with_options(STATE, mistakes=options)
     kept = from_bytes(to_bytes(session_of(state, Arrangement("Lecture", (), ""))))
-    assert kept.options.of(MistakesOptions) == state.of(MistakesOptions)
-    assert state.of(MistakesOptions).score == (3, 4)
+    assert kept.options.mistakes == state.options.mistakes
+    assert state.options.mistakes.score == (3, 4)
 
 
 def test_a_lecture_s_options_are_checked() -> None:
     good = {"mode": "which-line", "chosen": ["no eye"], "columns": 16}
     changes = options_from_table({"mistakes": good})
-    assert STATE.with_options(**changes).of(MistakesOptions).columns == 16
+    assert with_options(STATE, **changes).options.mistakes.columns == 16
     for bad in ({"mode": "exam"}, {"columns": 17}, {"chosen": ["a", "b", "c"]}, {"seed": -1}):
         with pytest.raises(LucidaError, match=f"mistakes.{next(iter(bad))}"):
             options_from_table({"mistakes": bad})
@@ -162,14 +162,14 @@ def test_a_lecture_s_options_are_checked() -> None:
 
 def test_the_other_quiz_does_not_ask_what_the_first_has_shown() -> None:
     options = MistakesOptions(mode="laboratory", seed=7, asked="no eye")
-    first = replace(options, **quiz.switched_to(options, "which-line"))
+    first = quiz.switched_to(options, "which-line")
     assert (first.mode, first.seed, first.asked) == ("which-line", 7, "no eye")
-    answered = replace(first, **quiz.answered(first, ("a", "b", "c", "d"), 0))
-    other = replace(answered, **quiz.switched_to(answered, "which-picture"))
+    answered = quiz.answered(first, ("a", "b", "c", "d"), 0)
+    other = quiz.switched_to(answered, "which-picture")
     assert (other.mode, other.seed, other.asked) == ("which-picture", 8, "")
     assert (other.names, other.answer, other.revealed) == ((), "", False)
     assert other.score == answered.score
-    back = replace(other, **quiz.switched_to(other, "laboratory"))
-    again = replace(back, **quiz.switched_to(back, "which-picture"))
+    back = quiz.switched_to(other, "laboratory")
+    again = quiz.switched_to(back, "which-picture")
     assert again.seed == 9
-    assert replace(again, **quiz.switched_to(again, "which-picture")) == again
+    assert quiz.switched_to(again, "which-picture") == again

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.checking.mistakes.rays import RayTask, ray_program
 from app.checking.reports.picture import MARK, changed_pixels, difference_picture
@@ -37,7 +38,7 @@ def painter():
 
 
 def situation(state: AppState = STATE, columns: int = 64) -> Situation:
-    return model.situation_of(state.with_options(mistakes={"columns": columns}), SIZE)
+    return model.situation_of(with_options(state, mistakes={"columns": columns}), SIZE)
 
 
 @pytest.mark.parametrize("state", [STATE, PARALLEL])
@@ -66,7 +67,7 @@ def test_a_wrong_line_makes_another_picture(painter) -> None:
 
 
 def test_the_corners_and_the_marked_pixel_s_ray_are_the_wrong_camera_s(painter) -> None:
-    now = situation(STATE.with_options(marked=(30, 40)))
+    now = situation(with_options(STATE, marked=(30, 40)))
     assert now.pixel is not None
     mistakes = model.named(now.program, ("no eye", "along +w"))
     assert len(mistakes) == 2
@@ -135,7 +136,7 @@ def test_sizes_and_pixels_of_pictures() -> None:
         ((8, 8), (8, 8), (8, 8)),
         ((1920, 1080), (1920, 1080), (160, 90)),
     ):
-        state = STATE.with_options(images={"resolution": resolution})
+        state = with_options(STATE, images={"resolution": resolution})
         assert model.picture_size(state, images) == size
     for pixel, old, new, scaled in (
         ((0, 0), (800, 600), (80, 60), (0, 0)),
@@ -148,7 +149,7 @@ def test_sizes_and_pixels_of_pictures() -> None:
 def test_a_mark_beside_the_images_marks_nothing() -> None:
     """It is of a larger image, or of a layout with others."""
     for marked, pixel in (((59, 79), (47, 63)), ((60, 79), None), ((59, 80), None)):
-        assert situation(STATE.with_options(marked=marked)).pixel == pixel
+        assert situation(with_options(STATE, marked=marked)).pixel == pixel
 
 
 def test_unknown_names_are_told() -> None:

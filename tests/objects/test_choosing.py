@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from option_changes import with_options
 from scenes import crowd
 
 from app.instruments.objects.choosing import (
@@ -90,7 +91,7 @@ def test_what_is_deleted_is_no_longer_chosen_and_is_again_after_undo(state):
 def test_a_scene_made_in_python_has_nothing_to_choose():
     scene = crowd()
     assert any(isinstance(entry.shape, Mesh) for entry in scene.objects)
-    state = AppState.for_scene(scene).with_options(objects={"chosen": (0, 1)})
+    state = with_options(AppState.for_scene(scene), objects={"chosen": (0, 1)})
     assert chosen(state) == ()
     assert item_at(scene, 0) is None
     assert chosen(walked(state, 1)) == ()

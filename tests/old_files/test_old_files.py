@@ -13,7 +13,7 @@ from app.checking.task_file import load_tasks
 from app.lecture.reading import load_lecture
 from app.lecture.schema import VIEWS
 from app.state import removed
-from app.state.all_options import AllOptions
+from app.state.options import Options
 from app.state.session import from_bytes
 from renderer.camera.camera import Camera
 from renderer.camera.lenses import Lens
@@ -137,7 +137,7 @@ def test_a_session_reports_removed_options_that_were_in_use_and_no_others():
 
 def test_no_removed_key_is_a_present_one():
     for path in removed.REMOVED:
-        kind: type = AllOptions
+        kind: type = Options
         *parts, last = path.split(".")
         for part in parts:
             kind = next(f.default_factory for f in fields(kind) if f.name == part)
@@ -148,7 +148,7 @@ def test_no_removed_key_is_a_present_one():
 @pytest.mark.parametrize("path_value", removed.REPLACED)
 def test_a_replaced_value_is_refused_as_a_present_one(path_value):
     path, value = path_value
-    kind = msgspec.inspect.type_info(AllOptions)
+    kind = msgspec.inspect.type_info(Options)
     for part in path.split("."):
         kind = next(field.type for field in kind.fields if field.name == part)
     assert value not in kind.values and removed.REPLACED[path_value].value in kind.values

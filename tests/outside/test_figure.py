@@ -26,10 +26,10 @@ from app.instruments.outside.figure import (
     with_picture,
 )
 from app.instruments.outside.frustum import pixel_corners, plane_corners
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.projected import project
 from app.instruments.outside.screen import OutsideScreen, image_plane
 from app.instruments.outside.svg import svg
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 from renderer.scene import shapes
 from renderer.scene.model import Scene, SceneObject, Sphere

@@ -14,12 +14,12 @@ from app.instruments.outside.camera_diagram import Content, diagram
 from app.instruments.outside.diagram import Arrow, Label, RayEnd, Segments, runs
 from app.instruments.outside.figure import Figure, figure_parts
 from app.instruments.outside.growing import STAGES, grown_diagram, growth, lit_in, shares, stage_at
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.projected import project
 from app.instruments.outside.screen import OutsideScreen
 from app.instruments.outside.svg import svg
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.text import formulas
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 
 CAMERA = Camera.look_at((3.0, 2.0, 4.0), (0.0, 0.0, 0.0), distance=1.5, aspect=4 / 3)

@@ -20,9 +20,9 @@ from app.instruments.outside.frustum import (
 )
 from app.instruments.outside.growing import grown_diagram, growth, stages_of
 from app.instruments.outside.lens_diagram import OUTSIDE
-from app.instruments.outside.options import LENS_STAGES, OutsideOptions
 from app.instruments.outside.projected import project
 from app.instruments.outside.screen import OutsideScreen
+from app.state.options.outside import LENS_STAGES, OutsideOptions
 from renderer.camera.camera import Camera
 from renderer.camera.lenses import Lens
 

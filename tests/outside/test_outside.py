@@ -24,9 +24,9 @@ from app.instruments.outside.gizmo import (
     rotation_of,
 )
 from app.instruments.outside.looking import ray_depths
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.projected import Text, project
 from app.instruments.outside.screen import OutsideScreen
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, SceneObject, Sphere
 from renderer.system.errors import LucidaError

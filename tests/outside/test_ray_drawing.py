@@ -10,9 +10,9 @@ import pytest
 from app.images.picking import line_meetings
 from app.instruments.outside.camera_diagram import Content, diagram
 from app.instruments.outside.diagram import Arrow, Dot, Item, Label, RayEnd, Segments
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.ray_drawing import half_line, meetings, rays_to
 from app.instruments.outside.simple_camera import pixel_numbers, simple_camera, simple_ray
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 from renderer.files import load_scene
 

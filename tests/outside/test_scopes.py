@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2
 from app.images.ray_pictures import RayPictures
 from app.instruments.outside import looking
 from app.instruments.outside.looking import NOTHING, STILL_S, Scopes, ray_ends
-from app.instruments.outside.options import OutsideOptions
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 
 PLACE = ImVec2(0, 0), ImVec2(300, 200)
@@ -38,7 +38,7 @@ def is_near(camera, shown):
 
 def host(inner, own=None):
     options = OutsideOptions(camera=own)
-    state = SimpleNamespace(scene="scene", step=None, of=lambda _: options)
+    state = SimpleNamespace(scene="scene", step=None, options=SimpleNamespace(outside=options))
     renderers = SimpleNamespace(camera=lambda _: inner, size=(40, 30))
     return SimpleNamespace(inner=inner, state=state, renderers=renderers)
 
@@ -100,7 +100,9 @@ def test_a_ray_that_nobody_asks_for_any_more_is_not_awaited():
     hits = RayPictures("test", lambda: None)
     live = SimpleNamespace(tracer_of=lambda _: None, preparing_s=1.0)  # the ray has to wait
     renderers = SimpleNamespace(live=live, size=(40, 30), depth_at=lambda *_: None)
-    state = SimpleNamespace(scene="scene", marked=(3, 4), of=lambda _: OutsideOptions())
+    state = SimpleNamespace(
+        scene="scene", marked=(3, 4), options=SimpleNamespace(outside=OutsideOptions())
+    )
     window = SimpleNamespace(state=state, renderers=renderers, hovered=None)
     about = hits, window, Camera(), (40, 30)
     assert ray_ends(*about, ())[0].pixel == (3, 4)

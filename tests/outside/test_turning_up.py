@@ -9,7 +9,7 @@ from app.instruments.outside.camera_diagram import Content, diagram
 from app.instruments.outside.diagram import Label
 from app.instruments.outside.frustum import plane_corners
 from app.instruments.outside.gizmo import distance_of, with_up
-from app.instruments.outside.options import OutsideOptions
+from app.state.options.outside import OutsideOptions
 from renderer.camera.camera import Camera
 
 CAMERA = Camera.look_at((3.2, 1.6, 3.8), (0, 0, 0), fov_y_deg=35.0, aspect=1.0)

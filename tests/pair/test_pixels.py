@@ -9,7 +9,7 @@ import pytest
 
 from app.cli import main
 from app.images.pair.actions import COUNTING
-from app.state.all_options import AllOptions
+from app.state.options import Options
 from app.window.action_table import ACTIONS
 from renderer.images.pixels import Indexing
 
@@ -28,8 +28,8 @@ def test_pixels_are_counted_as_chosen():
 
 
 def test_the_window_has_one_setting_for_all():
-    assert AllOptions().indexing is Indexing.LECTURE
-    assert AllOptions(one_based=False).indexing is Indexing.ARRAY
+    assert Options().indexing is Indexing.LECTURE
+    assert Options(one_based=False).indexing is Indexing.ARRAY
     assert [action.name for action in ACTIONS if action.menu == COUNTING] == [
         "Pixels from 1 (lecture)",
         "Pixels from 0 (arrays)",

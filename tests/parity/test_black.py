@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from option_changes import with_options
 
 from app.cameras.remedies import helped, remedy_for
 from app.cli import main
@@ -127,7 +128,7 @@ def test_an_exposure_that_hides_all_is_told_and_can_be_helped():
     assert dark.reason is None
     assert reason is not None
     assert reason.cause == "exposure"
-    state = AppState.for_scene(load_scene("canonical")).with_options(images={"exposure_ev": -4.0})
+    state = with_options(AppState.for_scene(load_scene("canonical")), images={"exposure_ev": -4.0})
     better = helped(state, reason, dark, scene_focus(state.scene))
     assert dark.shown(better.images.exposure_ev) is None
 

@@ -7,7 +7,6 @@ import pytest
 from PIL import Image
 
 from app.images.photograph.model import with_photograph
-from app.images.photograph.options import PhotographOptions
 from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
@@ -65,4 +64,4 @@ def test_a_session_keeps_it(photo):
         follows=True,
     )
     kept = from_bytes(to_bytes(session_of(state, Arrangement())))
-    assert kept.options.of(PhotographOptions) == state.of(PhotographOptions)
+    assert kept.options.photograph == state.options.photograph

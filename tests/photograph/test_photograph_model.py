@@ -16,7 +16,6 @@ from app.images.photograph.model import (
     pixels_of,
     with_photograph,
 )
-from app.images.photograph.options import PhotographOptions
 from app.state.app_state import AppState
 from renderer import load_scene
 from renderer.camera.camera import Camera
@@ -58,8 +57,8 @@ def test_a_photograph_comes_into_the_state_and_goes():
     assert path_of(state) is None
     shown = with_photograph(state, "/a/b\udcff.png", follows=True)
     assert path_of(shown) == Path("/a/b\udcff.png")
-    assert shown.of(PhotographOptions).follows
-    assert closed(shown).of(PhotographOptions) == state.of(PhotographOptions)
+    assert shown.options.photograph.follows
+    assert closed(shown).options.photograph == state.options.photograph
 
 
 @given(

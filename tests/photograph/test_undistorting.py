@@ -9,7 +9,6 @@ import pytest
 from trace_reference import closest
 
 from app.images.photograph.model import can_undistort, undistorting, with_photograph
-from app.images.photograph.options import PhotographOptions
 from app.images.photograph.reading import DecodedPhotograph, without_lens
 from app.state.app_state import AppState
 from renderer import load_scene
@@ -50,7 +49,7 @@ def test_an_undistorted_photograph_lines_up_with_the_pinhole_s_image(lens):
     state = shown(lens)
     seen = undistorting(state, (1, 1))
     photograph = DecodedPhotograph(taken(state.camera, SIZE), SIZE)
-    flat = without_lens(photograph, seen.of(PhotographOptions).distorted)
+    flat = without_lens(photograph, seen.options.photograph.distorted)
     assert seen.camera.lens is None and seen.view.own_size == flat.size
     wanted = taken(seen.camera, flat.size)
     inside = flat.pixels[..., 3] == 255
@@ -68,9 +67,9 @@ def test_with_the_lens_again_the_camera_stays_where_it_was_moved():
     assert can_undistort(seen)
     back = undistorting(seen, (1, 1))
     assert back.camera == state.camera and back.view.own_size == SIZE
-    assert back.of(PhotographOptions) == state.of(PhotographOptions)
+    assert back.options.photograph == state.options.photograph
     moved = undistorting(seen.with_camera(replace(seen.camera, eye=(1.0, 2.0, 3.0))), (1, 1))
     assert moved.camera == replace(state.camera, eye=(1.0, 2.0, 3.0))
     other = with_photograph(seen, "/another.png")
-    assert other.of(PhotographOptions).distorted is None
+    assert other.options.photograph.distorted is None
     assert not can_undistort(shown(LENSES[0]).with_camera(state.camera.pinhole))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from option_changes import with_options
 from sets_of_cameras import a_set, colmap, ring, transforms
 from waiting import wait_for
 
@@ -16,10 +17,10 @@ from app import cli
 from app.cameras.taken import TakenCamera
 from app.instruments.poses import reading
 from app.instruments.poses.model import PoseSet
-from app.instruments.poses.options import PosesOptions
 from app.instruments.poses.reading import PosesReader, is_cameras, open_cameras
 from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
+from app.state.options.poses import PosesOptions
 from app.state.paths import stored
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.opening import open_sources
@@ -237,8 +238,8 @@ def test_reading_that_was_cancelled_is_told_and_can_be_asked_for_again(tmp_path:
 def test_a_session_keeps_the_set_and_the_chosen_one() -> None:
     state = AppState.for_scene(load_scene("spheres"))
     chosen = {"file": stored("/data/sparse/0"), "pose": 7, "length": 2.5, "points": False}
-    state = state.with_options(poses=chosen)
-    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.of(PosesOptions)
+    state = with_options(state, poses=chosen)
+    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.poses
     assert kept == PosesOptions("/data/sparse/0", 7, 2.5, False)
 
 

@@ -10,8 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from app.state.rooms import ROOMS
-
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 
@@ -164,24 +162,6 @@ def test_cores_draw_nothing():
         todo.extend(imported(module))
         drawn = [n for n in imports(MODULES[module]) if n.split(".")[0] in GRAPHICS]
         assert not drawn, f"{module}, which a core reaches, imports {drawn}"
-
-
-def _rooms(file: str) -> list[str]:
-    return [f"{room.package}.{file}" for room in ROOMS if f"{room.package}.{file}" in MODULES]
-
-
-@pytest.mark.parametrize("module", _rooms("options"))
-def test_options_know_the_state_alone(module):
-    """The state asks the registry for them when it is imported itself: they cannot ask back."""
-    for name in imported(module):
-        assert name in ("app.state.options", "app.state.bounds") or is_within(name, "renderer")
-
-
-def test_every_instrument_is_registered():
-    """Those alone have an instrument.py, which nothing but the registry's name of it imports."""
-    found = {name for name in MODULES if name.startswith("app.") and name.endswith(".instrument")}
-    assert found - {"app.ui.instrument"} == set(_rooms("instrument"))
-    assert len(found) == len(ROOMS) + 1
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.images.pixelvalues import shown_bytes
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from renderer.images import to_srgb8
 from renderer.images.display import picture
 from renderer.images.frame import Frame

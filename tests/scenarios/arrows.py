@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from imgui_bundle import hello_imgui
+from option_changes import with_options
 from window_driver import RASTER, RAY, Driver, Key
 
 from app.instruments.probe.view import PROBE
@@ -18,7 +19,7 @@ def enter(d: Driver, name: str) -> None:
     """A layout, with a pixel marked."""
     layout.switch(name)
     d.ctx.yield_(5)
-    d.window.change(d.window.state.with_options(marked=START))
+    d.window.change(with_options(d.window.state, marked=START))
     d.settle()
 
 

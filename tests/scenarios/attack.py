@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import moderngl
 from imgui_bundle import imgui
+from option_changes import with_options
 from window_driver import SIZE, Driver
 
 from app.cameras.camera_panel.view import CAMERA
@@ -30,7 +31,7 @@ def resize(d: Driver, size: tuple[int, int]) -> None:
 def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
     stage = d.window.shell.stage
     for size, scale in (((640, 480), 3.0), ((200, 900), 2.0), ((1600, 120), 1.0), ((16, 16), 1.0)):
-        d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+        d.window.change(with_options(d.window.state, preferences={"font_scale": scale}))
         resize(d, size)
         for one in layout.LAYOUTS:
             layout.switch(one.name)
@@ -69,7 +70,7 @@ def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
 
 
 def drive_the_projection_stays_legible_in_a_narrow_panel(d: Driver) -> None:
-    d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
+    d.window.change(with_options(d.window.state, preferences={"font_scale": 3.0}))
     resize(d, (640, 480))
     boxes = [d.ctx.item_info(f"//{CAMERA}/{name}").rect_full for name in PROJECTIONS]
     assert boxes[0].max.x <= boxes[1].min.x or boxes[0].max.y <= boxes[1].min.y
@@ -82,7 +83,7 @@ def drive_sizes_do_not_grow_with_every_change_of_the_type(d: Driver) -> None:
     for _ in range(4):
         for theme, scale in (("light", 0.75), ("light", 2.0), ("dark", 3.0), ("dark", 1.0)):
             looks = {"theme": theme, "font_scale": scale}
-            d.window.change(d.window.state.with_options(preferences=looks))
+            d.window.change(with_options(d.window.state, preferences=looks))
             d.ctx.yield_(3)
         sizes.add((style.window_min_size.x, style.grab_min_size, style.scrollbar_size))
     assert len(sizes) == 1, sizes

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from held_clock import Clock
 from imgui_bundle import imgui
+from option_changes import with_options
 from window_driver import Driver, Key, changed
 
 from app.cameras.lens_choices import LENS_PRESETS
 from app.cameras.presets import PRESETS
 from app.cameras.travel import DURATION_S
-from app.images.pair.options import PairOptions
 from app.ui import typed
 from renderer.camera.camera import Camera
 from renderer.camera.lenses import Lens
@@ -119,7 +119,7 @@ def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) ->
     mark = height // 2, width // 2
     d.window.shell.stage.show("Ray", False)
     d.settle()
-    d.window.change(d.window.state.with_options(marked=mark))
+    d.window.change(with_options(d.window.state, marked=mark))
     d.type("eye.x", "3.5")
     d.settle()
     ray = d.window.renderers.camera(d.window.state).ray(*mark, d.window.renderers.size)
@@ -234,7 +234,7 @@ def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d: Driver) -> None:
     window = d.window
     assert window.renderers.seen_at(window.state, (1, 1)) == "outside of the lens"
     d.ctx.menu_click("//##MainMenuBar/Image/Straight lines")
-    assert window.state.of(PairOptions).straight_lines
+    assert window.state.options.pair.straight_lines
     d.ctx.yield_(2)
     d.press(int(Key.mod_alt) | int(Key._2))
     d.agreeing_images()

@@ -8,12 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from window_driver import SIZE, Driver, Key
 
 from app.images.compare import comparing
 from app.images.compare.view import waiting
 from app.images.progressive_ray import RayImage
-from app.state.options import ImageOptions, Pixel
+from app.state.options.shared import ImageOptions, Pixel
 from app.ui.theme import framebuffer_scale
 from renderer.compare.raster_and_ray import LABEL_COLORS, SHADING, Comparison
 from renderer.images.difference import false_color, signed_difference
@@ -66,7 +67,7 @@ def show(d: Driver, **options: object) -> None:
     if hello_imgui.current_layout_name() != NAME:
         hello_imgui.switch_layout(NAME)
         d.ctx.yield_(3)
-    d.window.change(d.window.state.with_options(compare={"mode": "absolute"} | options))
+    d.window.change(with_options(d.window.state, compare={"mode": "absolute"} | options))
     d.settle()
 
 
@@ -135,10 +136,10 @@ def check_false_colours(d):
         if mode == "signed":
             red, _, blue = seen[WORST].tolist()
             assert red > blue, "the ray image has more: orange"
-    d.window.change(d.window.state.with_options(images={"channel": "depth"}))
+    d.window.change(with_options(d.window.state, images={"channel": "depth"}))
     d.settle()
     assert shown(d)[45, 50].tolist() == [255] * 3, "signed: only the colour was changed"
-    d.window.change(d.window.state.with_options(images={"channel": "color"}))
+    d.window.change(with_options(d.window.state, images={"channel": "color"}))
 
 
 def check_counts(d):
@@ -192,7 +193,7 @@ def check_causes(d):
     fit = ImageOptions()  # undo has left the magnification
     assert d.window.state.images.magnification == comparing.MARKED_MAGNIFICATION
     whole = {"magnification": fit.magnification, "center": fit.center}
-    d.window.change(d.window.state.with_options(images=whole))
+    d.window.change(with_options(d.window.state, images=whole))
     d.settle()
     d.ctx.key_press(int(Key.k))
     d.settle()

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
+from option_changes import with_options
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from app.ui import folders, messages
@@ -99,7 +100,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     live.make_tracer = slow
     d.window.open("columns")
     d.until(lambda: d.window.state.scene.name == "columns")
-    d.window.change(d.window.state.with_options(mirrors=True))  # that needs a new one
+    d.window.change(with_options(d.window.state, mirrors=True))  # that needs a new one
     d.until(lambda: "preparing" in d.window.renderers.preparing())
     told = d.window.renderers.preparing()
     d.until(lambda: d.window.renderers.preparing() != told)  # the seconds, which are seen at rest
@@ -111,7 +112,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     assert d.window.renderers.live.busy
     live.make_tracer = good
     gate.set()
-    d.window.change(d.window.state.with_options(mirrors=False))
+    d.window.change(with_options(d.window.state, mirrors=False))
     d.agreeing_images()
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
 

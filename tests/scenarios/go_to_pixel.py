@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from option_changes import with_options
 from window_driver import Driver, Key
 
 from app.images.pair.boxes import PIXEL_TITLE as TITLE
@@ -25,14 +26,14 @@ def drive_a_pixel_is_typed(d: Driver) -> None:
     typed(d, "31", "41")
     assert window.state.marked == (30, 40)
     assert window.boxes.pixel is None
-    window.change(window.state.with_options(one_based=False))
+    window.change(with_options(window.state, one_based=False))
     typed(d, "31", "41")
     assert window.state.marked == (31, 41)
     assert len(window.history.past) == 3
 
 
 def drive_enter_in_the_first_field_keeps_the_column(d: Driver) -> None:
-    d.window.change(d.window.state.with_options(marked=(5, 6)))
+    d.window.change(with_options(d.window.state, marked=(5, 6)))
     d.ctx.yield_(2)
     d.press(OPEN)
     d.ctx.key_chars("9")
@@ -42,13 +43,13 @@ def drive_enter_in_the_first_field_keeps_the_column(d: Driver) -> None:
 
 def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
     window = d.window
-    before = window.state.with_options(marked=(5, 6))
+    before = with_options(window.state, marked=(5, 6))
     window.change(before)
     d.ctx.yield_(2)
     typed(d, "99999", "1")
     assert window.boxes.pixel is not None
     assert "'99999' is no row of this image; give 1 to" in window.boxes.pixel.problem
-    assert window.state.with_options(marked_size=None) == before
+    assert with_options(window.state, marked_size=None) == before
     d.press(int(Key.escape))
     assert window.boxes.pixel is None
     assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
@@ -57,7 +58,7 @@ def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
 def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
     """Escape leaves nothing else, and digits are no bookmarks, where no field has them yet."""
     window = d.window
-    window.change(window.state.with_options(preferences={"presentation": True}))
+    window.change(with_options(window.state, preferences={"presentation": True}))
     d.settle()
     before = window.state
     d.press(OPEN)
@@ -76,7 +77,7 @@ def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
 
 
 def drive_a_pixel_out_of_sight_is_brought_into_it(d: Driver) -> None:
-    d.window.change(d.window.state.with_options(images={"magnification": 16.0}))
+    d.window.change(with_options(d.window.state, images={"magnification": 16.0}))
     d.settle()
     typed(d, "2", "3")
     d.settle()

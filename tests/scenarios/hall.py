@@ -6,6 +6,7 @@ from typing import Any
 
 from capitals import capital_heights
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from views_in_turn import views_in_turn
 from window_driver import SIZE, Driver, Key
 
@@ -60,7 +61,7 @@ def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None
         assert imgui.get_font_size() == before
         d.window.lecture.leave(d.window)
         d.settle()
-        d.window.change(d.window.state.with_options(preferences={"presentation": True}))
+        d.window.change(with_options(d.window.state, preferences={"presentation": True}))
         for name in views_in_turn(d):
             look(name)
         d.window.change(d.start)

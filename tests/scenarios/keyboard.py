@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from imgui_bundle import imgui
+from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
 from window_driver import FRAME_S, Driver, Key
 
@@ -57,7 +58,7 @@ def drive_tab_reaches_every_control(d: Driver) -> None:
 
 def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
     for look in ("dark", "light", "contrast"):
-        d.window.change(d.window.state.with_options(preferences={"theme": look}))
+        d.window.change(with_options(d.window.state, preferences={"theme": look}))
         d.ctx.nav_move_to(d.field("eye.x"))
         box = d.ctx.item_info(d.field("eye.x")).rect_clipped
         left, top, right = int(box.min.x), int(box.min.y), int(box.max.x)

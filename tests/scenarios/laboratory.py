@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 from maximised import Maximised
+from option_changes import with_options
 from window_driver import Driver
 
 from app.instruments.laboratory.pages import PAGES
@@ -20,7 +21,7 @@ def drive_every_page_is_drawn_and_moves(d: Driver) -> None:
         seen = []
         for progress in sorted({0.0, kind.builds / 2, float(kind.builds)}):
             options = {"page": page, "progress": progress}
-            d.window.change(d.window.state.with_options(laboratory=options))
+            d.window.change(with_options(d.window.state, laboratory=options))
             d.settle()
             assert view.figure is not None and view.figure.parts
             seen.append(d.picture())

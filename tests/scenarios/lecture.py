@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from lecture_window import SMALL, give, item, lecture_of, number_of, shown
+from option_changes import with_options
 from window_driver import SIZE, Driver, Key, changed
 
 from app.lecture import view
@@ -132,9 +133,9 @@ def drive_builds_are_walked_and_move(d: Driver) -> None:
     assert press(Key.page_up) == (0, 0)
     d.settle()
     assert window.state.camera == first.camera
-    window.change(window.state.with_options(preferences={"reduced_motion": True}))
+    window.change(with_options(window.state, preferences={"reduced_motion": True}))
     assert press(Key.page_down) == (0, 1) and window.state is window.present
-    window.change(window.state.with_options(preferences={"reduced_motion": False}))
+    window.change(with_options(window.state, preferences={"reduced_motion": False}))
     window.undo()
     d.settle()
     assert session.place[1:] == (0, 0)  # a build is one step of undo
@@ -146,7 +147,7 @@ def drive_builds_are_walked_and_move(d: Driver) -> None:
 def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
     first, _ = give(d).steps
     lecture = d.window.state
-    d.window.change(d.window.state.with_options(shadows=True, images={"exposure_ev": 3.0}))
+    d.window.change(with_options(d.window.state, shadows=True, images={"exposure_ev": 3.0}))
     d.window.change(d.window.state.with_scene(d.start.scene))
     d.settle()
     d.ctx.key_press(int(Key.backspace))
@@ -158,13 +159,13 @@ def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
 
 def drive_undo_walks_back_over_steps(d: Driver) -> None:
     first, second = give(d).steps
-    moved = d.window.state.with_options(mirrors=True)
+    moved = with_options(d.window.state, mirrors=True)
     d.window.change(moved)
     d.settle()
     d.ctx.key_press(int(Key.page_down))
     d.settle()
     entered = d.window.state
-    d.window.change(entered.with_options(shadows=True))
+    d.window.change(with_options(entered, shadows=True))
     ctrl = int(Key.mod_ctrl)
     d.ctx.key_press(ctrl | int(Key.z))  # what was changed in this step
     d.settle()
@@ -187,7 +188,7 @@ def drive_undo_walks_back_over_steps(d: Driver) -> None:
         d.window.undo()
         d.ctx.yield_(2)
     d.settle()
-    begun = d.start.with_options(preferences={"presentation": True})  # which undo leaves alone
+    begun = with_options(d.start, preferences={"presentation": True})  # which undo leaves alone
     assert (number_of(d), d.window.state) == (0, begun)
 
 
@@ -343,7 +344,7 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     assert lecture.session is not None and lecture.session.lecture.title == "Dropped"
     assert shown(d) == {LECTURE, "Raster"}
     d.window.undo()  # what was there before is one step of undo away
-    assert d.window.state == d.start.with_options(preferences={"presentation": True})
+    assert d.window.state == with_options(d.start, preferences={"presentation": True})
 
 
 def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:
@@ -361,4 +362,4 @@ def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:
     d.ctx.key_press(int(Key.page_down))
     d.settle()
     assert d.window.state.options.language == "julia"  # the reader's own
-    d.window.change(d.window.state.with_options(language="python"))
+    d.window.change(with_options(d.window.state, language="python"))

@@ -12,7 +12,6 @@ from outside_window import place
 from window_driver import Driver, Key, changed
 
 from app.instruments.objects.choosing import chosen
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OUTSIDE, OutsideView
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import BUILTIN, load_lecture
@@ -22,7 +21,7 @@ from renderer.editing.moving import bounds_of
 
 
 def _looking(d: Driver) -> Camera | None:
-    return d.window.state.of(OutsideOptions).camera
+    return d.window.state.options.outside.camera
 
 
 def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from window_driver import Driver, Key
 
 from app.lecture.reading import BUILTIN, load_lecture
@@ -70,7 +71,8 @@ def _leave(d: Driver) -> None:
 def _spoil(d: Driver) -> None:
     """Do what a user may do between two steps."""
     state = d.window.state
-    changed = state.with_options(
+    changed = with_options(
+        state,
         marked=(1, 2),
         shadows=not state.options.shadows,
         images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},

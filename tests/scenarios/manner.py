@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
+from option_changes import with_options
 from PIL import Image
 from window_driver import SIZE, Driver, Key
 
@@ -77,7 +78,7 @@ def drive_what_was_typed_into_leaves_no_cursor(d: Driver) -> None:
 
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
     for scale in (1.0, 3.0):
-        d.window.change(d.window.state.with_options(preferences={"font_scale": scale}))
+        d.window.change(with_options(d.window.state, preferences={"font_scale": scale}))
         d.press(SHIFT | int(Key.slash))
         d.ctx.yield_(3)
         assert d.window.shell.help
@@ -292,7 +293,7 @@ def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
 
 
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
-    d.window.change(d.window.state.with_options(preferences={"font_scale": 3.0}))
+    d.window.change(with_options(d.window.state, preferences={"font_scale": 3.0}))
     try:
         for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
             hello_imgui.change_window_size((width, 480))
@@ -333,7 +334,7 @@ def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
 
 def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
     window = d.window
-    window.change(window.state.with_options(marked=(20, 30)))
+    window.change(with_options(window.state, marked=(20, 30)))
     d.settle()
     d.ctx.item_click("//Raster/strip Raster/##channel")
     d.ctx.yield_(3)

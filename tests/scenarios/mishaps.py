@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import moderngl
+from option_changes import with_options
 from window_driver import Driver
 
 from renderer.system.errors import LucidaError
@@ -25,7 +26,7 @@ def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
         raise error
 
     live.make_tracer = bad
-    d.window.change(d.window.state.with_options(shadows=not d.window.state.options.shadows))
+    d.window.change(with_options(d.window.state, shadows=not d.window.state.options.shadows))
     # The full image of a camera at rest is a request of its own, which fails once more.
     d.until(lambda: live.error is not None and not renderers.unfinished(d.window.state))
     d.until(lambda: live.error is not None and is_told(d))

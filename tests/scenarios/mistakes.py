@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 from maximised import Maximised
+from option_changes import with_options
 from window_driver import Driver, Key, changed
 
 from app.instruments.mistakes import model
 from app.instruments.mistakes import question as quiz
-from app.instruments.mistakes.options import MistakesOptions
 from app.instruments.mistakes.view import MISTAKES, MistakesView
 from app.instruments.outside.view import OUTSIDE, OutsideView
+from app.state.options.mistakes import MistakesOptions
 
 ALONE = Maximised(MistakesView, "mistakes")
 SHIFT = int(Key.mod_shift)
 
 
 def _options(d: Driver) -> MistakesOptions:
-    return d.window.state.of(MistakesOptions)
+    return d.window.state.options.mistakes
 
 
 def _item(name: str) -> str:
@@ -88,16 +89,16 @@ def drive_the_outside_view_shows_the_wrong_camera(d: Driver) -> None:
     d.window.shell.stage.show(OUTSIDE)
     d.settle()
     d.window.shell.stage.show(MISTAKES)
-    d.window.change(d.window.state.with_options(marked=(100, 100)))
+    d.window.change(with_options(d.window.state, marked=(100, 100)))
     d.settle()
     view = d.window.view(MistakesView)
     names = {item.name for item in d.window.view(OutsideView).extra}
     assert view.made is not None and {"second edges", "second ray"} <= names
     _ = d.picture()
-    d.window.change(d.window.state.with_options(mistakes={"chosen": ()}))
+    d.window.change(with_options(d.window.state, mistakes={"chosen": ()}))
     d.settle()
     assert not d.window.view(OutsideView).extra
-    d.window.change(d.window.state.with_options(mistakes={"chosen": ("no eye",)}))
+    d.window.change(with_options(d.window.state, mistakes={"chosen": ("no eye",)}))
     d.settle()
     assert d.window.view(OutsideView).extra
     d.window.shell.stage.show(MISTAKES, False)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle import hello_imgui
+from option_changes import with_options
 from window_driver import Driver
 
 from app.images import renderers as module
@@ -106,7 +107,7 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
     found.raster_in, d.run.on_drawn = ask, look  # type: ignore[method-assign]
     try:
         d.ctx.yield_(3)
-        d.window.change(d.window.state.with_options(images={"channel": "id"}))
+        d.window.change(with_options(d.window.state, images={"channel": "id"}))
         d.ctx.yield_(3)
     finally:
         d.run.on_drawn = None
@@ -152,7 +153,7 @@ def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
     d.ctx.yield_(5)
     d.window.shell.stage.show("Compare")
     d.ctx.yield_(3)
-    d.window.change(d.window.state.with_options(compare={"mode": "wipe", "divider": 0.5}))
+    d.window.change(with_options(d.window.state, compare={"mode": "wipe", "divider": 0.5}))
     d.settle()
     seen: list[tuple[int, np.ndarray]] = []
 

@@ -16,11 +16,11 @@ from objects_window import (
     opened,
     seen_at,
 )
+from option_changes import with_options
 from window_driver import RASTER, RAY, Driver, Key
 
 from app.instruments.objects.choosing import choose, chosen, rows_of
 from app.instruments.objects.in_views import CHOSEN
-from app.instruments.objects.options import ObjectsOptions
 from app.instruments.objects.view import InspectorView
 from app.instruments.outside.view import OUTSIDE
 from app.state.app_state import History
@@ -52,9 +52,9 @@ def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
     click(d, seen_at(d, RASTER, "matte sphere"))
     assert window.state.marked is not None
     assert now(d) == ()
-    window.change(window.state.with_options(marked=None))
+    window.change(with_options(window.state, marked=None))
     d.press(int(Key.v))
-    assert window.state.of(ObjectsOptions).selects
+    assert window.state.options.objects.selects
     for view in (RASTER, RAY, OUTSIDE):
         click(d, seen_at(d, view, "matte sphere"))
         assert now(d) == ("matte sphere",), view
@@ -72,7 +72,7 @@ def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
 def drive_outlines_end_where_the_image_does(d: Driver) -> None:
     enter(d)
     window = d.window
-    state = window.state.with_options(images={"resolution": (64, 64)}, objects={"handle": "none"})
+    state = with_options(window.state, images={"resolution": (64, 64)}, objects={"handle": "none"})
     window.change(choose(state, (item(d, "floor"),)))
     d.settle()
     picture = d.picture().astype(int)
@@ -299,7 +299,7 @@ def drive_the_column_grows_with_the_type(d: Driver) -> None:
     window.amend(choose(window.state, (item(d, "box"),)))
     wide = []
     for scale in (1.0, 1.5, 1.0):
-        window.change(window.state.with_options(preferences={"font_scale": scale}))
+        window.change(with_options(window.state, preferences={"font_scale": scale}))
         d.settle()
         d.picture()
         wide.append(d.ctx.item_info("//###Objects/##search").rect_full.get_width())

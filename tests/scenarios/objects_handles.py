@@ -13,6 +13,7 @@ from objects_window import (
     item,
     now,
 )
+from option_changes import with_options
 from window_driver import RASTER, Driver, Key
 
 from app.instruments.objects.choosing import choose
@@ -24,7 +25,7 @@ from renderer.editing.moving import bounds_of
 def drive_handles_move_in_the_images_and_outside(d: Driver) -> None:
     enter(d)
     window = d.window
-    window.change(window.state.with_options(objects={"handle": "move"}))
+    window.change(with_options(window.state, objects={"handle": "move"}))
     for view in (RASTER, OUTSIDE):
         window.amend(choose(window.state, (item(d, "shiny sphere"),)))
         d.settle()
@@ -73,7 +74,7 @@ def drive_escape_and_undo_end_the_drag_of_a_handle(d: Driver) -> None:
 def choose_to(d: Driver, handle: str, name: str) -> None:
     """An object with handles that do this."""
     enter(d)
-    state = d.window.state.with_options(objects={"handle": handle})
+    state = with_options(d.window.state, objects={"handle": handle})
     d.window.change(choose(state, (item(d, name),)))
     d.settle()
 

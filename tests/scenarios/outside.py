@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle.imguizmo import im_guizmo
+from option_changes import with_options
 from outside_window import enter, place, press, scope, strokes, view
 from window_driver import Driver, Key
 
@@ -66,7 +67,7 @@ def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) ->
     from_behind = center + 1.4 * ball.radius * way
     for eye, hidden in ((from_behind, True), (spot - 0.5 * way, False)):
         looking = Camera.look_at(eye, spot, fov_y_deg=40.0)
-        window.change(window.state.with_options(outside={"camera": looking}, marked=None))
+        window.change(with_options(window.state, outside={"camera": looking}, marked=None))
         d.ctx.yield_(3)  # its rows and columns are where it was drawn
         d.settle()
         d.ctx.mouse_teleport_to_pos(place(d, spot))
@@ -129,7 +130,7 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
                 "presentation": palette in (theme.PRESENTED_LIGHT, theme.PRESENTED_DARK),
             }
             drawn.clear()
-            d.window.change(d.window.state.with_options(preferences=look))
+            d.window.change(with_options(d.window.state, preferences=look))
             if look["presentation"]:
                 d.ctx.yield_(3)
                 d.window.shell.stage.show(OUTSIDE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from held_clock import Clock
+from option_changes import with_options
 from outside_window import empty_place, enter, press, scope, view
 from window_driver import Driver, Key
 
@@ -31,7 +32,7 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     enter(d)
     at = view(d).scope
     assert at is not None  # else it would follow, to see all
-    d.window.change(d.window.state.with_options(outside={"camera": at.camera}))
+    d.window.change(with_options(d.window.state, outside={"camera": at.camera}))
     d.settle()
     shown = ground(d).shown
     for name in ("eye.x", "distance"):

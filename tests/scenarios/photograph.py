@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from option_changes import with_options
 from PIL import Image
 from window_driver import SIZE, Driver, Key
 
@@ -26,7 +27,7 @@ def layer(d: Driver) -> PhotographLayer:
 
 
 def laid(d: Driver, **changes: object) -> AppState:
-    return d.window.state.with_options(photograph=changes)
+    return with_options(d.window.state, photograph=changes)
 
 
 def saved(d: Driver, pixels: np.ndarray, name: str = "photo.png") -> Path:
@@ -115,7 +116,7 @@ def drive_magnified_its_pixels_are_the_image_s(d: Driver) -> None:
     pixels = noise(d)
     opened(d, saved(d, pixels))
     images = {"magnification": 8.0, "center": (0.5, 0.5), "grid": False}
-    d.window.change(laid(d, opacity=1.0).with_options(images=images))
+    d.window.change(with_options(laid(d, opacity=1.0), images=images))
     d.settle()
     placement = d.window.renderers.placement(d.window.state)
     assert placement is not None

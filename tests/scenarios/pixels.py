@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from option_changes import with_options
 from shown_pixels import ALT, SHIFT, choose, magnified, placement, without_overlays
 from window_driver import Driver, Key
 
@@ -95,7 +96,7 @@ def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
     window = d.window
     choose(d, "Resolution/160 x 90")
     choose(d, "Magnification/8x")
-    window.change(window.state.with_options(images={"center": (0.4, 0.6), "grid": False}))
+    window.change(with_options(window.state, images={"center": (0.4, 0.6), "grid": False}))
     d.settle()
     plain = d.images()
     for name, image in zip((RASTER, RAY), plain, strict=True):
@@ -143,7 +144,7 @@ def drive_rulers_stand_beside_the_image(d: Driver) -> None:
 
     from_one = rulers()
     assert all(np.ptp(ruler) > 100 for ruler in from_one), "there are no numbers"
-    window.change(window.state.with_options(one_based=False))
+    window.change(with_options(window.state, one_based=False))
     d.settle()
     for before, after in zip(from_one, rulers(), strict=True):
         assert np.abs(after - before).max() > 60, "they follow the way to count"
@@ -197,9 +198,9 @@ def drive_values_are_written_into_large_pixels(d: Driver) -> None:
     d.settle()
     assert np.abs(without_overlays(d.images()[0] - counted)).max() > 60
     # From 48 units a side on, each has its row and column too.
-    window.change(window.state.with_options(images={"magnification": 64.0}))
+    window.change(with_options(window.state, images={"magnification": 64.0}))
     d.settle()
     large = d.images()[0]
-    window.change(window.state.with_options(one_based=False))
+    window.change(with_options(window.state, one_based=False))
     d.settle()
     assert np.abs(without_overlays(d.images()[0] - large)).max() > 60

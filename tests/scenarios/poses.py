@@ -7,17 +7,17 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from outside_window import place, scope, strokes
 from outside_window import view as outside_view
 from PIL import Image
 from window_driver import RASTER, Driver, Key, changed
 
 from app.images.pair.view import RasterView
-from app.images.photograph.options import PhotographOptions
-from app.instruments.objects.options import ObjectsOptions
 from app.instruments.poses.model import PoseSet, frusta
 from app.instruments.poses.photographs import photo_path
 from app.instruments.poses.view import POSES, PosesView
+from app.state.options.photograph import PhotographOptions
 from app.state.paths import restored
 from app.ui import layout
 from renderer.camera.camera import Camera
@@ -135,7 +135,7 @@ def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
 
 def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> None:
     poses = opened(d, transforms(d))
-    d.window.change(d.window.state.with_options(outside={"image": False, "grid": False}))
+    d.window.change(with_options(d.window.state, outside={"image": False, "grid": False}))
     d.settle()
     before, steps = d.window.state, len(d.window.history.past)
     d.ctx.item_click(f"{WINDOW}/**/###3")
@@ -163,7 +163,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> N
         d.press(key)
         assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
     # Where the mouse rests on an image, they move the mark.
-    d.window.change(d.window.state.with_options(marked=(5, 5)))
+    d.window.change(with_options(d.window.state, marked=(5, 5)))
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
     d.ctx.yield_(2)
     d.press(DOWN)
@@ -178,7 +178,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> N
         d.ctx.mouse_double_click(imgui.MouseButton_.left)
         d.ctx.yield_(3)
         assert chosen(d) == number and stands_at(d, poses, number)
-        assert not d.window.state.of(ObjectsOptions).chosen  # of what lies behind it
+        assert not d.window.state.options.objects.chosen  # of what lies behind it
         d.settle()
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.ctx.yield_(3)
@@ -277,7 +277,7 @@ def drive_the_photograph_follows_the_set(d: Driver) -> None:
     poses, laid = opened(d, transforms(d)), d.window.view(RasterView).linked.photograph
 
     def file() -> PhotographOptions:
-        return d.window.state.of(PhotographOptions)
+        return d.window.state.options.photograph
 
     def take(number: int) -> None:
         view(d).take(d.window, number)
@@ -304,7 +304,7 @@ def drive_a_mistake_is_reported_and_a_set_follows_its_file(d: Driver) -> None:
     path = transforms(d)
     poses = opened(d, path)
     away, broken = d.folder / "away.json", d.folder / "broken.json"
-    d.window.change(d.window.state.with_options(poses={"file": str(away), "pose": -1}))
+    d.window.change(with_options(d.window.state, poses={"file": str(away), "pose": -1}))
     d.until(lambda: view(d).poses is None and str(away) in view(d).problem)
     assert outside_view(d).cloud is None
     d.window.undo()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from imgui_bundle import hello_imgui
+from option_changes import with_options
 from window_driver import RASTER, Driver, Key
 
 from app.instruments.outside.projected import Strokes
@@ -79,7 +80,7 @@ def drive_a_click_fills_the_probe(d):
 
 def drive_keys_walk_and_pins_stay(d):
     enter(d)
-    d.window.change(d.window.state.with_options(marked=(60, 70)))
+    d.window.change(with_options(d.window.state, marked=(60, 70)))
     d.settle()
     d.ctx.window_focus(WINDOW)
     d.ctx.yield_(2)
@@ -95,7 +96,7 @@ def drive_keys_walk_and_pins_stay(d):
     d.ctx.item_click(f"{WINDOW}/Pin")
     d.ctx.yield_(2)
     assert d.window.state.options.probe.pins == ((51, 71),)
-    d.window.change(d.window.state.with_options(marked=(5, 6)))
+    d.window.change(with_options(d.window.state, marked=(5, 6)))
     d.settle()
     d.ctx.item_click(f"{WINDOW}/###pin0")
     d.ctx.yield_(2)
@@ -112,7 +113,7 @@ def drive_pins_are_framed_in_both_images(d):
     leave(d)
     d.settle()
     plain = d.images()
-    d.window.change(d.window.state.with_options(probe={"pins": ((40, 50), (9000, 9000))}))
+    d.window.change(with_options(d.window.state, probe={"pins": ((40, 50), (9000, 9000))}))
     d.settle()
     scale = plain[0].shape[1] / d.window.renderers.size[0]
     row, column = round(40.5 * scale), round(50.5 * scale)
@@ -135,12 +136,12 @@ def lines(d: Driver, name: str) -> int:
 
 def drive_rays_of_pins_stand_in_the_outside_view(d):
     enter(d)
-    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    d.window.change(with_options(d.window.state, marked=(120, 150)))
     d.settle()
     assert lines(d, "pin") == 0
     assert lines(d, "normal") > 0
     options = {"pins": ((20, 30), (100, 40))}
-    d.window.change(d.window.state.with_options(probe=options))
+    d.window.change(with_options(d.window.state, probe=options))
     d.settle()
     assert lines(d, "pin") >= 2
     d.window.shell.stage.show(PROBE, False)
@@ -153,7 +154,7 @@ def drive_rays_of_pins_stand_in_the_outside_view(d):
 
 def drive_without_the_locale_formulas_are_text(d):
     enter(d)
-    d.window.change(d.window.state.with_options(marked=(120, 150)))
+    d.window.change(with_options(d.window.state, marked=(120, 150)))
     d.settle()
     typeset = d.picture()
     real, formula.available = formula.available, lambda: False

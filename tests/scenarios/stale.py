@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from imgui_bundle import hello_imgui
+from option_changes import with_options
 from window_driver import Driver, Key
 
 from app.images.pair.view import RASTER, RAY
@@ -31,10 +32,10 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
     for view, mode in ((RAY, ""), (COMPARE, "flip"), (COMPARE, "wipe")):
         hello_imgui.switch_layout(COMPARE if mode else "Side by side")
         d.ctx.yield_(5)
-        window.change(d.start.with_options(images={"channel": "depth"}))
+        window.change(with_options(d.start, images={"channel": "depth"}))
         if mode:
             options = {"mode": mode, "flipped": True, "divider": 0.1}
-            window.change(window.state.with_options(compare=options))
+            window.change(with_options(window.state, compare=options))
         d.settle()
         assert len(np.unique(middle(d, view), axis=0)) > 20
         live.request = lambda *_: None  # type: ignore[method-assign]
@@ -45,7 +46,7 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
             assert len(np.unique(middle(d, view), axis=0)) > 20, "an image of a camera on its way"
             window.undo()
             shown = window.state
-            window.change(shown.with_options(images={"resolution": (300, 100)}))
+            window.change(with_options(shown, images={"resolution": (300, 100)}))
             d.ctx.yield_(5)
             assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another size"
             window.undo()
@@ -102,7 +103,7 @@ def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
 def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
     window, both = d.window, d.window.renderers
     pixel = both.size[1] // 3, both.size[0] // 4
-    window.change(window.state.with_options(marked=pixel))
+    window.change(with_options(window.state, marked=pixel))
     d.settle()
 
     def direction() -> np.ndarray:
@@ -114,7 +115,7 @@ def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
         return float(np.linalg.norm(direction() - first)) < pixel_size
 
     first, size = direction(), both.size
-    window.change(window.state.with_options(shadows=True))
+    window.change(with_options(window.state, shadows=True))
     kept = to_bytes(session_of(window.state, window.shell.stage.arrangement()))
     hello_imgui.switch_layout(COMPARE)
     d.ctx.yield_(8)

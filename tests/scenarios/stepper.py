@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from imgui_bundle import hello_imgui
+from option_changes import with_options
 from window_driver import Driver, Key
 
 from app.instruments.outside.projected import Strokes
@@ -27,7 +28,7 @@ def view(d: Driver) -> StepperView:
 def enter(d: Driver, **options: object) -> None:
     layout.switch("Loops")
     d.ctx.yield_(5)
-    d.window.change(d.window.state.with_options(stepper=options))
+    d.window.change(with_options(d.window.state, stepper=options))
     d.settle()
     d.until(lambda: len(view(d).moments) > 0)
 
@@ -128,7 +129,7 @@ def drive_the_palette_and_the_keys_step(d: Driver) -> None:
         entry.run()
         d.ctx.yield_(3)
         assert d.window.state.options.stepper.steps == steps
-        d.window.change(d.window.state.with_options(stepper={"steps": before}))
+        d.window.change(with_options(d.window.state, stepper={"steps": before}))
         d.ctx.window_focus(WINDOW)
         d.ctx.yield_(2)
         d.ctx.key_press(int(getattr(Key, key)))

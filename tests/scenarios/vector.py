@@ -5,6 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+from option_changes import with_options
 from window_driver import Driver, Key
 
 SPACE = "{http://www.w3.org/2000/svg}"
@@ -26,7 +27,7 @@ def _store(d: Driver, path: Path) -> ElementTree.Element:
 
 
 def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
-    d.window.change(d.window.state.with_options(marked=(60, 90), outside={"bundle": (2, 2)}))
+    d.window.change(with_options(d.window.state, marked=(60, 90), outside={"bundle": (2, 2)}))
     d.settle()
     d.ctx.key_press(int(Key.mod_ctrl) | int(Key.mod_shift) | int(Key.e))
     root = _store(d, d.folder / "first")

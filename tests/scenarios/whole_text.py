@@ -8,6 +8,7 @@ from itertools import chain
 
 from cut_texts import cut_texts
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
 from window_driver import Driver, Key
 
@@ -80,7 +81,7 @@ def layouts(d: Driver) -> Iterator[str]:
 
 def drive_nothing_is_cut_off(d: Driver) -> None:
     cut: dict[str, dict[str, str]] = {}
-    d.window.change(with_content(d).with_options(preferences={"font_scale": LARGEST}))
+    d.window.change(with_options(with_content(d), preferences={"font_scale": LARGEST}))
     d.settle()
     with looking(d, cut) as look:
         for size in SIZES:  # boxes and single views in the last one alone, which is the lowest

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from window_driver import Driver, Key
 
 from app.checking.calls import Limits
@@ -76,7 +77,7 @@ def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
 
 def leave(d: Driver) -> None:
     """No file, and the layout that the other tests begin with."""
-    d.window.change(d.window.state.with_options(your_code={"file": ""}))
+    d.window.change(with_options(d.window.state, your_code={"file": ""}))
     d.ctx.yield_(3)
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
     d.ctx.yield_(5)
@@ -108,7 +109,7 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     assert pictures is not None and pictures.size == (32, 24)
     assert (pictures.given == pictures.right).all()
     before = pictures.given
-    d.window.change(d.window.state.with_options(your_code={"canvas": (16, 12)}))
+    d.window.change(with_options(d.window.state, your_code={"canvas": (16, 12)}))
     d.until(lambda: view(d).pictures is not None and view(d).pictures.size == (16, 12))
     state = d.window.state
     d.window.change(state.with_view(d.start.scene.view))
@@ -142,9 +143,9 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     d.ctx.yield_(3)
     assert d.window.state.marked is not None
     # The count is the tasks' once, at a window's first file; then it is the user's.
-    d.window.change(d.window.state.with_options(one_based=True))
+    d.window.change(with_options(d.window.state, one_based=True))
     until_told(d, "pixel (1, 1), from 1")
-    d.window.change(d.window.state.with_options(one_based=False))
+    d.window.change(with_options(d.window.state, one_based=False))
     until_told(d, "pixel (0, 0), from 0")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
@@ -188,7 +189,7 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     d.ctx.yield_(10)
     assert not runs.busy  # not by itself
     assert view(d).report.question.version == version
-    d.window.change(d.window.state.with_options(your_code={"canvas": (4, 3)}))
+    d.window.change(with_options(d.window.state, your_code={"canvas": (4, 3)}))
     until_told(d, "Every ray is correct.")  # it has no fourth row
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
@@ -233,7 +234,7 @@ def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
     until_told(d, "to_gray is wrong.")
     d.until(lambda: view(d).pictures is not None)
     d.picture()
-    d.window.change(d.window.state.with_options(your_code={"task": "memory-offset"}))
+    d.window.change(with_options(d.window.state, your_code={"task": "memory-offset"}))
     until_told(d, "memory_offset is wrong.", "printed", "asked 0")
     assert view(d).pictures is None
     d.picture()
@@ -245,7 +246,7 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     course.write_text(TASKS)
     opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
-    d.window.change(d.window.state.with_options(one_based=False))
+    d.window.change(with_options(d.window.state, one_based=False))
     d.drop([str(course)])
     d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
     until_told(d, "Every ray is correct.", "counting: correct in all of")
@@ -285,7 +286,7 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
     try:
         for scale in (1.0, 1.5, 2.0, 3.0):
             wished = {"font_scale": scale, "presentation": True}
-            d.window.change(d.window.state.with_options(preferences=wished))
+            d.window.change(with_options(d.window.state, preferences=wished))
             d.settle()
             sizes.clear()
             d.until(lambda: "768 of 768 rays are wrong." in sizes)
@@ -297,7 +298,7 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
         panel.coded_text = coded_text
         stage.maximise()
         wished = {"font_scale": 1.0, "presentation": False}
-        d.window.change(d.window.state.with_options(preferences=wished))
+        d.window.change(with_options(d.window.state, preferences=wished))
     leave(d)
 
 

@@ -8,18 +8,19 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
+from option_changes import with_options
 
-from app.images.compare.options import CompareOptions
 from app.images.placement import STEPS
-from app.instruments.laboratory.options import LaboratoryOptions
-from app.instruments.outside.options import OutsideOptions
-from app.instruments.probe.options import ProbeOptions
-from app.instruments.stepper.options import StepperOptions
 from app.lecture.step_options import options_from_table
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState
 from app.state.bounds import Accepted, AtMost, Range, check, clamped, range_of, whole_range_of
-from app.state.options import Bookmark, ImageOptions, Preferences
+from app.state.options import Options
+from app.state.options.compare import CompareOptions
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.outside import OutsideOptions
+from app.state.options.probe import ProbeOptions
+from app.state.options.shared import Bookmark, ImageOptions, Preferences
+from app.state.options.stepper import StepperOptions
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window.actions import FONT_SCALES
 from app.window.bookmarks import NUMBERS
@@ -75,13 +76,13 @@ def _numbers(hint: Any, bounded: bool, path: str) -> Any:
 
 
 def test_every_number_among_the_options_has_a_bound():
-    found = dict(_numbers(AllOptions, False, "options"))
+    found = dict(_numbers(Options, False, "options"))
     assert len(found) > 15
     assert [path for path, bounded in found.items() if not bounded] == []
 
 
 def test_every_list_among_the_options_has_a_length():
-    for kind in (AllOptions, ProbeOptions):
+    for kind in (Options, ProbeOptions):
         for name, hint in get_type_hints(kind, include_extras=True).items():
             if Ellipsis in get_args(hint) or Ellipsis in get_args(get_args(hint)[:1] or None):
                 assert any(isinstance(m, AtMost) for m in hint.__metadata__), name
@@ -109,14 +110,15 @@ def test_what_a_key_or_a_field_asks_for_comes_within_bounds(state, part, field, 
     """So that no session is written that is refused when the window opens again."""
     if isinstance(value, list):
         value = tuple(tuple(v) if isinstance(v, list) else v for v in value)
-    changed = state.with_options(**{part: {field: value}})
-    check(AllOptions, changed.options)
+    changed = with_options(state, **{part: {field: value}})
+    check(Options, changed.options)
     read = from_bytes(to_bytes(session_of(changed, Arrangement())))
     assert read.options == changed.options
 
 
 def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
-    changed = state.with_options(
+    changed = with_options(
+        state,
         images={"exposure_ev": 100.0, "pixel_size": 7, "center": (-3.0, 0.25), "grid": False},
         compare={"gain": math.nan},
         laboratory={"progress": 9.0, "phase": math.nan},
@@ -135,7 +137,8 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
 
 
 def test_what_is_within_bounds_is_the_same_value(state):
-    options = state.with_options(
+    options = with_options(
+        state,
         outside={"camera": Camera((9, 9, 9)), "bundle": (64, 0)},
         bookmarks=(Bookmark(9, "far", state.view),),
         marked=(16383, 0),
@@ -157,13 +160,13 @@ def test_what_steps_through_a_range_ends_at_its_bounds():
 
 
 def test_the_ends_belong_to_a_bound_and_what_is_no_number_to_none():
-    check(AllOptions, AllOptions())
+    check(Options, Options())
     assert [Range(1, 4).problem(value) for value in (1, 4)] == [None, None]
     for value in (math.nan, math.inf, -math.inf):
         assert Range(1, 4).problem(value) == (f"{value:g} is out of range", "give 1 to 4")
     assert AtMost(2).problem((1, 2)) is None
     with pytest.raises(LucidaError, match=r"bookmarks\[0\].number: .* give 1 to 9"):
-        check(AllOptions, AllOptions(bookmarks=(Bookmark(10, "", View(Camera())),)))
+        check(Options, Options(bookmarks=(Bookmark(10, "", View(Camera())),)))
     assert Range(1, 4).clamped(math.nan, None) == 1
     assert Range(1, 4).clamped(math.nan, 3.0) == 3.0
     assert Accepted(Camera).clamped("no eye", (1, 2)) == (1, 2)

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from option_changes import with_options
 
 from app.cameras.basis import with_component, with_vector
 from app.cameras.editing import Draft, edit_component, edit_field
-from app.instruments.outside.options import OutsideOptions
-from app.state.all_options import KINDS
 from app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from app.state.changes import change
+from app.state.options import Options
 from renderer.camera.camera import Camera
 from renderer.files import load_scene
 from renderer.scene import View
@@ -57,13 +57,13 @@ def test_the_first_of_two_clicks_is_taken_back() -> None:
     start = AppState.for_scene(load_scene("canonical"))
     before = History(start).change(start.with_fit(not start.view.fit))
     click, later = ("drag", 3), ("drag", 4)
-    marked = before.change(before.present.with_options(marked=(1, 2)), click)
+    marked = before.change(with_options(before.present, marked=(1, 2)), click)
     assert (marked.unclicked(click).present, marked.unclicked(click).past) == (
         before.present,
         before.past,
     )
     assert marked.unclicked(later) is marked  # something else came in between
-    drawn = marked.amended(marked.present.with_options(marked_size=(64, 36)))
+    drawn = marked.amended(with_options(marked.present, marked_size=(64, 36)))
     assert drawn.unclicked(click).present == before.present
     other = before.change(before.present.with_fit(start.view.fit), click)
     assert other.unclicked(click) is other  # a drag that has changed more
@@ -98,22 +98,22 @@ LOOKS = (
 @pytest.mark.parametrize("looks", LOOKS)
 def test_undo_leaves_the_looks_as_they_are(looks: dict[str, dict[str, object]]) -> None:
     history = History(STATE).change(moved(1.0)).change(moved(2.0)).undo()
-    seen = history.change(history.present.with_options(**looks), "a drag")
+    seen = history.change(with_options(history.present, **looks), "a drag")
     assert (seen.past, seen.future) == (history.past, history.future)  # no step, and no end of redo
-    assert seen.undo().present == STATE.with_options(**looks)
-    assert seen.redo().present == moved(2.0).with_options(**looks)
+    assert seen.undo().present == with_options(STATE, **looks)
+    assert seen.redo().present == with_options(moved(2.0), **looks)
     both = seen.change(moved(3.0))  # and the looks of before
     assert both.present == moved(3.0) and both.undo().present == moved(1.0)
 
 
 def test_undo_is_for_what_the_images_are() -> None:
     for options in ({"images": {"resolution": (64, 36)}}, {"shadows": True}, {"mirrors": True}):
-        history = History(STATE).change(STATE.with_options(**options))
+        history = History(STATE).change(with_options(STATE, **options))
         assert history.undo().present == STATE
 
 
 def test_undo_of_a_lectures_step_brings_its_display_back() -> None:
-    shown = IN_LECTURE.with_options(images={"channel": "id"})
+    shown = with_options(IN_LECTURE, images={"channel": "id"})
     after = replace(STATE, step=("a lecture", 3))
     assert History(shown).change(after).undo().present == shown
 
@@ -140,11 +140,11 @@ def test_the_switch_follows_the_basis_and_mends_it() -> None:
 
 
 def test_a_mark_has_the_size_of_the_image_that_it_was_set_in() -> None:
-    state = STATE.with_options(marked=(1, 2), marked_size=(64, 36))
-    assert state.with_options(marked=(1, 2), shadows=True).options.marked_size == (64, 36)
-    assert state.with_options(marked=(2, 2)).options.marked_size is None
-    assert state.with_options(marked=None).options.marked_size is None
-    assert change(state, state.with_options(marked=(2, 2))) == "marked"
+    state = with_options(STATE, marked=(1, 2), marked_size=(64, 36))
+    assert with_options(state, marked=(1, 2), shadows=True).options.marked_size == (64, 36)
+    assert with_options(state, marked=(2, 2)).options.marked_size is None
+    assert with_options(state, marked=None).options.marked_size is None
+    assert change(state, with_options(state, marked=(2, 2))) == "marked"
 
 
 IN_LECTURE = replace(STATE, step=("a lecture", 2, 0))
@@ -156,8 +156,8 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
     [
         (STATE, IN_LECTURE, "lecture: step 3"),
         (IN_LECTURE, replace(STATE, step=("a lecture", 2, 1)), "lecture: step 3.2"),
-        (IN_LECTURE, IN_LECTURE.with_options(marked=(2, 2)), "marked"),
-        (IN_LECTURE, STATE.with_options(marked=(2, 2)), "marked"),
+        (IN_LECTURE, with_options(IN_LECTURE, marked=(2, 2)), "marked"),
+        (IN_LECTURE, with_options(STATE, marked=(2, 2)), "marked"),
         (STATE, STATE.with_scene(replace(SCENE, name="cow")), "scene: cow"),
         (STATE, STATE.with_scene(replace(SCENE)), "scene: without a name"),
         (STATE, moved(3.0), "camera: eye"),
@@ -166,10 +166,10 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
         (STATE, STATE.with_fit(False), "fit to the aspect ratio"),
         (STATE, STATE.with_keep_orthonormal(False), "keep orthonormal"),
         (STATE, STATE.with_view(View(SKEWED, fit=True)), "camera: view"),
-        (STATE, STATE.with_options(images={"pixel_size": 4}), "pixel size"),
-        (STATE, STATE.with_options(outside={"camera": SKEWED}), "camera"),
+        (STATE, with_options(STATE, images={"pixel_size": 4}), "pixel size"),
+        (STATE, with_options(STATE, outside={"camera": SKEWED}), "camera"),
         (
-            moved(3.0).with_options(shadows=True, outside={"ray": False, "grid": False}),
+            with_options(moved(3.0), shadows=True, outside={"ray": False, "grid": False}),
             STATE,
             "camera: eye, shadows, grid",
         ),
@@ -283,8 +283,8 @@ def test_a_draft_is_dropped_when_the_camera_changes_elsewhere() -> None:
 
 def test_a_state_with_another_part_has_the_rest_as_it_was() -> None:
     assert not STATE.has_effects
-    assert STATE.with_options(shadows=True).has_effects
-    assert STATE.with_options(mirrors=True).has_effects
+    assert with_options(STATE, shadows=True).has_effects
+    assert with_options(STATE, mirrors=True).has_effects
     assert STATE.with_camera(STATE.camera) is STATE
     assert not STATE.with_fit(False).view.fit
     assert STATE.with_fit(False).with_fit(True) == STATE
@@ -301,11 +301,14 @@ def test_what_follows_from_a_change_of_the_window_is_no_step() -> None:
     assert amended.change(moved(3.0), "a").past == (STATE,)
 
 
-def test_an_instrument_s_options_are_asked_for_by_their_class() -> None:
-    state = STATE.with_options(outside={"bundle": (3, 4)})
-    assert state.of(OutsideOptions) is state.options.outside
-    assert state.of(OutsideOptions).bundle == (3, 4)
-    for name, kind in KINDS.items():
-        assert STATE.of(kind) == kind() == getattr(STATE.options, name)
-    with pytest.raises(KeyError, match="Camera"):
-        STATE.of(Camera)
+def test_parts_of_the_options_find_their_place() -> None:
+    for entry in fields(Options):
+        part = getattr(Options(), entry.name)
+        if is_dataclass(part):
+            assert Options().with_parts(part) == Options()
+    outside, images = (
+        replace(STATE.options.outside, bundle=(3, 4)),
+        replace(STATE.images, grid=False),
+    )
+    both = STATE.with_options(outside, images).options
+    assert both == replace(STATE.options, outside=outside, images=images)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from option_changes import with_options
 
 from app.state.app_state import AppState
-from app.state.options import Bookmark
+from app.state.options.shared import Bookmark
 from app.window.start import Start, begin_session
 from renderer.camera.camera import Camera
 from renderer.files import load_scene
@@ -21,7 +22,8 @@ def scene():
 def state(scene):
     view = View(Camera((1 / 3, 2, 3), distance=0.1, near=0.25), fit=False)
     marks = (Bookmark(1, "a 'name' with \" and é", view), Bookmark(9, "far", scene.view))
-    return AppState.for_scene(scene, view).with_options(
+    return with_options(
+        AppState.for_scene(scene, view),
         images={"exposure_ev": 1.5, "pixel_size": 4, "resolution": (16, 9)},
         compare={"mode": "wipe"},
         outside={"camera": Camera((9, 9, 9)), "bundle": (3, 4)},

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from option_changes import with_options
 
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.session import LectureSession
@@ -61,7 +62,7 @@ def given(file: Path, folder: Path) -> Start:
     scene = session.step.scene
     state = replace(start.state, scene=scene, step=session.place)
     state = state.with_camera(replace(state.camera, eye=(1.0, 2.0, 9.0)))
-    state = state.with_options(shadows=True)
+    state = with_options(state, shadows=True)
     session.answers.chosen = 1
     session.answers.verdict = session.step.exercise.check(1)
     session.answers.solved = True
@@ -152,8 +153,8 @@ def test_a_lecture_that_has_changed_goes_on_at_the_step_of_that_title(file, fold
 
 def test_a_lecture_begins_with_what_is_the_users_own(file, folder):
     start = begin_session(folder=folder)
-    state = start.state.with_options(preferences={"theme": "light", "font_scale": 1.25})
-    close(start, session_of(state.with_options(shadows=True), Arrangement()))
+    state = with_options(start.state, preferences={"theme": "light", "font_scale": 1.25})
+    close(start, session_of(with_options(state, shadows=True), Arrangement()))
     start = begin_lecture(load_lecture(file), folder=folder)
     preferences = start.state.preferences
     assert (preferences.theme, preferences.font_scale) == ("light", 1.25)

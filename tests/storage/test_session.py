@@ -9,9 +9,10 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from option_changes import with_options
 
 from app.state.app_state import AppState
-from app.state.options import Bookmark
+from app.state.options.shared import Bookmark
 from app.state.session import (
     LARGEST_BYTES,
     NEAREST,
@@ -85,7 +86,7 @@ def test_a_layout_that_left_is_the_nearest_one(state, old, nearest):
 def test_numbers_and_names_are_kept_exactly(eye, distance, name):
     view = View(Camera(eye, distance=distance))
     state = AppState.for_scene(load_scene("spheres"), view)
-    state = state.with_options(bookmarks=(Bookmark(5, name, view),))
+    state = with_options(state, bookmarks=(Bookmark(5, name, view),))
     # JSON is UTF-8: a lone surrogate, which no widget gives, cannot be in it.
     if name.isprintable():
         assert from_bytes(to_bytes(session_of(state, Arrangement()))).view == view

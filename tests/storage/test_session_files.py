@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from option_changes import with_options
 from test_session import ARRANGEMENT
 from waiting import PATIENT_S, wait_for
 
@@ -145,7 +146,7 @@ def test_a_save_that_is_stuck_does_not_replace_the_last_one(tmp_path, state, mon
     monkeypatch.setattr("app.window.session_store.LAST_S", 0.01)
     keeper.save(session_of(state, ARRANGEMENT))
     assert stuck.wait(PATIENT_S)
-    last = session_of(state.with_options(images={"exposure_ev": 1.0}), ARRANGEMENT)
+    last = session_of(with_options(state, images={"exposure_ev": 1.0}), ARRANGEMENT)
     keeper.close(last)
     go_on.set()
     wait_for(lambda: not list(tmp_path.glob(".*.part")))
@@ -179,7 +180,7 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     monkeypatch.setattr(place, "save", full)
     for exposure, told in ((1.0, True), (2.0, False)):
         keeper.message = ""
-        keeper.save(session_of(state.with_options(images={"exposure_ev": exposure}), ARRANGEMENT))
+        keeper.save(session_of(with_options(state, images={"exposure_ev": exposure}), ARRANGEMENT))
         assert saved.acquire(timeout=PATIENT_S)
         keeper.due()
         assert ("no space left" in keeper.message) == told

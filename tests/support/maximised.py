@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic
 
+from option_changes import with_options
 from window_driver import Driver
 
 from app.ui.view import AView
@@ -23,7 +24,7 @@ class Maximised(Generic[AView]):
         stage.show(self.kind.name)
         if not stage.maximised:
             stage.maximise(self.kind.name)
-        d.window.change(d.window.state.with_options(**{self.options: options}))
+        d.window.change(with_options(d.window.state, **{self.options: options}))
         d.settle()
         return d.window.view(self.kind)
 

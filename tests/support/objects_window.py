@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import hello_imgui
+from option_changes import with_options
 from outside_window import place
 from window_driver import IMAGES, Driver, Key
 
@@ -41,7 +42,7 @@ def enter(d: Driver) -> None:
             d.window.shell.stage.show(name)
             d.ctx.yield_(3)
     d.window.change(
-        d.window.state.with_options(objects={"chosen": (), "selects": False, "handle": "none"})
+        with_options(d.window.state, objects={"chosen": (), "selects": False, "handle": "none"})
     )
     d.settle()
 

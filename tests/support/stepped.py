@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from option_changes import with_options
+
 from app.window import viewer
 from app.window.platform import start_platform
 from app.window.start import begin_session
@@ -39,5 +41,5 @@ def session_window(folder: Path, options: dict[str, Any] | None = None, **given:
     viewer.settings_file = lambda fresh=False: folder / "window.ini"
     viewer.user_folder = lambda: folder
     start = replace(begin_session(folder=folder), **given)
-    start = replace(start, state=start.state.with_options(**(options or {})))
+    start = replace(start, state=with_options(start.state, **(options or {})))
     return WindowRun(start_platform(want_display=False), start.state, (900, 600), start=start)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import get_args, get_type_hints
 
+from option_changes import with_options
 from window_driver import Driver
 
-from app.instruments.laboratory.options import LaboratoryOptions
 from app.instruments.laboratory.view import LABORATORY
-from app.instruments.mistakes.options import Mode
 from app.instruments.mistakes.view import MISTAKES
 from app.state.app_state import AppState
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.mistakes import Mode
 from app.state.paths import stored
 
 PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
@@ -30,7 +31,8 @@ def with_content(d: Driver) -> AppState:
     """Return a state in which the views have something to show."""
     code = d.folder / "rays.py"
     code.write_text(CODE)
-    return d.window.state.with_options(
+    return with_options(
+        d.window.state,
         marked=(60, 80),
         objects={"chosen": (2,)},
         probe={"pins": ((10, 20), (300, 400))},
@@ -49,7 +51,7 @@ def views_in_turn(d: Driver) -> Iterator[str]:
         stage.maximise(name)
         for choice in choices:
             if field:
-                d.window.change(d.window.state.with_options(**{options: {field: choice}}))
+                d.window.change(with_options(d.window.state, **{options: {field: choice}}))
             d.ctx.yield_(6)
             d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
             yield f"{name} {choice}"

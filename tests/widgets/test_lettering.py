@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 
 from app.images.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, text_size
 from app.state.bounds import range_of
-from app.state.options import Preferences
+from app.state.options.shared import Preferences
 from app.ui.explaining.breaking import broken, narrowed
 from app.ui.sliders import part_of
 from app.ui.theme import CAPITAL, LARGEST, TEXT_PX, look_of

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from option_changes import with_options
 
+from app.lecture import schema
 from app.state.app_state import AppState
 from app.ui.action import ALT, CTRL, SHIFT, Key
 from app.window.action_table import ACTIONS, MENUS
@@ -101,7 +103,7 @@ def test_pages_are_options_of_their_instruments():
     state = AppState.for_scene(load_scene("still-life"))
     for room, instrument in INSTRUMENTS.items():
         for name, options in instrument.pages.items():
-            changed = getattr(state.with_options(**{room: options}).options, room)
+            changed = getattr(with_options(state, **{room: options}).options, room)
             assert options.items() <= vars(changed).items(), name
 
 
@@ -148,3 +150,7 @@ def test_a_plus_is_a_plus_with_or_without_shift():
         modifiers = ALT * ("Alt" in action.keys) | CTRL * ("Ctrl" in action.keys)
         for shift in (0, SHIFT):
             assert modifiers | shift | int(Key.equal) in action.chords, action.name
+
+
+def test_every_view_that_lectures_can_show_is_in_the_window() -> None:
+    assert set(schema.VIEWS) <= {view.name.lower() for view in make_views()}

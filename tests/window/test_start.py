@@ -6,9 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from option_changes import with_options
 
 from app.cli import main
-from app.state.all_options import AllOptions
+from app.state.options import Options
 from app.state.session import Arrangement, session_of
 from app.window import start
 from app.window.session_store import Keeper, take_place
@@ -76,7 +77,7 @@ def test_a_session_of_a_large_model_goes_on_once_that_is_read(tmp_path, model):
     scene = load_scene(model)
     view = load_scene("canonical").view
     kept = begin_scene(str(model), wait=True).state.with_view(view)
-    kept = kept.with_options(shadows=True)
+    kept = with_options(kept, shadows=True)
     place = take_place(tmp_path / "sessions")
     assert place is not None
     Keeper(place, lambda: None).close(session_of(kept, Arrangement()))
@@ -93,8 +94,11 @@ def test_a_session_of_a_large_model_goes_on_once_that_is_read(tmp_path, model):
 
 def test_a_named_scene_is_the_session_from_then_on_with_the_user_s_own_settings(tmp_path):
     before = begin_session(folder=tmp_path)
-    state = before.state.with_options(
-        preferences={"theme": "light", "presentation": True}, language="julia", shadows=True
+    state = with_options(
+        before.state,
+        preferences={"theme": "light", "presentation": True},
+        language="julia",
+        shadows=True,
     )
     assert before.keeper is not None
     before.keeper.close(session_of(state, Arrangement()))
@@ -124,13 +128,13 @@ def test_a_named_scene_is_the_session_from_then_on_with_the_user_s_own_settings(
 def test_fresh_takes_nothing_for_a_named_scene(tmp_path):
     before = begin_session(folder=tmp_path)
     assert before.keeper is not None
-    light = before.state.with_options(preferences={"theme": "light"})
+    light = with_options(before.state, preferences={"theme": "light"})
     before.keeper.close(session_of(light, Arrangement()))
     begun = kept(begin_scene("canonical"), fresh=True, folder=tmp_path)
     assert begun.keeper is not None
     begun.keeper.close(None)
     assert begun.fresh  # the window's layout, too
-    assert begun.state.options == AllOptions()
+    assert begun.state.options == Options()
 
 
 def test_a_session_that_cannot_be_kept_is_reported(tmp_path):

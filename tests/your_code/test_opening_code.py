@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from option_changes import with_options
 
-from app.checking.your_code.options import YourCodeOptions
 from app.checking.your_code.view import source_text
 from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
@@ -90,10 +90,10 @@ def test_a_python_file_is_never_read_as_a_scene(tmp_path: Path):
 def test_a_session_keeps_the_file_whatever_its_name(tmp_path: Path):
     path = os.fsdecode(b"/caf\xe9/rays.py") if sys.platform != "win32" else "C:\\rays.py"
     state = AppState.for_scene(load_scene("spheres"))
-    state = state.with_options(your_code={"file": stored(path), "canvas": (8, 6), "task": "basis"})
-    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.of(YourCodeOptions)
+    state = with_options(state, your_code={"file": stored(path), "canvas": (8, 6), "task": "basis"})
+    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.your_code
     assert restored(kept.file) == path
-    assert kept == replace(state.of(YourCodeOptions))
+    assert kept == replace(state.options.your_code)
 
 
 def test_what_is_in_a_file_that_is_not_run(tmp_path: Path):
@@ -126,10 +126,10 @@ def test_a_file_of_tasks_is_known_by_what_is_in_it(tmp_path: Path):
 
 def test_tasks_stand_in_a_session_and_in_a_lecture(tmp_path: Path):
     file = tasks_in(tmp_path)
-    state = AppState.for_scene(load_scene("still-life")).with_options(
-        your_code={"tasks": stored(str(file))}
+    state = with_options(
+        AppState.for_scene(load_scene("still-life")), your_code={"tasks": stored(str(file))}
     )
-    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.of(YourCodeOptions)
+    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.your_code
     assert kept.tasks == stored(str(file))
     step = lecture(tmp_path, 'options.your_code.tasks = "hw2.toml"').steps[0]
     assert step.options["your_code"]["tasks"] == str(file)

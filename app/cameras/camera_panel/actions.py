@@ -244,7 +244,9 @@ CAMERA = (
         "In perspective",
         changing(
             lambda state: state.with_options(
-                presets_in_perspective=not state.options.presets_in_perspective
+                replace(
+                    state.options, presets_in_perspective=not state.options.presets_in_perspective
+                )
             )
         ),
         is_on=lambda state: state.options.presets_in_perspective,
@@ -263,7 +265,9 @@ CAMERA = (
         "Jump without transition",
         changing(
             lambda state: state.with_options(
-                preferences={"reduced_motion": not state.preferences.reduced_motion}
+                replace(
+                    state.options.preferences, reduced_motion=not state.preferences.reduced_motion
+                )
             )
         ),
         is_on=lambda state: state.preferences.reduced_motion,

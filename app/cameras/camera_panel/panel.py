@@ -154,7 +154,7 @@ def _exposure(state: AppState, around: PanelContext) -> AppState:
     value, scale = state.images.exposure_ev, Scale(-4.0, 4.0)
     changed, value = around.field("exposure", value, width, scale, EXPOSURE, reset=0.0, unit=" EV")
     if changed:
-        state = state.with_options(images={"exposure_ev": value})
+        state = state.with_options(replace(state.options.images, exposure_ev=value))
     return state
 
 

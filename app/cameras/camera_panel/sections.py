@@ -124,7 +124,7 @@ def presets_section(state: AppState) -> tuple[AppState, Wish | None]:
         "On: the same directions from an eye (cavalier and cabinet are parallel always)."
     )
     if changed:
-        state = state.with_options(presets_in_perspective=perspective)
+        state = state.with_options(replace(state.options, presets_in_perspective=perspective))
     return state, wish
 
 
@@ -221,7 +221,7 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
     imgui.text_colored(theme.DIM, "whole numbers at pixels'")
     for name, wanted in ORIGINS:
         if radio_button(name, origin == wanted):
-            state = state.with_options(pixel_origin=wanted)
+            state = state.with_options(replace(state.options, pixel_origin=wanted))
         rows.tip(ORIGIN_NOTES[wanted])
         imgui.same_line()
     wish = None

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from app.checking.mistakes.vectors import FUNCTIONS
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.symbols import program, words
 
 Swaps = tuple[tuple[str, str], ...]

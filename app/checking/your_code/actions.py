@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from app.checking.your_code.options import YourCodeOptions
 from app.checking.your_code.panel import CodeWish
 from app.checking.your_code.view import YOUR_CODE, YourCodeView
 from app.ui import layout
@@ -17,7 +16,7 @@ def _ask(wish: CodeWish, window: Window) -> None:
 
 
 def _has_file(window: Window) -> bool:
-    return bool(window.state.of(YourCodeOptions).file)
+    return bool(window.state.options.your_code.file)
 
 
 YOURS = (
@@ -28,7 +27,7 @@ YOURS = (
         MENU,
         "Built-in tasks",
         lambda window: _ask("built-in", window),
-        can=lambda window: bool(window.state.of(YourCodeOptions).tasks),
+        can=lambda window: bool(window.state.options.your_code.tasks),
     ),
     Action(
         MENU, "Run your code", lambda window: _ask("run", window), can=_has_file, separated=True

@@ -6,7 +6,7 @@ pictures.py.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -19,7 +19,7 @@ from app.checking.your_code.pictures import IMAGES, CodePictures, compared, imag
 from app.checking.your_code.report import CodeReport
 from app.images.ray_pictures import RayPainter, RayPictures
 from app.instruments.outside.paint import role_color
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.picture_grid import GridPicture, picture_grid
 from app.ui.uploads import Uploads
@@ -151,7 +151,11 @@ class PicturesShown:
         if answer is not None and rays is not None and are_of_rays:
             again = host.state.marked is not None and answer.pixel == marked
             found = canvas_pixel(answer.pixel, rays.camera, rays.size, *_images(host))
-            host.change(host.state.with_options(marked=None if again else found))
+            host.change(
+                host.state.with_options(
+                    replace(host.state.options, marked=None if again else found)
+                )
+            )
 
 
 def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:

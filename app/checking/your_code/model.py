@@ -22,7 +22,7 @@ from app.checking.kinds.viewing_ray import cases_of
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.task_file import TaskSet, load_tasks
 from app.checking.tasks import CheckCase, CheckTask
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from renderer.camera.camera import Camera, Size
 from renderer.scene.model import View
 from renderer.system.errors import LucidaError

@@ -18,7 +18,7 @@ from app.checking.tasks import CheckTask
 from app.checking.your_code.report import CodeReport
 from app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from app.instruments.stepper.controls import CANVASES
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.coded_text import coded_text
 from app.ui.explaining.symbols import arguments

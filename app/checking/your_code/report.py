@@ -11,7 +11,7 @@ from app.checking.checked import TaskResult
 from app.checking.mistakes.diagnosis import Diagnosis
 from app.checking.tasks import CheckTask
 from app.checking.your_code.model import CodeRays
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from renderer.camera.camera import Camera, Size
 
 ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera

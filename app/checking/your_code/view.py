@@ -6,6 +6,7 @@ for the questions, panel.py for the layout, code_pictures.py for the pictures.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,6 @@ from app.checking.your_code import panel
 from app.checking.your_code.code_pictures import PicturesShown, marked_pixel
 from app.checking.your_code.following import FileFollower, open_in_editor
 from app.checking.your_code.model import RAY, asked_of
-from app.checking.your_code.options import YourCodeOptions
 from app.checking.your_code.outside_items import outside_items
 from app.checking.your_code.panel import CodeHead, CodeWish
 from app.checking.your_code.pictures import CodePictures
@@ -27,7 +27,7 @@ from app.checking.your_code.runs import CodeRuns
 from app.checking.your_code.words import ToldLine, told_of
 from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.view import OutsideView
-from app.state.options import Notation, Pixel
+from app.state.options.shared import Notation, Pixel
 from app.state.paths import restored, stored
 from app.ui import layout, theme
 from app.ui.action import Window
@@ -78,17 +78,18 @@ class YourCodeView(DockedView):
         """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
         self._source.forget()
-        options = {"file": stored(path), "task": ""}
-        if window.state.of(YourCodeOptions).file != options["file"]:
-            window.change(window.state.with_options(your_code=options))
+        options = replace(window.state.options.your_code, file=stored(path), task="")
+        if window.state.options.your_code.file != options.file:
+            window.change(window.state.with_options(options))
         elif self._follower is not None:
             self._follower.again()
         window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
 
     def open_tasks(self, window: Window, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
-        asked = {"tasks": stored(path), "task": ""}
-        window.change(window.state.with_options(your_code=asked, **_notation_of(path)))
+        options = window.state.options
+        asked = replace(options.your_code, tasks=stored(path), task="")
+        window.change(window.state.with_options(replace(options, **_notation_of(path)), asked))
         window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:
@@ -131,13 +132,13 @@ class YourCodeView(DockedView):
         self._seen = True
         host.renderers.need_size(host.state.images)
         assert self.runs is not None and self._follower is not None
-        path = restored(host.state.of(YourCodeOptions).file)
+        path = restored(host.state.options.your_code.file)
         if self._written:
             self._open_written(host)
         wish: CodeWish
         if not path:
             self._rest()
-            tasks = restored(host.state.of(YourCodeOptions).tasks)
+            tasks = restored(host.state.options.your_code.tasks)
             wish = panel.invitation(Path(tasks).name, host.state.options.notation, host.fonts)
         elif not self._may_run(host, path):
             self._rest()
@@ -170,7 +171,7 @@ class YourCodeView(DockedView):
     def _of_file(self, host: Host, path: str) -> CodeWish:
         assert self.runs is not None and self._follower is not None
         assert self._pictures is not None
-        runs, options = self.runs, host.state.of(YourCodeOptions)
+        runs, options = self.runs, host.state.options.your_code
         tasks = restored(options.tasks)
         self._follower.follow(*(one for one in (path, tasks) if one))
         self._follower.follow_too(runs.files, runs.read_s)
@@ -196,14 +197,18 @@ class YourCodeView(DockedView):
         )
         wish, canvas = panel.head(told, report, host.fonts)
         if canvas != options.canvas:
-            host.apply(host.state.with_options(your_code={"canvas": canvas}))
+            host.apply(
+                host.state.with_options(replace(host.state.options.your_code, canvas=canvas))
+            )
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
         self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
-            host.apply(host.state.with_options(your_code={"task": clicked.name}))
+            host.apply(
+                host.state.with_options(replace(host.state.options.your_code, task=clicked.name))
+            )
         self._pictures.follow(host, report)
         marked = marked_pixel(host, report)
         room = imgui.get_content_region_avail()
@@ -227,7 +232,7 @@ class YourCodeView(DockedView):
             self._counted = tasks
             one_based = report.chosen.conventions.base == 1
             if one_based != state.options.one_based:
-                host.amend(state.with_options(one_based=one_based))
+                host.amend(state.with_options(replace(state.options, one_based=one_based)))
 
     # In the outside view.
 
@@ -255,7 +260,7 @@ class YourCodeView(DockedView):
         """A file that a lecture has named: what is in it."""
         file = Path(path)
         told = CodeHead(
-            file.name, str(file.parent), host.state.of(YourCodeOptions).canvas, may_run=False
+            file.name, str(file.parent), host.state.options.your_code.canvas, may_run=False
         )
         wish, _ = panel.head(told, None, host.fonts)
         if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
@@ -272,7 +277,7 @@ class YourCodeView(DockedView):
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
-            tasks, notation = host.state.of(YourCodeOptions).tasks, host.state.options.notation
+            tasks, notation = host.state.options.your_code.tasks, host.state.options.notation
             host.files.save_as_dialog(
                 "Write a file to begin with",
                 STARTER,
@@ -290,7 +295,9 @@ class YourCodeView(DockedView):
         elif wish == "tasks":
             host.files.open_tasks_dialog()
         elif wish == "built-in":
-            host.change(host.state.with_options(your_code={"tasks": "", "task": ""}))
+            host.change(
+                host.state.with_options(replace(host.state.options.your_code, tasks="", task=""))
+            )
 
     def write_starter(self, path: str, tasks: str = "", notation: Notation = "book") -> str:
         """Write a starter file, on a thread. Raises LucidaError.
@@ -307,7 +314,11 @@ class YourCodeView(DockedView):
     def _open_written(self, host: Host) -> None:
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
-        host.change(host.state.with_options(your_code={"file": stored(path), "task": ""}))
+        host.change(
+            host.state.with_options(
+                replace(host.state.options.your_code, file=stored(path), task="")
+            )
+        )
 
 
 def _notation_of(path: str) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from app.checking.reports.told import told
 from app.checking.tasks import CheckTask
 from app.checking.your_code.model import BASIS, CodeRays
 from app.checking.your_code.report import CodeReport
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.images.pixels import Indexing
 from renderer.system.errors import visible
 

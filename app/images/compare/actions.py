@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.images.compare import comparing
-from app.images.compare.options import CompareMode, CompareOptions
 from app.state.app_state import AppState
+from app.state.options.compare import CompareMode
 from app.ui.action import SHIFT, Action, Key, Window, changing
 from renderer.compare.raster_and_ray import Comparison
 
@@ -49,7 +49,7 @@ def _comparing(number: int, mode: CompareMode, name: str) -> Action:
         _shown(lambda state: comparing.with_mode(state, mode)),
         f"F{5 + number}",
         (int(Key.f5) + number,),
-        is_on=lambda state: state.of(CompareOptions).mode == mode,
+        is_on=lambda state: state.options.compare.mode == mode,
     )
 
 
@@ -57,10 +57,12 @@ def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Ac
     """Return an action that toggles an option."""
 
     def is_on(state: AppState) -> bool:
-        return bool(getattr(state.of(CompareOptions), field))
+        return bool(getattr(state.options.compare, field))
 
     def toggled(state: AppState) -> AppState:
-        return state.with_options(compare={field: not is_on(state)})
+        return state.with_options(
+            state.options.with_changes({"compare": {field: not is_on(state)}})
+        )
 
     return Action(MENU, name, changing(toggled), shown, keys, is_on=is_on)
 
@@ -77,14 +79,12 @@ def _keyed(
 
 
 def _gain(factor: float) -> Callable[[Window], None]:
-    return changing(
-        lambda state: comparing.with_gain(state, state.of(CompareOptions).gain * factor)
-    )
+    return changing(lambda state: comparing.with_gain(state, state.options.compare.gain * factor))
 
 
 def _divider(step: float) -> Callable[[Window], None]:
     return changing(
-        lambda state: comparing.with_divider(state, state.of(CompareOptions).divider + step)
+        lambda state: comparing.with_divider(state, state.options.compare.divider + step)
     )
 
 

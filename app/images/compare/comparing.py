@@ -6,13 +6,13 @@ keys.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.images.compare.options import CompareMode
 from app.state.app_state import AppState
-from app.state.options import Channel, ImageOptions, Pixel
+from app.state.options.compare import CompareMode
+from app.state.options.shared import Channel, ImageOptions, Pixel
 from renderer.compare.raster_and_ray import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 from renderer.images.difference import FULL_SCALE, signed_difference
 
@@ -200,17 +200,17 @@ def at_worst(state: AppState, comparison: Comparison) -> AppState:
 
 
 def with_mode(state: AppState, mode: CompareMode) -> AppState:
-    return state.with_options(compare={"mode": mode})
+    return state.with_options(replace(state.options.compare, mode=mode))
 
 
 def with_gain(state: AppState, gain: float) -> AppState:
     """Set the gain, within its bounds."""
-    return state.with_options(compare={"gain": gain})
+    return state.with_options(replace(state.options.compare, gain=gain))
 
 
 def with_divider(state: AppState, divider: float) -> AppState:
     """Move the wipe's divider, within the image."""
-    return state.with_options(compare={"divider": divider})
+    return state.with_options(replace(state.options.compare, divider=divider))
 
 
 def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
@@ -221,7 +221,8 @@ def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
     magnification = large if large >= STEP_FROM else MARKED_MAGNIFICATION
     center = ((pixel[1] + 0.5) / size[0], (pixel[0] + 0.5) / size[1])
     return state.with_options(
-        images={"magnification": magnification, "center": center}, marked=pixel
+        replace(state.options, marked=pixel),
+        replace(state.options.images, magnification=magnification, center=center),
     )
 
 

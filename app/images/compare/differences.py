@@ -8,7 +8,6 @@ from __future__ import annotations
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.images.compare.options import CompareOptions
 from app.images.screen import Screen
 from app.state.app_state import AppState
 from app.ui import theme
@@ -34,7 +33,7 @@ def draw_differences(
     rows, columns = np.nonzero(comparison.labels[seen] != AGREE)
     if not 0 < len(rows) <= MOST:
         return
-    channel, options = state.images.channel, state.of(CompareOptions)
+    channel, options = state.images.channel, state.options.compare
     difference = signed_difference(
         comparison.raster.part(seen), comparison.ray.part(seen), channel
     )[rows, columns]

@@ -12,10 +12,10 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.images.compare import comparing
 from app.images.compare.comparing import MODES, ColorScale
-from app.images.compare.options import CompareOptions
 from app.state.app_state import AppState
 from app.state.bounds import range_of
-from app.state.options import Pixel
+from app.state.options.compare import CompareOptions
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.checks import checkbox
 from app.ui.lettering import fitting_words
@@ -62,7 +62,7 @@ class Wish:
 
 def toolbar(state: AppState) -> AppState:
     """Draw modes, gain and the switch of the causes, in as many rows as they need."""
-    options = state.of(CompareOptions)
+    options = state.options.compare
     for mode, name, told in MODES:
         if mode != MODES[0][0]:
             follow(button_width(name))
@@ -72,7 +72,7 @@ def toolbar(state: AppState) -> AppState:
     follow(_check_width("causes"))
     changed, on = checkbox("causes", options.causes)
     if changed:
-        state = state.with_options(compare={"causes": on})
+        state = state.with_options(replace(state.options.compare, causes=on))
     tip("Mark the pixels that differ, in the colours of their causes.")
     width = min(9 * imgui.get_font_size(), imgui.get_content_region_avail().x)
     follow(width)
@@ -123,7 +123,7 @@ def footer(
 def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
     """Draw the colour bar; in the other modes something else of the same height."""
     top = imgui.get_cursor_pos_y()
-    options = state.of(CompareOptions)
+    options = state.options.compare
     if options.mode in ("absolute", "signed"):
         signed = options.mode == "signed"
         scale = comparing.scale(state.images.channel, options.gain, signed)
@@ -142,7 +142,7 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
             if flipped:
                 imgui.same_line()
             if _choice(f"show {name}", options.flipped == flipped):
-                state = state.with_options(compare={"flipped": flipped})
+                state = state.with_options(replace(state.options.compare, flipped=flipped))
         imgui.same_line()
         imgui.align_text_to_frame_padding()
         imgui.text_disabled("Hold X to see the other image")

@@ -16,7 +16,6 @@ from app.images.compare import comparing, panel
 from app.images.compare.actions import FLIP_KEY
 from app.images.compare.composed import Composed, Mapping
 from app.images.compare.differences import draw_differences
-from app.images.compare.options import CompareOptions
 from app.images.pair.view import ImageView, Linked
 from app.images.placement import Placement
 from app.images.renderers import Renderers, look_of
@@ -98,7 +97,7 @@ class CompareView(ImageView):
     # The image.
 
     def _image(self, host: Host) -> None:
-        both, mode = host.renderers, host.state.of(CompareOptions).mode
+        both, mode = host.renderers, host.state.options.compare.mode
         assert self._shown is not None
         self._shown.begin_frame()
         is_picture = mode in ("wipe", "flip")
@@ -116,14 +115,14 @@ class CompareView(ImageView):
         """Draw nothing: draw() puts the strip above the view's own controls."""
 
     def _before_image(self, host: Host, screen: Screen) -> None:
-        if host.state.of(CompareOptions).mode == "wipe" and min(host.renderers.size):
+        if host.state.options.compare.mode == "wipe" and min(host.renderers.size):
             self._drag_divider(host, screen)
         else:
             self._held = None
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         self.screen = screen
-        mode = host.state.of(CompareOptions).mode
+        mode = host.state.options.compare.mode
         if mode == "wipe":
             self._draw_divider(host, screen)
         elif mode == "flip":
@@ -131,7 +130,7 @@ class CompareView(ImageView):
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         verdict = host.renderers.verdict(host.state)
-        if host.state.of(CompareOptions).mode not in ("absolute", "signed") or verdict is None:
+        if host.state.options.compare.mode not in ("absolute", "signed") or verdict is None:
             return
         if host.state.images.grid and not waiting(host.renderers, host.state):
             draw_differences(screen, host.state, verdict.comparison, host.fonts)
@@ -142,7 +141,7 @@ class CompareView(ImageView):
         """Return the visible part of the picture, or None."""
         textures, composed, shown = both.textures, self._composed, self._shown
         assert textures is not None and composed is not None and shown is not None
-        options, look = state.of(CompareOptions), look_of(state.images)
+        options, look = state.options.compare, look_of(state.images)
         request = both.request(state)
         assert request is not None
         raster = textures.raster_in(whole(both.size), request, look, COMPARED)
@@ -188,7 +187,7 @@ class CompareView(ImageView):
 
     def _first_ray_column(self, both: Renderers, state: AppState) -> int:
         """Return the first column that shows the ray image in a wipe or flip."""
-        options = state.of(CompareOptions)
+        options = state.options.compare
         if options.mode == "wipe":
             return _column(options.divider, both.size)
         return 0 if self._flipped(state) else both.size[0]
@@ -197,7 +196,7 @@ class CompareView(ImageView):
         """Return True if flip shows the ray image now."""
         io = imgui.get_io()
         held = imgui.is_key_down(FLIP_KEY) and not (io.want_text_input or io.key_ctrl or io.key_alt)
-        return state.of(CompareOptions).flipped != held
+        return state.options.compare.flipped != held
 
     def _values(
         self, both: Renderers, state: AppState, channel: str, region: Region
@@ -205,12 +204,12 @@ class CompareView(ImageView):
         """Return the values of the visible pixels, each from the image that it is taken from."""
         raster = both.raster_values(state, channel, region)
         ray = both.ray_values(state, channel, region)
-        if state.of(CompareOptions).mode == "flip":
+        if state.options.compare.mode == "flip":
             return ray if self._flipped(state) else raster
         if raster is None or ray is None:
             return None
         _, left, _, right = region
-        divider = _column(state.of(CompareOptions).divider, both.size)
+        divider = _column(state.options.compare.divider, both.size)
         columns = np.arange(left, right) < divider
         return np.where(columns.reshape((1, -1) + (1,) * (raster.ndim - 2)), raster, ray)
 
@@ -229,7 +228,7 @@ class CompareView(ImageView):
         mouse_area("divider", ImVec2(2 * grip, max(1.0, high.y - low.y)))
         mouse = imgui.get_io().mouse_pos
         if step := focused_steps()[0]:
-            divider = state.of(CompareOptions).divider + KEY_STEP * step
+            divider = state.options.compare.divider + KEY_STEP * step
             host.apply(comparing.with_divider(state, divider), ("divider", "keys"))
         if imgui.is_item_hovered() or imgui.is_item_active():
             imgui.set_mouse_cursor(imgui.MouseCursor_.resize_ew)
@@ -242,7 +241,7 @@ class CompareView(ImageView):
             host.apply(comparing.with_divider(state, part))
 
     def _divider_x(self, state: AppState, screen: Screen, size: tuple[int, int]) -> float:
-        return screen.point(0, _column(state.of(CompareOptions).divider, size)).x
+        return screen.point(0, _column(state.options.compare.divider, size)).x
 
     def _draw_divider(self, host: Host, screen: Screen) -> None:
         """Draw a line between the images, with a handle in its middle, and a label on each side."""

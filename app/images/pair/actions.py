@@ -11,7 +11,6 @@ from dataclasses import replace
 from app.images.imaging import with_magnification
 from app.images.pair import choices
 from app.images.pair.choices import Choice, alt, has, toggling
-from app.images.pair.options import PairOptions
 from app.images.placement import step_from
 from app.state.app_state import AppState
 from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
@@ -33,20 +32,22 @@ def _step(steps: int) -> Callable[[Window], None]:
 
 def _exposure(stops: float) -> Callable[[AppState], AppState]:
     return lambda state: state.with_options(
-        images={"exposure_ev": state.images.exposure_ev + stops if stops else 0.0}
+        replace(
+            state.options.images, exposure_ev=state.images.exposure_ev + stops if stops else 0.0
+        )
     )
 
 
 def _with_lines(state: AppState) -> AppState:
-    on = not state.of(PairOptions).straight_lines
-    return state.with_options(pair={"straight_lines": on})
+    on = not state.options.pair.straight_lines
+    return state.with_options(replace(state.options.pair, straight_lines=on))
 
 
 def _counting(name: str, one_based: bool) -> Action:
     return Action(
         COUNTING,
         name,
-        changing(lambda state: state.with_options(one_based=one_based)),
+        changing(lambda state: state.with_options(replace(state.options, one_based=one_based))),
         is_on=lambda state: state.options.one_based == one_based,
         can=lambda window: window.state.step is None,  # a lecture's text counts in its own way
     )
@@ -114,7 +115,7 @@ IMAGE = (
         "Image",
         "Straight lines",
         changing(_with_lines),
-        is_on=lambda state: state.of(PairOptions).straight_lines,
+        is_on=lambda state: state.options.pair.straight_lines,
         can=lambda window: not window.state.camera.is_parallel,
     ),
     Action(
@@ -130,7 +131,7 @@ IMAGE = (
     Action(
         "Image",
         "Clear mark",
-        changing(lambda state: state.with_options(marked=None)),
+        changing(lambda state: state.with_options(replace(state.options, marked=None))),
         "Esc",  # which ends other things first: the shell's
         can=lambda w: w.state.marked is not None,
     ),

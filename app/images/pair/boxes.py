@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from app.images.imaging import parsed_size, size_text, with_resolution
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.asking import TYPED, begin_box
 from renderer.camera.camera import Size

@@ -18,7 +18,7 @@ from app.images.imaging import (
 )
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
-from app.state.options import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
+from app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
 from app.ui.action import ALT, Action, Key, changing
 from renderer.images.pixels import ENLARGEMENTS
 
@@ -53,7 +53,7 @@ class Choice(NamedTuple):
 
 def setting(field: str, value: object) -> Change:
     """Return the change that sets a field of the images' options."""
-    return lambda state: state.with_options(images={field: value})
+    return lambda state: state.with_options(state.options.with_changes({"images": {field: value}}))
 
 
 def has(field: str, value: object) -> Callable[[AppState], bool]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from app.images.request import ImageRequest
 from app.images.screen import Screen
 from app.images.window_rasterizer import WindowRasterizer
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from renderer.camera.camera import Camera
 from renderer.images.display import to_srgb8

@@ -24,7 +24,7 @@ from app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
 from app.images.placement import panned, step_from, zoomed_at
 from app.images.screen import Screen
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera import navigation
 from renderer.camera.camera import Camera, Vector
 
@@ -111,7 +111,8 @@ def drag(
         grab = replace(grab, moved_away=True)
     if grab.kind == "slide":
         x, y = screen.pane_px(mouse)
-        return state.with_options(images=panned(screen.placement, grab.part, x, y)), grab
+        moved = panned(state.images, screen.placement, grab.part, x, y)
+        return state.with_options(moved), grab
     if state.camera != grab.latest and grab.kind != "look":  # by a key: continue from there
         return state, replace(_begin(seen, state, grab.kind, mouse, screen), moved_away=True)
     height = min(screen.placement.extent[1], screen.placement.pane[1]) / screen.scale
@@ -148,7 +149,9 @@ def _begin(seen: Seen, state: AppState, kind: str, mouse: ImVec2, screen: Screen
 
 def _marked(state: AppState, pixel: Pixel) -> AppState:
     """Mark a pixel, or clear its mark."""
-    return state.with_options(marked=None if state.marked == pixel else pixel)
+    return state.with_options(
+        replace(state.options, marked=None if state.marked == pixel else pixel)
+    )
 
 
 @dataclass(frozen=True)
@@ -173,7 +176,7 @@ def magnify(
         anchor = ZoomAnchor(at, placement.part_at(x, y))
     to = step_from(placement, state.images, steps)
     if to != placement.magnification:
-        state = state.with_options(images=zoomed_at(placement, anchor.part, x, y, to))
+        state = state.with_options(zoomed_at(state.images, placement, anchor.part, x, y, to))
     return state, anchor
 
 

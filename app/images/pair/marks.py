@@ -8,7 +8,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 
 from app.images.screen import Screen
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.areas import arrow_steps, claim_arrows, pixel_from
 

@@ -19,7 +19,7 @@ from app.images.screen import Box, Screen
 from app.images.shown import Picture
 from app.images.textures import PANE
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.areas import mouse_area
 

@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.images.screen import Screen
 from app.state.app_state import AppState
-from app.state.options import ImageOptions
+from app.state.options.shared import ImageOptions
 from app.ui import theme
 from app.ui.theme import framebuffer_scale
 

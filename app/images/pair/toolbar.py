@@ -6,7 +6,7 @@ Owns its look. Everything on it is also in the menu "Image" and on keys; both im
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from imgui_bundle import ImVec2, imgui
@@ -21,11 +21,10 @@ from app.images.imaging import (
 )
 from app.images.pair import choices
 from app.images.pair.choices import Choice
-from app.images.photograph.options import PhotographOptions
 from app.images.photograph.panel import entries
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
-from app.state.options import RESOLUTIONS
+from app.state.options.shared import RESOLUTIONS
 from app.ui import theme
 from app.ui.rows import tip
 
@@ -158,7 +157,7 @@ def _magnification(strip: Strip, state: AppState) -> AppState:
 def _transfer(strip: Strip, state: AppState) -> AppState:
     for transfer, (name, tooltip) in TRANSFERS.items():
         if imgui.menu_item(name, "Alt+L", state.images.transfer == transfer)[0]:
-            state = state.with_options(images={"transfer": transfer})
+            state = state.with_options(replace(state.options.images, transfer=transfer))
         imgui.set_item_tooltip(tooltip)
     return state
 
@@ -178,7 +177,7 @@ def _photograph(strip: Strip, state: AppState) -> AppState:
 
 
 def _photograph_text(state: AppState) -> str:
-    options = state.of(PhotographOptions)
+    options = state.options.photograph
     if not options.file:
         return ""
     return f"Photo {100 * options.opacity:.0f} %" if options.shown else "Photo off"

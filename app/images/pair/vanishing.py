@@ -9,9 +9,9 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from app.images.pair.options import PairOptions
 from app.images.pair.straight_lines import SAMPLES, curves, draw_curves, placed
 from app.images.screen import Screen
+from app.state.options.pair import PairOptions
 from app.ui import theme
 from renderer.camera.camera import Camera
 

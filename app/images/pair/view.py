@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import ClassVar
 
@@ -17,7 +17,6 @@ from app.images.pair.dark_note import DarkNote, note_button
 from app.images.pair.footprint import draw_footprint, footprint
 from app.images.pair.image_mouse import Seen
 from app.images.pair.marks import walked
-from app.images.pair.options import PairOptions
 from app.images.pair.overlay import draw_told
 from app.images.pair.pane import Drawn, MouseState, Pane, image_pane
 from app.images.pair.pixelgrid import Values
@@ -27,12 +26,11 @@ from app.images.pair.toolbar import Strip, image_strip
 from app.images.pair.vanishing import draw_parallels
 from app.images.photograph.layer import PhotographLayer
 from app.images.photograph.model import path_of
-from app.images.photograph.options import PhotographOptions
 from app.images.placement import Placement, shown_pixel
 from app.images.screen import Screen, available_px
 from app.images.shown import Picture
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui.guest import Click, Guest, ShownIn
 from app.ui.view import DockedView, Host
 from renderer.camera.camera import Camera
@@ -269,7 +267,9 @@ class ImageView(DockedView):
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None
         if (marked, now_size) != (state.marked, marked_size):
-            host.amend(state.with_options(marked=marked, marked_size=now_size))
+            host.amend(
+                state.with_options(replace(state.options, marked=marked, marked_size=now_size))
+            )
 
     def _walk(self, host: Host, placement: Placement) -> None:
         """Move the mark by the arrow keys, and keep it in sight."""
@@ -283,7 +283,8 @@ class ImageView(DockedView):
         if pixel is None:
             return
         shared.walked_frame = frame
-        state = state.with_options(marked=pixel, images=shown_pixel(placement, pixel))
+        marked, images = replace(state.options, marked=pixel), state.images
+        state = state.with_options(marked, shown_pixel(images, placement, pixel))
         host.apply(state, self._gesture("walk"))
 
     def _gesture(self, kind: str) -> tuple[str, int]:
@@ -304,7 +305,7 @@ class PhotographedView(ImageView):
         self._footprint = Memo(footprint)
 
     def _laid(self, host: Host, picture: Drawn) -> Drawn:
-        layer, options = self.linked.photograph, host.state.of(PhotographOptions)
+        layer, options = self.linked.photograph, host.state.options.photograph
         if options.file and not options.shown:
             return picture
         if not layer.follow(host.renderers, host.state):
@@ -319,7 +320,7 @@ class PhotographedView(ImageView):
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         layer = self.linked.photograph
-        options, state = host.state.of(PairOptions), host.state
+        options, state = host.state.options.pair, host.state
         draw, both = imgui.get_window_draw_list(), host.renderers
         camera = both.camera(state)
         if options.straight_lines and not camera.is_parallel:
@@ -329,7 +330,7 @@ class PhotographedView(ImageView):
         if options.footprint and state.marked is not None:
             self._draw_footprint(host, screen, state.marked)
         told = layer.problem or layer.note
-        if told and path_of(host.state) and host.state.of(PhotographOptions).shown:
+        if told and path_of(host.state) and host.state.options.photograph.shown:
             draw_told(draw, screen, told, bool(layer.problem))
 
     def _draw_footprint(self, host: Host, screen: Screen, pixel: Pixel) -> None:

@@ -5,11 +5,12 @@ it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from app.images.photograph.model import can_undistort, closed, undistorting
-from app.images.photograph.options import Lay, PhotographOptions
 from app.images.photograph.panel import UNDISTORT
 from app.state.app_state import AppState
+from app.state.options.photograph import Lay
 from app.ui.action import ALT, Action, Key, Window, changing
 
 MENU = "Image/Photograph"
@@ -18,22 +19,22 @@ STEP = 0.1
 
 def is_open(window: Window) -> bool:
     """Return True if there is a photograph for the images."""
-    return bool(window.state.of(PhotographOptions).file)
+    return bool(window.state.options.photograph.file)
 
 
 def _switched(state: AppState) -> AppState:
-    shown = not state.of(PhotographOptions).shown
-    return state.with_options(photograph={"shown": shown})
+    shown = not state.options.photograph.shown
+    return state.with_options(replace(state.options.photograph, shown=shown))
 
 
 def _laid(lay: Lay) -> Callable[[AppState], AppState]:
-    return lambda state: state.with_options(photograph={"lay": lay, "shown": True})
+    return lambda state: state.with_options(replace(state.options.photograph, lay=lay, shown=True))
 
 
 def _stronger(step: float) -> Callable[[AppState], AppState]:
     def change(state: AppState) -> AppState:
-        opacity = round(state.of(PhotographOptions).opacity + step, 6)
-        return state.with_options(photograph={"opacity": opacity})
+        opacity = round(state.options.photograph.opacity + step, 6)
+        return state.with_options(replace(state.options.photograph, opacity=opacity))
 
     return change
 
@@ -47,7 +48,7 @@ def _lay(name: str, lay: Lay) -> Action:
         MENU,
         name,
         changing(_laid(lay)),
-        is_on=lambda state: state.of(PhotographOptions).lay == lay,
+        is_on=lambda state: state.options.photograph.lay == lay,
         can=is_open,
         separated=lay == "over",
     )
@@ -60,7 +61,7 @@ PHOTOGRAPH = (
         changing(_switched),
         "Alt+P",
         (ALT | int(Key.p),),
-        is_on=lambda state: state.of(PhotographOptions).shown,
+        is_on=lambda state: state.options.photograph.shown,
         can=is_open,
     ),
     _lay("Photograph over the images", "over"),
@@ -71,7 +72,7 @@ PHOTOGRAPH = (
         MENU,
         UNDISTORT,
         _undistort,
-        is_on=lambda state: state.of(PhotographOptions).distorted is not None,
+        is_on=lambda state: state.options.photograph.distorted is not None,
         can=lambda window: can_undistort(window.state),
         separated=True,
     ),

@@ -8,7 +8,6 @@ import moderngl
 
 from app.images.photograph.laying import LaidPhotograph, Laying
 from app.images.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
-from app.images.photograph.options import PhotographOptions
 from app.images.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
 from app.images.placement import Placement
 from app.images.progressive_ray import RayImage
@@ -59,7 +58,7 @@ class PhotographLayer:
         if path is None or self._gl is None or not min(both.size):
             self._forget()
             return False
-        distorted = state.of(PhotographOptions).distorted
+        distorted = state.options.photograph.distorted
         asked = path, pixels_of(self._parts(both, state), both.size), distorted
         if self._laying is None:
             self._laying = Laying(self._gl)
@@ -90,7 +89,7 @@ class PhotographLayer:
         name: of the view, and of its picture.
         ray: True for the ray image.
         """
-        options = state.of(PhotographOptions)
+        options = state.options.photograph
         if picture is None or not options.shown or not options.opacity:
             return picture
         parts = self._parts(both, state)
@@ -111,7 +110,7 @@ class PhotographLayer:
         """
         parts = covered(state.camera, both.camera(state))
         known = self._path is not None and self._path == path_of(state)
-        known = known and self._distorted == state.of(PhotographOptions).distorted
+        known = known and self._distorted == state.options.photograph.distorted
         shape = state.view.own_size or pixels_of(parts, both.size)
         return letterboxed(parts, shape, self.file_size) if known else parts
 

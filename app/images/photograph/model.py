@@ -11,7 +11,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from app.images.photograph.options import PhotographOptions
 from app.images.photograph.reading import Size
 from app.state.app_state import AppState
 from app.state.paths import restored, stored
@@ -27,14 +26,16 @@ SAME_SHAPE = 0.005  # relative difference of two shapes that are the same
 
 def path_of(state: AppState) -> Path | None:
     """Return the path of the open photograph."""
-    file = restored(state.of(PhotographOptions).file)
+    file = restored(state.options.photograph.file)
     return Path(file) if file else None
 
 
 def with_photograph(state: AppState, path: str | None, **changes: Any) -> AppState:
     """Return the state with a photograph open, as it was taken; None closes it."""
     file = stored(path or "")
-    return state.with_options(photograph={"file": file, "distorted": None, **changes})
+    return state.with_options(
+        replace(state.options.photograph, file=file, distorted=None, **changes)
+    )
 
 
 def closed(state: AppState) -> AppState:
@@ -43,7 +44,7 @@ def closed(state: AppState) -> AppState:
 
 def can_undistort(state: AppState) -> bool:
     """Return True if there is a lens to take out of the photograph, or one that was taken out."""
-    options = state.of(PhotographOptions)
+    options = state.options.photograph
     return bool(options.file) and (state.camera.lens is not None or options.distorted is not None)
 
 
@@ -53,7 +54,7 @@ def undistorting(state: AppState, size: Size) -> AppState:
     The camera stays where it is. size: (width, height) of the photograph, or of the images, if the
     camera was not given for an image of its own.
     """
-    was = state.of(PhotographOptions).distorted
+    was = state.options.photograph.distorted
     if was is not None:
         taken = was.camera
         camera = replace(
@@ -70,7 +71,8 @@ def undistorting(state: AppState, size: Size) -> AppState:
 
 
 def _as_seen(state: AppState, view: View, distorted: View | None) -> AppState:
-    return state.with_view(view).with_options(photograph={"distorted": distorted, "shown": True})
+    photograph = replace(state.options.photograph, distorted=distorted, shown=True)
+    return state.with_view(view).with_options(photograph)
 
 
 def covered(camera: Camera, drawn: Camera) -> Parts:

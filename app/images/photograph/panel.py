@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from imgui_bundle import imgui
 
 from app.images.imaging import size_text, with_resolution
 from app.images.photograph.model import can_undistort, closed, undistorting
-from app.images.photograph.options import Lay, PhotographOptions
 from app.images.photograph.reading import Size
 from app.state.app_state import AppState
 from app.state.bounds import range_of
+from app.state.options.photograph import Lay, PhotographOptions
 from app.ui.rows import tip
 from app.ui.sliders import slider_float
 from renderer.images.frame import check_size
@@ -28,19 +30,19 @@ def entries(state: AppState, file_size: Size) -> AppState:
 
     file_size: the photograph's own (width, height); (0, 0) if unknown.
     """
-    options = state.of(PhotographOptions)
+    options = state.options.photograph
     if imgui.menu_item("On the images", "Alt+P", options.shown)[0]:
-        state = state.with_options(photograph={"shown": not options.shown})
+        state = state.with_options(replace(state.options.photograph, shown=not options.shown))
     imgui.set_next_item_width(SLIDER_EM * imgui.get_font_size())
     changed, opacity = slider_float(
         "##opacity", options.opacity, *range_of(PhotographOptions, "opacity"), "opacity %.2f"
     )
     tip("How much of the photograph is seen: a mean of what the screen shows (sRGB), not of light.")
     if changed:
-        state = state.with_options(photograph={"opacity": opacity, "shown": True})
+        state = state.with_options(replace(state.options.photograph, opacity=opacity, shown=True))
     for lay, name, told in LAYS:
         if imgui.menu_item(name, "", options.lay == lay)[0]:
-            state = state.with_options(photograph={"lay": lay, "shown": True})
+            state = state.with_options(replace(state.options.photograph, lay=lay, shown=True))
         imgui.set_item_tooltip(told)
     imgui.separator()
     if can_undistort(state):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import moderngl
 from imgui_bundle import ImVec2, imgui, implot
 
 from app.instruments.costs import plots
-from app.instruments.costs.options import CostOptions
 from app.instruments.costs.recorded import COSTS, GROWTH
 from app.ui import theme
 from app.ui.checks import radio_button
@@ -25,14 +26,16 @@ class CostsView(DockedView):
             implot.create_context()
 
     def draw(self, host: Host) -> None:
-        unit = host.state.of(CostOptions).against
+        unit = host.state.options.costs.against
         if host.has_tools:
             imgui.align_text_to_frame_padding()
             imgui.text("against")
             for name in COSTS:
                 follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
                 if radio_button(name, unit == name):
-                    host.apply(host.state.with_options(costs={"against": name}))
+                    host.apply(
+                        host.state.with_options(replace(host.state.options.costs, against=name))
+                    )
         room = imgui.get_content_region_avail()
         if not host.has_tools:
             plots.draw(unit, room)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.instruments.laboratory.options import LaboratoryOptions
 from app.instruments.laboratory.sheet import Look, Point, Sheet
-from app.state.options import Notation
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.shared import Notation
 from renderer.camera.camera import Size
 
 Image = NDArray[np.float32]

@@ -7,7 +7,7 @@ import numpy as np
 from app.instruments.laboratory.page import Page
 from app.instruments.laboratory.sheet import BLACK, YELLOW, Point, Sheet, between, mixed, reached
 from app.instruments.outside.figure import Color, Figure
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.symbols import plain
 from renderer.camera.camera import Floats
 

@@ -13,14 +13,14 @@ from app.images.screen import available_px
 from app.images.window_rasterizer import WindowRasterizer
 from app.instruments.laboratory.images import boxes, image_size
 from app.instruments.laboratory.looks import look_of
-from app.instruments.laboratory.options import LaboratoryOptions
 from app.instruments.laboratory.page import Image, Page
 from app.instruments.laboratory.pages import PAGES, drawn
 from app.instruments.laboratory.sheet import Look, Point, Sheet
 from app.instruments.outside.figure import Figure
 from app.instruments.outside.painting import Painter
 from app.state.bounds import range_of
-from app.state.options import Notation
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
 from app.ui.messages import wrapped
@@ -62,7 +62,7 @@ class LaboratoryView(DockedView):
     def draw(self, host: Host) -> None:
         assert self._uploads is not None
         self._uploads.begin_frame()
-        options = toolbar(host) if host.has_tools else host.state.of(LaboratoryOptions)
+        options = toolbar(host) if host.has_tools else host.state.options.laboratory
         size = available_px()
         if min(size) < SMALLEST_PX:
             return
@@ -99,19 +99,23 @@ class LaboratoryView(DockedView):
         first, last = sheet.px(np.array([low, np.add(low, room)])) / scale + corner
         imgui.set_cursor_screen_pos(ImVec2(*first))
         mouse_area("image", ImVec2(*(last - first)))
-        steps, place = focused_steps(), np.array(host.state.of(LaboratoryOptions).point)
+        steps, place = focused_steps(), np.array(host.state.options.laboratory.point)
         if imgui.is_item_hovered():
             mouse = imgui.get_mouse_pos()
             place = np.clip(((mouse.x, mouse.y) - first) / (last - first), 0, 1)
         elif any(steps):
             place = np.clip(place + KEY_STEP * np.array(steps), 0, 1)
-            host.apply(host.state.with_options(laboratory={"point": tuple(place.tolist())}))
+            host.apply(
+                host.state.with_options(
+                    replace(host.state.options.laboratory, point=tuple(place.tolist()))
+                )
+            )
         return float(place[0]), float(place[1])
 
 
 def toolbar(host: Host) -> LaboratoryOptions:
     """Draw the switches. Return the present options."""
-    options = host.state.of(LaboratoryOptions)
+    options = host.state.options.laboratory
     names = list(PAGES)
     imgui.set_next_item_width(13 * imgui.get_font_size())
     titles = [kind.title for kind in PAGES.values()]
@@ -129,7 +133,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
         after_ev = _slider("exposure after storage", changed.after_ev, limits, "%+.1f EV")
         changed = replace(changed, after_ev=after_ev)
     if changed != options:
-        host.apply(host.state.with_options(laboratory=changed))
+        host.apply(host.state.with_options(changed))
     return changed
 
 

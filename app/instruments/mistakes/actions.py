@@ -6,9 +6,9 @@ The panel reads the answers' keys, 1 to 4 and A to D, while the view has the key
 from __future__ import annotations
 
 from app.instruments.mistakes import question
-from app.instruments.mistakes.options import MistakesOptions, Mode
 from app.instruments.mistakes.panel import Wish
 from app.instruments.mistakes.view import MISTAKES, MistakesView
+from app.state.options.mistakes import Mode
 from app.ui.action import SHIFT, Action, Key, Window
 
 MENU = "Lecture/Mistakes"
@@ -21,12 +21,12 @@ MODES: dict[Mode, str] = {
 
 def _show(window: Window, mode: Mode) -> None:
     window.shell.stage.show(MISTAKES)
-    changes = question.switched_to(window.state.of(MistakesOptions), mode)
-    window.change(window.state.with_options(mistakes=changes))
+    options = question.switched_to(window.state.options.mistakes, mode)
+    window.change(window.state.with_options(options))
 
 
 def _is_quiz_shown(window: Window) -> bool:
-    is_quiz = window.state.of(MistakesOptions).mode != "laboratory"
+    is_quiz = window.state.options.mistakes.mode != "laboratory"
     return is_quiz and MISTAKES in window.shell.stage.rects
 
 
@@ -35,7 +35,7 @@ def _mode(mode: Mode, name: str) -> Action:
         MENU,
         name,
         lambda window: _show(window, mode),
-        is_on=lambda state: state.of(MistakesOptions).mode == mode,
+        is_on=lambda state: state.options.mistakes.mode == mode,
     )
 
 

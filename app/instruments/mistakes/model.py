@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.checking.mistakes.rays import RayTask, camera_rays, ray_program
 from app.images.ray_pictures import RayPainter
-from app.instruments.mistakes.options import MistakesOptions
 from app.instruments.outside.second_camera import GivenRay, corner_rays
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui.explaining.breaking import broken
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.images import to_srgb8
@@ -67,7 +66,7 @@ def situation_of(state: AppState, images: Size) -> Situation:
 
 def picture_size(state: AppState, images: Size) -> Size:
     """As large as the images where these are as coarse, else of the columns that were chosen."""
-    columns = state.of(MistakesOptions).columns
+    columns = state.options.mistakes.columns
     width, height = images if min(images) else (4, 3)
     if state.images.resolution is not None and width <= columns:
         return width, height

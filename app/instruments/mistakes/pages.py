@@ -15,9 +15,9 @@ from app.checking.mistakes.program import Mistakes, Program
 from app.checking.reports.picture import changed_pixels, difference_picture
 from app.instruments.mistakes import model, panel, question
 from app.instruments.mistakes.model import Bytes, Compared, Situation
-from app.instruments.mistakes.options import MistakesOptions
 from app.instruments.mistakes.question import LETTERS, QuizQuestion
-from app.state.options import Notation, Pixel
+from app.state.options.mistakes import MistakesOptions
+from app.state.options.shared import Notation, Pixel
 from app.ui import theme
 from app.ui.coded_text import coded_text
 from app.ui.picture_grid import GridPicture, picture_grid

@@ -14,10 +14,10 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.checking.mistakes.program import Mistake, Mistakes, Program
 from app.instruments.mistakes import model
-from app.instruments.mistakes.options import MistakesOptions, Mode
 from app.instruments.mistakes.question import LETTERS, switched_to
 from app.instruments.outside.paint import role_color
-from app.state.options import Notation
+from app.state.options.mistakes import MistakesOptions, Mode
+from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.areas import press_area
 from app.ui.checks import checkbox, radio_button
@@ -61,7 +61,7 @@ def controls(options: MistakesOptions, is_asked: bool) -> tuple[MistakesOptions,
     wish: Wish = ""
     mode = _modes(options.mode)
     if mode != options.mode:
-        options = replace(options, **switched_to(options, mode))  # type: ignore[arg-type]
+        options = switched_to(options, mode)
     if options.mode == "laboratory":
         follow(imgui.calc_text_size("difference").x + 1.5 * imgui.get_frame_height())
         _, on = checkbox("difference", options.difference)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from app.checking.mistakes.program import Mistake, Program
 from app.images.ray_pictures import RayPainter
 from app.instruments.mistakes.model import Bytes, Light, Situation, rays_of, shown
-from app.instruments.mistakes.options import MistakesOptions, Mode
+from app.state.options.mistakes import MistakesOptions, Mode
 
 CHOICES = 4
 LETTERS = "ABCD"
@@ -133,34 +133,32 @@ def reason(program: Program, names: tuple[str, ...], at: int, answer: str) -> st
     return f"It is {told}"
 
 
-def answered(options: MistakesOptions, names: tuple[str, ...], number: int) -> dict[str, object]:
-    """The options after an answer, as changes; none where it is answered already."""
+def answered(options: MistakesOptions, names: tuple[str, ...], number: int) -> MistakesOptions:
+    """Return the options after an answer; the same if the question is answered already."""
     if options.answer or options.revealed or not 0 <= number < len(names):
-        return {}
-    is_right = number == right_at(options)
+        return options
     right, count = options.score
-    return {
-        "names": names, "answer": names[number], "revealed": True,
-        "score": (right + is_right, count + 1),
-    }  # fmt: skip
+    score = (right + (number == right_at(options)), count + 1)
+    return replace(options, names=names, answer=names[number], revealed=True, score=score)
 
 
-def revealed(options: MistakesOptions, names: tuple[str, ...]) -> dict[str, object]:
+def revealed(options: MistakesOptions, names: tuple[str, ...]) -> MistakesOptions:
     """Reveal the correct answer, or hide it again if nobody has answered."""
     if options.answer or not names:
-        return {}
-    return {"names": names, "revealed": not options.revealed}
+        return options
+    return replace(options, names=names, revealed=not options.revealed)
 
 
-def next_question(options: MistakesOptions, step: int = 1) -> dict[str, object]:
-    """Another one, drawn anew; after a step's own question any mistake may be asked for."""
+def next_question(options: MistakesOptions, step: int = 1) -> MistakesOptions:
+    """Ask another question. After a step's own question, any mistake may be asked for."""
     seed = (options.seed + step) % 1_000_000
-    return {"seed": seed, "asked": "", "names": (), "answer": "", "revealed": False}
+    return replace(options, seed=seed, asked="", names=(), answer="", revealed=False)
 
 
-def switched_to(options: MistakesOptions, mode: Mode) -> dict[str, object]:
-    """The options in another mode. A quiz that was seen is followed by a new question: each page
-    of the quiz shows what the other one asks for."""
-    left_quiz = options.mode not in ("laboratory", mode)
-    anew = next_question(options) if left_quiz else {"names": (), "answer": "", "revealed": False}
-    return {**anew, "mode": mode}
+def switched_to(options: MistakesOptions, mode: Mode) -> MistakesOptions:
+    """Return the options in another mode. A quiz that was seen is followed by a new question,
+    because each page of the quiz shows what the other one asks for.
+    """
+    if options.mode not in ("laboratory", mode):
+        options = next_question(options)
+    return replace(options, names=(), answer="", revealed=False, mode=mode)

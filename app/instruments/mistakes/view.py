@@ -6,7 +6,7 @@ view. model.py and question.py decide on the pictures; pages.py draws them.
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import replace
 from typing import Any
 
 import moderngl
@@ -16,14 +16,14 @@ from imgui_bundle import ImVec2, imgui
 from app.images.ray_pictures import RayPictures
 from app.instruments.mistakes import model, pages, panel, question
 from app.instruments.mistakes.model import Compared, Situation
-from app.instruments.mistakes.options import MistakesOptions
 from app.instruments.mistakes.pages import Made, Page, put_pictures
 from app.instruments.mistakes.question import CHOICES
 from app.instruments.outside.diagram import Item
 from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.second_camera import SecondCamera, second_camera
 from app.instruments.outside.view import OutsideView
-from app.state.options import Pixel
+from app.state.options.mistakes import MistakesOptions
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.coded_text import coded_text
 from app.ui.uploads import Uploads
@@ -95,19 +95,19 @@ class MistakesView(DockedView):
 
     def _draw(self, host: Host, uploads: Uploads) -> None:
         now = model.situation_of(host.state, host.renderers.size)
-        options = host.state.of(MistakesOptions)
+        options = host.state.options.mistakes
         self.made = self._follow(host, now, options)
         if host.has_tools:
             changed, wish = panel.controls(options, bool(self._names(options, now)))
             if changed != options:
-                host.change(host.state.with_options(mistakes=asdict(changed)))
+                host.change(host.state.with_options(changed))
             self._grant(host, now, wish)
-        error = self._problem(host.state.of(MistakesOptions))
+        error = self._problem(host.state.options.mistakes)
         if error:
             width = imgui.get_content_region_avail().x
             coded_text(error, width, theme.ERROR, host.fonts)
         room = imgui.get_content_region_avail()
-        is_told = host.state.of(MistakesOptions).revealed
+        is_told = host.state.options.mistakes.revealed
         if imgui.begin_child("page", room, imgui.ChildFlags_.nav_flattened):
             if is_told and not self._told:
                 imgui.set_scroll_y(0.0)  # where the reason stands
@@ -126,7 +126,7 @@ class MistakesView(DockedView):
         imgui.end_child()
 
     def _page(self, host: Host, now: Situation, page: Page) -> None:
-        options = host.state.of(MistakesOptions)
+        options = host.state.options.mistakes
         if options.mode != "laboratory":
             clicked = pages.quiz(page, self.made, options)
             if clicked is not None:
@@ -135,7 +135,9 @@ class MistakesView(DockedView):
             return
         answer = pages.laboratory(page, now, self.made, options)
         if answer.chosen is not None:
-            host.change(host.state.with_options(mistakes={"chosen": answer.chosen}))
+            host.change(
+                host.state.with_options(replace(host.state.options.mistakes, chosen=answer.chosen))
+            )
         elif answer.pixel is not None and self.made is not None:
             self._mark(host, self.made.now, answer.pixel)
 
@@ -143,7 +145,7 @@ class MistakesView(DockedView):
         """Marks a pixel in all views, or takes the mark away."""
         images = host.renderers.size
         marked = None if now.pixel == pixel else model.scaled_pixel(pixel, now.size, images)
-        host.change(host.state.with_options(marked=marked))
+        host.change(host.state.with_options(replace(host.state.options, marked=marked)))
 
     def _problem(self, options: MistakesOptions) -> str:
         """Return the error in words, or ""."""
@@ -204,27 +206,27 @@ class MistakesView(DockedView):
 
     def _grant(self, host: Host, now: Situation, wish: panel.Wish) -> None:
         asked, self._asked = [*self._asked, wish], []
-        if host.state.of(MistakesOptions).mode != "laboratory":
+        if host.state.options.mistakes.mode != "laboratory":
             asked.append(panel.key_answer())
         for one in asked:
-            options = host.state.of(MistakesOptions)
-            changes = self._changes(options, self._names(options, now), one)
-            if changes:
-                host.change(host.state.with_options(mistakes=changes))
+            options = host.state.options.mistakes
+            changed = self._changed(options, self._names(options, now), one)
+            if changed != options:
+                host.change(host.state.with_options(changed))
 
-    def _changes(
+    def _changed(
         self, options: MistakesOptions, names: tuple[str, ...], wish: panel.Wish | int | None
-    ) -> dict[str, Any]:
-        """Return the changes that a request makes to the options."""
+    ) -> MistakesOptions:
+        """Return the options after a request."""
         if wish == "right":
-            return {"chosen": ()}
+            return replace(options, chosen=())
         if options.mode == "laboratory":
-            return {}
+            return options
         if wish == "next":
             return question.next_question(options)
         if wish == "reveal":
             return question.revealed(options, names)
-        return question.answered(options, names, wish) if isinstance(wish, int) else {}
+        return question.answered(options, names, wish) if isinstance(wish, int) else options
 
     # What the outside view shows.
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 from app.instruments.objects import editing
 from app.instruments.objects.choosing import chosen, everything, walked
-from app.instruments.objects.options import ObjectsOptions
 from app.state.app_state import AppState
 from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
 from renderer.editing import objects
@@ -29,10 +28,12 @@ def _toggle(
     """Return the action that switches an option between two values."""
 
     def is_on(state: AppState) -> bool:
-        return bool(getattr(state.of(ObjectsOptions), field) == on)
+        return bool(getattr(state.options.objects, field) == on)
 
     def toggled(state: AppState) -> AppState:
-        return state.with_options(objects={field: off if is_on(state) else on})
+        return state.with_options(
+            state.options.with_changes({"objects": {field: off if is_on(state) else on}})
+        )
 
     return Action(menu, name, changing(toggled), keys, chords, is_on=is_on, separated=separated)
 

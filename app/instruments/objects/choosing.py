@@ -6,10 +6,11 @@ Pure. The selection is in the state, but is not an undo step: amend the state to
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import lru_cache
 
-from app.instruments.objects.options import MOST_CHOSEN, ObjectsOptions
 from app.state.app_state import AppState
+from app.state.options.objects import MOST_CHOSEN
 from renderer.editing.changing import Item, present
 from renderer.editing.outline import OutlineRow, outline
 from renderer.scene.model import Scene
@@ -18,7 +19,7 @@ from renderer.system.errors import LucidaError
 
 def chosen(state: AppState) -> tuple[Item, ...]:
     """Return the selected items that exist in the scene; the last one is the active one."""
-    items = state.of(ObjectsOptions).chosen
+    items = state.options.objects.chosen
     return _there(state.scene, items) if items else ()
 
 
@@ -45,9 +46,9 @@ def _movable(scene: Scene, items: tuple[Item, ...]) -> tuple[Item, ...]:
 def choose(state: AppState, items: Iterable[Item]) -> AppState:
     """Return the state with only these items selected."""
     found = tuple(dict.fromkeys(items))[-MOST_CHOSEN:]
-    if found == state.of(ObjectsOptions).chosen:
+    if found == state.options.objects.chosen:
         return state
-    return state.with_options(objects={"chosen": found})
+    return state.with_options(replace(state.options.objects, chosen=found))
 
 
 def choose_also(state: AppState, item: Item) -> AppState:

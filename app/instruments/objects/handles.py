@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
 
-from app.instruments.objects.options import Handle, ObjectsOptions
 from app.instruments.outside.gizmo import (
     begin_handles,
     escaped,
@@ -24,6 +23,7 @@ from app.instruments.outside.gizmo import (
     write,
 )
 from app.instruments.outside.tint import AXES, HELD, hide_text, recolor
+from app.state.options.objects import Handle, ObjectsOptions
 from app.ui import theme
 from app.ui.guest import ShownIn
 from renderer.camera.camera import Vector

@@ -12,7 +12,6 @@ from imgui_bundle import ImVec2, imgui
 
 from app.instruments.objects.choosing import choose, choose_also, chosen, picked, rows_of, unlocked
 from app.instruments.objects.handles import Handles
-from app.instruments.objects.options import ObjectsOptions
 from app.instruments.objects.remedies import remedied, scene_remedy
 from app.instruments.objects.silhouette import Floats, outlines_of
 from app.instruments.outside.screen import OutsideScreen
@@ -48,7 +47,7 @@ class InViews:
         return self.handles.holds(view)
 
     def wants(self, host: Host, double: bool) -> bool:
-        return double or host.state.of(ObjectsOptions).selects
+        return double or host.state.options.objects.selects
 
     def click(self, host: Host, shown: ShownIn, click: Click) -> None:
         light = self._light_under(host, shown)
@@ -68,7 +67,7 @@ class InViews:
     def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         state = host.state
         items = chosen(state)
-        if not items and not state.of(ObjectsOptions).selects:
+        if not items and not state.options.objects.selects:
             self.handles.forget(shown.name)
             self._outlines.forget()
             self._segments.forget()
@@ -81,7 +80,7 @@ class InViews:
         if shown.name == OUTSIDE:
             self._draw_lights(host, shown)
         free = unlocked(state)
-        options = state.of(ObjectsOptions)
+        options = state.options.objects
         focus = host.focus
         scene = self.handles.draw(
             shown, state.scene, free, options, focus.center, focus.reach, host.fonts

@@ -5,9 +5,10 @@ Owns their names and keys. What is switched is outside/switches.py's.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.instruments.outside.extent import around, framed, outside_camera, way_of
 from app.instruments.outside.figure_view import Ground, export_figure
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.switches import (
     AXIS_NAMES,
     HANDLES,
@@ -20,6 +21,7 @@ from app.instruments.outside.switches import (
 )
 from app.instruments.outside.view import OutsideView
 from app.state.app_state import AppState
+from app.state.options.outside import OutsideOptions
 from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
 from renderer.camera.camera import Camera
 from renderer.camera.navigation import switched_projection
@@ -31,7 +33,7 @@ KEYS = {"bundle": ("B", Key.b), "move": ("G", Key.g), "turn": ("T", Key.t)}
 
 
 def _with(state: AppState, options: OutsideOptions) -> AppState:
-    return state.with_options(outside=options)
+    return state.with_options(options)
 
 
 def _keys(name: str) -> tuple[str, tuple[int, ...]]:
@@ -47,16 +49,16 @@ def _looking(window: Window) -> Camera:
     home = state.scene.view.for_size(window.renderers.size)
     points = around(window.focus.framed, home, window.renderers.camera(state))
     home = state.scene.view.camera
-    return state.of(OutsideOptions).camera or outside_camera(points, home, ASPECT)
+    return state.options.outside.camera or outside_camera(points, home, ASPECT)
 
 
 def _look(window: Window, camera: Camera | None) -> None:
     """Look through a camera; None: through one that sees everything."""
-    window.travel(window.state.with_options(outside={"camera": camera}))
+    window.travel(window.state.with_options(replace(window.state.options.outside, camera=camera)))
 
 
 def _sees_all(state: AppState) -> bool:
-    return state.of(OutsideOptions).camera is None
+    return state.options.outside.camera is None
 
 
 def _along(window: Window, axis: str) -> None:
@@ -73,7 +75,7 @@ def _switch_projection(window: Window) -> None:
 
 
 def _is_parallel(state: AppState) -> bool:
-    camera = state.of(OutsideOptions).camera
+    camera = state.options.outside.camera
     return camera is not None and camera.is_parallel
 
 
@@ -81,9 +83,9 @@ def _shown(switch: Switch) -> Action:
     return Action(
         MENU,
         f"Show {switch.name}",
-        changing(lambda state: _with(state, toggled(state.of(OutsideOptions), switch.field))),
+        changing(lambda state: _with(state, toggled(state.options.outside, switch.field))),
         *_keys(switch.field),
-        is_on=lambda state: is_on(state.of(OutsideOptions), switch.field),
+        is_on=lambda state: is_on(state.options.outside, switch.field),
     )
 
 
@@ -91,10 +93,10 @@ def _handles(kind: str, name: str) -> Action:
     return Action(
         MENU,
         f"Handles: {name}",
-        changing(lambda state: _with(state, with_gizmo(state.of(OutsideOptions), kind))),
+        changing(lambda state: _with(state, with_gizmo(state.options.outside, kind))),
         *_keys(kind),
-        is_on=lambda state: state.of(OutsideOptions).gizmo == kind,
-        can=lambda window: kind in {k for k, *_ in handles(window.state.of(OutsideOptions))},
+        is_on=lambda state: state.options.outside.gizmo == kind,
+        can=lambda window: kind in {k for k, *_ in handles(window.state.options.outside)},
         separated=kind == "move",
     )
 

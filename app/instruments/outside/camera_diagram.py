@@ -33,10 +33,10 @@ from app.instruments.outside.frustum import (
     rectangle,
 )
 from app.instruments.outside.lens_diagram import ideal_border, image_sphere, lens_pixel, lens_volume
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.ray_drawing import half_line, meetings, rays_to
 from app.instruments.outside.simple_camera import pixel_numbers, simple_camera
-from app.state.options import Notation, Pixel
+from app.state.options.outside import OutsideOptions
+from app.state.options.shared import Notation, Pixel
 from app.ui.explaining.symbols import vector
 from renderer.camera.camera import Camera, Floats
 

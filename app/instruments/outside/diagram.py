@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from app.state.options import Notation, Pixel
+from app.state.options.shared import Notation, Pixel
 from app.ui.explaining.symbols import plain
 from renderer.camera.camera import Floats
 

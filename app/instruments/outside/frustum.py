@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.camera.lenses import Lens
 

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 
 from app.instruments.outside.frustum import plane_corners
 from app.instruments.outside.mouse import Scope
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.tint import handle_colors, hide_text, recolor
 from app.ui import theme
 from app.ui.view import Host
@@ -69,7 +68,7 @@ class Gizmo:
 
         ground: the colour under the handles.
         """
-        state, options = host.state, host.state.of(OutsideOptions)
+        state, options = host.state, host.state.options.outside
         if options.gizmo == "none" or (options.gizmo == "up" and options.target is None):
             self.over = False
             self.cancel()
@@ -78,7 +77,7 @@ class Gizmo:
         after = self._draw(scope, before, options.gizmo, state.keep_orthonormal, ground, host.fonts)
         if after != before:
             # One drag is one undo step.
-            state = state.with_camera(after[0]).with_options(outside={"up": after[1]})
+            state = state.with_camera(after[0]).with_options(replace(options, up=after[1]))
             host.apply(state, ("outside gizmo", self._count))
         if self.dragging:
             host.animate()

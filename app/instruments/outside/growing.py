@@ -30,9 +30,9 @@ from app.instruments.outside.diagram import (
     polyline,
 )
 from app.instruments.outside.frustum import Size, ideal_point, image_point, pixel_corners, ways
-from app.instruments.outside.options import LENS_STAGES, STAGES
 from app.instruments.outside.simple_camera import simple_ray
-from app.state.options import Notation, Pixel
+from app.state.options.outside import LENS_STAGES, STAGES
+from app.state.options.shared import Notation, Pixel
 from app.ui.explaining.notation import number, text_tuple
 from app.ui.explaining.symbols import latex
 from renderer.camera.camera import Camera, Floats

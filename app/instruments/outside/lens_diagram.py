@@ -17,7 +17,7 @@ from app.instruments.outside.frustum import (
     pixel_corners,
     point_at,
 )
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera.camera import Camera, Floats
 
 EDGES = 8  # rays along the border that stand for the edges of a pyramid

@@ -17,9 +17,8 @@ from app.instruments.outside.diagram import RayEnd
 from app.instruments.outside.extent import around, framed, outside_camera, way_of
 from app.instruments.outside.frustum import bundle_pixels
 from app.instruments.outside.mouse import Scope
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.screen import NEAREST, OutsideScreen
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.theme import framebuffer_scale
 from app.ui.view import Host
@@ -64,7 +63,7 @@ class Scopes:
         """
         both, state = host.renderers, host.state
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
-        options, inner = state.of(OutsideOptions), both.camera(state)
+        options, inner = state.options.outside, both.camera(state)
         looking = options.camera
         fixed = state.scene, more, looking, both.size, size, place, state.step
         if inner != self._seen:
@@ -110,7 +109,7 @@ def scope_of(
     points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.of(OutsideOptions).camera or _for_all(points, host, size, extent)
+    camera = host.state.options.outside.camera or _for_all(points, host, size, extent)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
@@ -170,7 +169,7 @@ def ray_ends(
     others: views that draw the rays of the pixels that they point out.
     """
     both, state = host.renderers, host.state
-    options = state.of(OutsideOptions)
+    options = state.options.outside
     marked = _ray_pixel(host, others) if options.ray else None
     counts = options.bundle
     if camera.lens is not None and options.volume and not any(counts):

@@ -13,7 +13,7 @@ from app.instruments.outside.cloud_layer import CloudLayer
 from app.instruments.outside.ground import Ground
 from app.instruments.outside.projected import Primitive
 from app.instruments.outside.tools import Written
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.raster.overlay import Overlay
 
 

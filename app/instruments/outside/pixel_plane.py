@@ -17,7 +17,6 @@ from imgui_bundle import ImVec2, imgui
 from app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments
 from app.instruments.outside.frustum import has_plane, image_point, plane_corners
 from app.instruments.outside.mouse import Scope
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.screen import OutsideScreen
 from app.ui import theme
 from app.ui.view import Host
@@ -147,7 +146,7 @@ def _with_viewport(camera: Camera, viewport: Floats) -> Camera:
 def _is_on(host: Host) -> bool:
     camera = host.state.camera
     is_flat = not camera.is_parallel and has_plane(camera)
-    return host.state.of(OutsideOptions).pixels and is_flat
+    return host.state.options.outside.pixels and is_flat
 
 
 def _part_at(camera: Camera, scope: Scope, mouse: ImVec2) -> Part | None:

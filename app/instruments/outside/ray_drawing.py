@@ -10,8 +10,8 @@ import numpy as np
 
 from app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments, in_notation
 from app.instruments.outside.frustum import Size, plane_parameter, point_at
-from app.instruments.outside.options import Point
-from app.state.options import Notation, Pixel
+from app.state.options.outside import Point
+from app.state.options.shared import Notation, Pixel
 from app.ui.explaining.notation import number
 from renderer.camera.camera import Camera, Floats
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from app.instruments.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Segments, polyline
 from app.instruments.outside.frustum import Size, image_point, pixel_corners, plane_corners
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui.explaining.notation import number, text_tuple
 from renderer.camera.camera import Camera, Floats
 

@@ -15,7 +15,6 @@ from app.instruments.outside.diagram import Role
 from app.instruments.outside.extent import way_of
 from app.instruments.outside.looking import TRIAD_PX, Floats, camera_along
 from app.instruments.outside.mouse import Scope
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.paint import role_color
 from app.instruments.outside.painting import measured, rimmed_text
 from app.instruments.outside.placing import Box, Edges, LabelPlacer
@@ -29,6 +28,7 @@ from app.instruments.outside.switches import (
     with_gizmo,
 )
 from app.state.bounds import whole_range_of
+from app.state.options.outside import OutsideOptions
 from app.ui import theme
 from app.ui.areas import press_area
 from app.ui.theme import framebuffer_scale
@@ -45,7 +45,7 @@ def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
     more: points (n, 3) that must be in sight with the scene.
     """
     state = host.state
-    now = state.of(OutsideOptions)
+    now = state.options.outside
     pad, origin = theme.px(PAD), scope.origin
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     if imgui.button("Show##outside"):
@@ -59,9 +59,9 @@ def use_tools(host: Host, scope: Scope, more: Floats) -> tuple[Edges, ...]:
     if axis is not None:
         options = replace(options, camera=camera_along(host, scope, axis, more))
     if options.camera != now.camera:
-        host.travel(state.with_options(outside=options))
+        host.travel(state.with_options(options))
     elif options != now:
-        host.apply(state.with_options(outside=options))
+        host.apply(state.with_options(options))
     scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
     return (
         (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),

@@ -39,7 +39,6 @@ from app.instruments.outside.looking import (
     widest_px,
 )
 from app.instruments.outside.mouse import Mouse, Scope
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.paint import CASING, ground_of, layers
 from app.instruments.outside.parts import MadePicture, Tools
 from app.instruments.outside.pixel_plane import PixelPlane
@@ -49,7 +48,7 @@ from app.instruments.outside.screen import OutsideScreen, image_plane
 from app.instruments.outside.tools import draw_labels, use_tools, written
 from app.instruments.outside.widening import Widening
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
 from app.ui.theme import framebuffer_scale
@@ -144,19 +143,19 @@ class OutsideView(DockedView):
         return self.scope.camera if self.scope is not None else None
 
     def with_flown(self, state: AppState, camera: Camera | None) -> AppState:
-        return state.with_options(outside={"camera": camera})
+        return state.with_options(replace(state.options.outside, camera=camera))
 
     def ends(self, host: Host, target: AppState) -> Ends | None:
         """Return the start and the end of the outside camera's transition to a target, or None if
         more than that changes or the view is hidden.
         """
         state, scope, size = host.state, self.scope, self.size_px
-        changed = state.of(OutsideOptions).camera != target.of(OutsideOptions).camera
+        changed = state.options.outside.camera != target.options.outside.camera
         if scope is None or size is None or not changed or state.view != target.view:
             return None
-        options = target.of(OutsideOptions)
+        options = target.options.outside
         end = options.camera or camera_for_all(host, size, scope.extent, self.extensions.points)
-        return Ends(scope.camera, end, size, lambda s: s.of(OutsideOptions).camera, self.with_flown)
+        return Ends(scope.camera, end, size, lambda s: s.options.outside.camera, self.with_flown)
 
     def object_under(self, host: Host) -> int | None:
         if self.scope is None:
@@ -210,9 +209,7 @@ class OutsideView(DockedView):
         scope, begun = self._scope(host, size, origin, extent), host.state
         imgui.set_cursor_screen_pos(origin)
         self._over = False
-        if self.hosted.holds or (
-            self._gizmo.over and host.state.of(OutsideOptions).gizmo != "none"
-        ):
+        if self.hosted.holds or (self._gizmo.over and host.state.options.outside.gizmo != "none"):
             imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
             return scope
         buttons = imgui.ButtonFlags_
@@ -227,7 +224,10 @@ class OutsideView(DockedView):
         if right or down:
             angles = right * TURN_RAD, -down * TURN_RAD
             camera = orbited(scope.camera, scope.center, *angles)
-            host.apply(host.state.with_options(outside={"camera": camera}), (self.name, "turned"))
+            host.apply(
+                host.state.with_options(replace(host.state.options.outside, camera=camera)),
+                (self.name, "turned"),
+            )
             return self._scope(host, size, origin, extent)
         if self._pixels.follow(host, scope):
             self._mouse.cancel()
@@ -236,7 +236,7 @@ class OutsideView(DockedView):
         camera, gesture = self._mouse.follow(scope)
         state = host.state
         if camera != scope.camera:
-            state = state.with_options(outside={"camera": camera})
+            state = state.with_options(replace(state.options.outside, camera=camera))
             host.apply(state, gesture)
         number = partial(self.object_under, host)
         if self.hosted.take_click(host, scope, self._mouse.clicked(), number):
@@ -247,7 +247,7 @@ class OutsideView(DockedView):
         if pixel is not None:
             if self._mouse.clicked():
                 marked = None if host.state.marked == pixel else pixel
-                host.apply(host.state.with_options(marked=marked))
+                host.apply(host.state.with_options(replace(host.state.options, marked=marked)))
             elif not was_dragging:
                 host.hover(self.name, pixel)
         return scope if host.state is begun else self._scope(host, size, origin, extent)
@@ -260,7 +260,7 @@ class OutsideView(DockedView):
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
         """Return the pixel of the image plane that is visible under the mouse."""
-        outside = host.state.of(OutsideOptions)
+        outside = host.state.options.outside
         if not (outside.image or outside.grid):
             return None
         camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
@@ -290,7 +290,7 @@ class OutsideView(DockedView):
         both, state = host.renderers, host.state
         assert self.tools is not None
         assert both.textures is not None
-        inner, options, extensions = both.camera(state), state.of(OutsideOptions), self.extensions
+        inner, options, extensions = both.camera(state), state.options.outside, self.extensions
         overlay, exposure_ev = self.tools.overlay, state.images.exposure_ev
         request, live = both.request(state), None
         assert request is not None
@@ -331,7 +331,7 @@ class OutsideView(DockedView):
         """Return what is to be drawn on a screen, with rays' ends as far as they are known."""
         assert self.tools is not None
         both, state = host.renderers, host.state
-        camera, size, options = both.camera(state), both.size, state.of(OutsideOptions)
+        camera, size, options = both.camera(state), both.size, state.options.outside
         marked, hits = ray_ends(self.tools.hits, host, camera, size, self.extensions.by_source)
         side_px = widest_px(screen, plane_corners(camera))
         found: tuple[float, ...] = ()

@@ -13,7 +13,6 @@ import numpy as np
 
 from app.instruments.outside.answers import points_of
 from app.instruments.outside.diagram import Item
-from app.instruments.outside.options import OutsideOptions
 from renderer.camera.camera import Camera, Floats
 from renderer.system.errors import LucidaError
 
@@ -43,7 +42,7 @@ class Widening:
         if seen == self._seen:
             return
         self._seen = seen
-        now = host.state.of(OutsideOptions).camera
+        now = host.state.options.outside.camera
         home = self._moved[0] if self._moved is not None and now == self._moved[1] else now
         target, self._moved = home, None
         if drawn:
@@ -55,7 +54,7 @@ class Widening:
             target = home if found is looking else found
             self._moved = home, target
         if target != now:
-            host.amend(host.state.with_options(outside={"camera": target}))
+            host.amend(host.state.with_options(replace(host.state.options.outside, camera=target)))
 
 
 def backed(camera: Camera, points: Floats, size: tuple[int, int]) -> Camera:

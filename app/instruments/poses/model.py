@@ -6,7 +6,7 @@ These are computed once per set. Pure; slow functions are called on a thread.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,6 @@ from app.instruments.outside.cloud import Cloud
 from app.instruments.outside.diagram import Segments
 from app.instruments.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
 from app.instruments.outside.frustum import border
-from app.instruments.poses.options import PosesOptions
 from app.state.app_state import AppState
 from app.state.paths import stored
 from renderer.camera.camera import Camera, Size
@@ -276,19 +275,19 @@ def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:
     """
     file = stored(str(poses.path))
     if scene is None:
-        return state.with_options(poses={"file": file, "pose": -1})
+        return state.with_options(replace(state.options.poses, file=file, pose=-1))
     seen = state.with_scene(scene, poses.view(0))
-    return seen.with_options(poses={"file": file, "pose": 0})
+    return seen.with_options(replace(seen.options.poses, file=file, pose=0))
 
 
 def with_set_framed(state: AppState, poses: PoseSet, size: Size | None) -> AppState:
     """Return the state in which the outside view, of `size`, sees all of the set."""
-    options = state.of(PosesOptions)
+    options = state.options.poses
     points = cloud(poses, options.length, options.points).around
     way = looked_from(poses.up, np.asarray(state.camera.w))
     width, height = size or (4, 3)
     camera = framed(points, way, width / height, up=poses.up)
-    return state.with_options(outside={"camera": camera})
+    return state.with_options(replace(state.options.outside, camera=camera))
 
 
 # The list.

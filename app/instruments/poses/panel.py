@@ -6,14 +6,15 @@ Takes values and returns requests.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from dataclasses import replace
+from typing import Literal
 
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from app.instruments.poses.model import PoseSet
-from app.instruments.poses.options import PosesOptions
 from app.state.bounds import range_of
+from app.state.options.poses import PosesOptions
 from app.ui import theme
 from app.ui.checks import checkbox
 from app.ui.lettering import fitting_words, lettering
@@ -63,9 +64,8 @@ def waiting(name: str, time_s: float) -> PoseWish:
     return "cancel" if progress(time_s, 6) else ""
 
 
-def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish, dict[str, Any]]:
+def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish, PosesOptions]:
     """Draw the set and its commands. Return the changed options."""
-    changes: dict[str, Any] = {}
     with lettering(fonts.bold):
         imgui.align_text_to_frame_padding()
         imgui.text(fitting_words(one_line(poses.title), imgui.get_content_region_avail().x))
@@ -90,19 +90,21 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
     )  # fmt: skip
     tip("how long the frusta are drawn: 1 fits the set")
     if changed:
-        changes["length"] = length
+        options = replace(options, length=length)
     aligned = "the points as each camera sees them: they should line up with the photograph"
-    for name, label, said in (
-        ("points", "points", "the reconstruction's points"),
-        ("reprojected", "on photographs", aligned),
-    ):
-        if len(poses.points):
-            follow(imgui.calc_text_size(label).x + 1.5 * imgui.get_frame_height())
-            changed, on = checkbox(label, getattr(options, name))
-            tip(said)
-            if changed:
-                changes[name] = on
-    return wish, changes
+    if len(poses.points):
+        points = _switch("points", options.points, "the reconstruction's points")
+        reprojected = _switch("on photographs", options.reprojected, aligned)
+        options = replace(options, points=points, reprojected=reprojected)
+    return wish, options
+
+
+def _switch(label: str, is_on: bool, said: str) -> bool:
+    """Draw a checkbox in the same row. Return its value."""
+    follow(imgui.calc_text_size(label).x + 1.5 * imgui.get_frame_height())
+    is_on = checkbox(label, is_on)[1]
+    tip(said)
+    return is_on
 
 
 def _buttons(*entries: tuple[PoseWish, str, str]) -> PoseWish:

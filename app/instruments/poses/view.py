@@ -6,13 +6,13 @@ set, panel.py draws the panel.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import moderngl
 from imgui_bundle import imgui
 
 from app.images.photograph.model import closed, with_photograph
-from app.images.photograph.options import PhotographOptions
 from app.instruments.outside.diagram import Dot, Face, Item, Label, Role, Segments
 from app.instruments.outside.looking import nearest
 from app.instruments.outside.mouse import Scope
@@ -28,7 +28,6 @@ from app.instruments.poses.model import (
     with_set,
     with_set_framed,
 )
-from app.instruments.poses.options import PosesOptions
 from app.instruments.poses.panel import PoseWish
 from app.instruments.poses.photographs import Photograph, Photographs, photo_path
 from app.instruments.poses.picking import picked
@@ -123,7 +122,7 @@ class PosesView(DockedView):
         assert self._uploads is not None
         self._uploads.begin_frame()
         self._seen = True
-        path = restored(host.state.of(PosesOptions).file)
+        path = restored(host.state.options.poses.file)
         name = Path(path).name
         poses = self._reader.of(path)
         if self._reader.waiting:
@@ -155,11 +154,10 @@ class PosesView(DockedView):
 
     def _of_set(self, host: Host, poses: PoseSet) -> PoseWish:
         state = host.state
-        options = state.of(PosesOptions)
+        options = state.options.poses
         chosen = self.chosen(state)
-        wish, changes = panel.head(poses, options, host.fonts)
-        if changes:
-            host.apply(state.with_options(poses=changes))
+        wish, changed = panel.head(poses, options, host.fonts)
+        host.apply(state.with_options(changed))
         shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
         panel.found(poses)
@@ -186,17 +184,17 @@ class PosesView(DockedView):
 
     def _follow_chosen(self, host: Host, old: PoseSet, new: PoseSet) -> None:
         """Keep the selected camera, by its name, in a newer version of its file."""
-        number = host.state.of(PosesOptions).pose
+        number = host.state.options.poses.pose
         if 0 <= number < len(old.names):
             name = old.names[number]
             number = new.names.index(name) if name in new.names else -1
-            host.amend(host.state.with_options(poses={"pose": number}))
+            host.amend(host.state.with_options(replace(host.state.options.poses, pose=number)))
 
     # The list.
 
     def chosen(self, state: AppState) -> int:
         """Return the number of the selected camera; -1 if there is none."""
-        number = state.of(PosesOptions).pose
+        number = state.options.poses.pose
         return number if self.poses is not None and number < len(self.poses.names) else -1
 
     def take(self, host: Host, number: int) -> None:
@@ -207,8 +205,10 @@ class PosesView(DockedView):
         if poses is None or not 0 <= number < len(poses.names):
             return
         before = self.chosen(host.state)
-        target = host.state.with_options(poses={"pose": number}).with_view(poses.view(number))
-        if target.of(PhotographOptions).follows:
+        target = host.state.with_options(replace(host.state.options.poses, pose=number)).with_view(
+            poses.view(number)
+        )
+        if target.options.photograph.follows:
             target = _photographed(target, poses, number)
         if before >= 0 and host.travelling:  # to that one, which is a step of its own
             host.amend(host.state.with_view(poses.view(before)))
@@ -222,7 +222,9 @@ class PosesView(DockedView):
             host.files.open_dialog()
         elif wish == "close":
             self._reader.problems.clear()
-            host.change(host.state.with_options(poses={"file": "", "pose": -1}))
+            host.change(
+                host.state.with_options(replace(host.state.options.poses, file="", pose=-1))
+            )
         elif wish == "cancel":
             self._reader.cancel()
         elif poses is None or not wish:
@@ -248,10 +250,10 @@ class PosesView(DockedView):
         or stop that.
         """
         state, chosen = host.state, self.chosen(host.state)
-        if state.of(PhotographOptions).follows:
+        if state.options.photograph.follows:
             host.change(closed(state))
         elif chosen >= 0:
-            laid = state.with_options(photograph={"follows": True, "shown": True})
+            laid = state.with_options(replace(state.options.photograph, follows=True, shown=True))
             host.change(_photographed(laid, poses, chosen))
 
     def _photo(
@@ -259,8 +261,8 @@ class PosesView(DockedView):
     ) -> tuple[moderngl.Texture | None, str, bool | None]:
         """Return the picture, its caption, and whether it is laid over the images."""
         assert self._uploads is not None
-        dotted = host.state.of(PosesOptions).reprojected
-        follows = host.state.of(PhotographOptions).follows
+        dotted = host.state.options.poses.reprojected
+        follows = host.state.options.photograph.follows
         found = self._photographs.of(poses, number, dotted)
         if found is None:  # the last one stays until then
             return self._uploads.get(PHOTO), "", follows or None
@@ -281,7 +283,7 @@ class PosesView(DockedView):
         self._outside.show(POSES, ())
 
     def _show_outside(self, host: Host, poses: PoseSet) -> None:
-        options = host.state.of(PosesOptions)
+        options = host.state.options.poses
         chosen = self.chosen(host.state)
         self._outside.show(
             POSES,
@@ -312,7 +314,7 @@ class PosesView(DockedView):
         return True
 
     def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
-        mouse, length = imgui.get_mouse_pos(), host.state.of(PosesOptions).length
+        mouse, length = imgui.get_mouse_pos(), host.state.options.poses.length
         scale = framebuffer_scale()
         size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
         column, row = scope.part(mouse)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from app.instruments.probe.options import ProbeOptions
+from dataclasses import replace
+
 from app.state.app_state import AppState
 from app.ui.action import Action, changing
 
 
 def _pinned(state: AppState) -> AppState:
-    pins, pixel = state.of(ProbeOptions).pins, state.marked
+    pins, pixel = state.options.probe.pins, state.marked
     if pixel is None or pixel in pins:
         return state
-    return state.with_options(probe={"pins": (*pins, pixel)})
+    return state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
 
 
 PINNING = (
@@ -25,7 +26,7 @@ PINNING = (
     Action(
         "Lecture",
         "Remove all pins",
-        changing(lambda state: state.with_options(probe={"pins": ()})),
-        can=lambda w: bool(w.state.of(ProbeOptions).pins),
+        changing(lambda state: state.with_options(replace(state.options.probe, pins=()))),
+        can=lambda w: bool(w.state.options.probe.pins),
     ),
 )

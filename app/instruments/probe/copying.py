@@ -8,7 +8,7 @@ from app.instruments.probe.color_formulas import color_lines
 from app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
 from app.instruments.probe.lens_program import lens_program
 from app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.languages import julia
 from app.ui.explaining.notation import Line, number
 from app.ui.explaining.symbols import in_notation, program

@@ -14,10 +14,10 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from app.instruments.outside.growing import lit_in
 from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
-from app.instruments.probe.options import ProbeOptions
 from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
-from app.state.options import Notation, Pixel
+from app.state.options.probe import Section
+from app.state.options.shared import Notation, Pixel
 from app.ui import theme
 from app.ui.checks import checkbox
 from app.ui.explaining.notation import Line, number
@@ -41,7 +41,7 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Python", as_python),
     ("Julia", as_julia),
 )
-SECTIONS = {
+SECTIONS: dict[Section, str] = {
     "ray": "Ray",
     "objects": "Objects along the ray",
     "hit": "Hit",
@@ -77,13 +77,13 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     imgui.end_disabled()
     tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
-        state = state.with_options(one_based=one_based)
+        state = state.with_options(replace(state.options, one_based=one_based))
     state = _section_field(state)
-    pins = state.of(ProbeOptions).pins
+    pins = state.options.probe.pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
     if imgui.button("Pin") and pixel is not None:
-        state = state.with_options(probe={"pins": (*pins, pixel)})
+        state = state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
     imgui.end_disabled()
     imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
     follow(button_width("Copy ..."))
@@ -113,12 +113,12 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
         if pin.pixel == pixel:
             imgui.push_style_color(imgui.Col_.text, theme.legible(theme.MARK))
         if imgui.button(f"{name}###pin{count}"):
-            state = state.with_options(marked=pin.pixel)
+            state = state.with_options(replace(state.options, marked=pin.pixel))
         if pin.pixel == pixel:
             imgui.pop_style_color()
         if imgui.is_item_clicked(imgui.MouseButton_.right):
-            kept = tuple(one for one in state.of(ProbeOptions).pins if one != pin.pixel)
-            state = state.with_options(probe={"pins": kept})
+            kept = tuple(one for one in state.options.probe.pins if one != pin.pixel)
+            state = state.with_options(replace(state.options.probe, pins=kept))
         imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
     return state
 
@@ -151,12 +151,12 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
         min(max(part - first, 0), most - 1)
         for part, most in zip(chosen, (size[1], size[0]), strict=True)
     )
-    return state.with_options(marked=(row, column))
+    return state.with_options(replace(state.options, marked=(row, column)))
 
 
 def _section_field(state: AppState) -> AppState:
-    names = {"all": "all", **SECTIONS}
-    now = state.of(ProbeOptions).section
+    names: dict[Section, str] = {"all": "all", **SECTIONS}
+    now = state.options.probe.section
     widest = button_width(f"Show: {names['all']}")
     follow(widest)
     if imgui.button(f"Show: {now}###section", ImVec2(max(widest, button_width(f"Show: {now}")), 0)):
@@ -165,7 +165,7 @@ def _section_field(state: AppState) -> AppState:
     if imgui.begin_popup("section"):
         for key, text in names.items():
             if imgui.menu_item(text, "", key == now)[0]:
-                state = state.with_options(probe={"section": key})
+                state = state.with_options(replace(state.options.probe, section=key))
         imgui.end_popup()
     return state
 
@@ -181,7 +181,7 @@ def reading_panel(
     notation: Notation,
     fonts: Fonts,
     stage: str = "",
-    section: str = "all",
+    section: Section = "all",
 ) -> None:
     """Draw the reading.
 
@@ -189,7 +189,7 @@ def reading_panel(
     """
     alone = section != "all"
 
-    def shown(key: str) -> bool:
+    def shown(key: Section) -> bool:
         return section == key if alone else _section(SECTIONS[key], fonts)
 
     ray, hit, color = _written(reading, indexing, notation)

@@ -7,6 +7,7 @@ probe/panel.py draws a reading, probe/model.py computes it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import moderngl
@@ -19,14 +20,12 @@ from app.images.request import MIRROR_DEPTH
 from app.instruments.outside.diagram import Arrow, Dot, Item, Segments
 from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.growing import stage_at, stages_of
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.outside.view import OutsideView
 from app.instruments.probe import panel
 from app.instruments.probe.model import Probe
-from app.instruments.probe.options import ProbeOptions
 from app.instruments.probe.reading import Reading
 from app.state.app_state import AppState
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import formula, theme
 from app.ui.background import Background
 from app.ui.messages import wrapped
@@ -52,7 +51,7 @@ class ProbeView(DockedView):
 
     def __init__(self, outside: OutsideView, images: Linked) -> None:
         self._outside = outside
-        images.pins = lambda state: state.of(ProbeOptions).pins
+        images.pins = lambda state: state.options.probe.pins
         self._making: Background[Probe] | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
@@ -95,7 +94,7 @@ class ProbeView(DockedView):
         shown = None
         if reading is not None and not reading.is_outside:
             shown = reading.bytes, reading.display
-        section = host.state.of(ProbeOptions).section
+        section = host.state.options.probe.section
         if section in ("all", "colour"):
             panel.color_row(shown, host.fonts)
         imgui.separator()
@@ -110,7 +109,7 @@ class ProbeView(DockedView):
         elif reading is None:
             wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
-            options, position = host.state.options, host.state.of(OutsideOptions).formula
+            options, position = host.state.options, host.state.options.outside.formula
             stages = stages_of(host.renderers.camera(host.state))
             stage = stage_at(position, stages) if position is not None else ""
             panel.reading_panel(
@@ -151,7 +150,7 @@ class ProbeView(DockedView):
             return None
         images, options = state.images, state.options
         depth = MIRROR_DEPTH if options.mirrors else 0
-        self._readings.most = 1 + len(options.of(ProbeOptions).pins)
+        self._readings.most = 1 + len(options.probe.pins)
         return self._readings(
             probe, pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
         )
@@ -159,7 +158,7 @@ class ProbeView(DockedView):
     def _pins(self, host: Host, size: Size) -> list[panel.Pin]:
         state, camera = host.state, host.renderers.camera(host.state)
         pins = []
-        for pixel in state.of(ProbeOptions).pins:
+        for pixel in state.options.probe.pins:
             inside = pixel[0] < size[1] and pixel[1] < size[0]
             reading = self._reading(state, pixel if inside else None, camera, size)
             pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
@@ -179,13 +178,15 @@ class ProbeView(DockedView):
         start = self._pixel(host, size) or (size[1] // 2, size[0] // 2)
         pixel = walked(host.state.marked, size, start)
         if pixel is not None:
-            host.apply(host.state.with_options(marked=pixel), (PROBE, "walk"))
+            host.apply(
+                host.state.with_options(replace(host.state.options, marked=pixel)), (PROBE, "walk")
+            )
 
     # In the outside view.
 
     def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
         state, camera = host.state, host.renderers.camera(host.state)
-        pins = [self._reading(state, pin, camera, size) for pin in state.of(ProbeOptions).pins]
+        pins = [self._reading(state, pin, camera, size) for pin in state.options.probe.pins]
         pinned = tuple(pin for pin in pins if pin is not None)
         end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
         self._outside.show(PROBE, self._items(reading, pinned, end, length))

@@ -8,9 +8,9 @@ from typing import Literal, NamedTuple, TypeVar
 
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.stepper.options import StepperOptions
 from app.state.bounds import range_of
-from app.state.options import Language
+from app.state.options.shared import Language
+from app.state.options.stepper import StepperOptions
 from app.ui.checks import checkbox
 from app.ui.rows import button_width, follow, tip
 from app.ui.sliders import slider_float

@@ -5,7 +5,7 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from app.instruments.stepper.model import Variable, describe
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.explaining import symbols
 from app.ui.lettering import underline

@@ -12,7 +12,7 @@ from app.instruments.outside.frustum import image_point, pixel_corners
 from app.instruments.stepper.loop_parts import ViewingRay
 from app.instruments.stepper.model import Moment
 from app.instruments.stepper.programs import Hits
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera.camera import Camera, Size
 
 

@@ -12,7 +12,6 @@ from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.view import OutsideView
 from app.instruments.stepper.drawing import Drawn, draw_program, written
 from app.instruments.stepper.loop_parts import Model
-from app.instruments.stepper.options import StepperOptions
 from app.instruments.stepper.outside_items import traced_items
 from app.instruments.stepper.programs import (
     IMAGE_ORDER,
@@ -27,7 +26,7 @@ from app.instruments.stepper.programs import (
 )
 from app.instruments.stepper.questions import draw_questions
 from app.instruments.stepper.runs import Prepared
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.canvas import Marks, color_picture
 from app.ui.uploads import Uploads
@@ -58,7 +57,7 @@ class LoopPictures:
     def draw(self, host: Host, outside: OutsideView, source: str) -> None:
         """Draw the picture into the rest of the window, and its ray in the outside view."""
         self._uploads.begin_frame()
-        state, options = host.state, host.state.of(StepperOptions)
+        state, options = host.state, host.state.options.stepper
         made = self._hits.of(state.scene, state.view.for_size(options.canvas), options.canvas)
         low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         if self._hits.error is not None:

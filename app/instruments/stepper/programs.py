@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.camera.checks import three
 

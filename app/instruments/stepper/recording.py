@@ -16,9 +16,9 @@ from typing import Any
 
 from app.instruments.stepper.loop_parts import Model
 from app.instruments.stepper.loops import image_order, rasterization
-from app.instruments.stepper.options import StepperOptions
 from app.instruments.stepper.source import Source, source_of
 from app.state.bounds import check, whole_range_of
+from app.state.options.stepper import StepperOptions
 from app.ui.explaining.columns import Column
 from renderer.camera.camera import Camera, Size
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining import symbols
 from renderer.images.pixels import Indexing
 

@@ -18,12 +18,12 @@ from app.instruments.stepper import model as stepper
 from app.instruments.stepper import panel
 from app.instruments.stepper.controls import Asked, Wish, controls, keys
 from app.instruments.stepper.model import Moment, moment_at
-from app.instruments.stepper.options import StepperOptions
 from app.instruments.stepper.outside_items import run_items
 from app.instruments.stepper.pictures import LoopPictures
 from app.instruments.stepper.recording import Order, Recording
 from app.instruments.stepper.runs import Made, Prepared, recordings
 from app.state.app_state import AppState
+from app.state.options.stepper import StepperOptions
 from app.ui import theme
 from app.ui.canvas import color_picture, depth_picture
 from app.ui.uploads import Uploads
@@ -94,14 +94,14 @@ class StepperView(DockedView):
             self._pictures.draw(host, self._outside, STEPPER)
             return
         self._uploads.begin_frame()
-        options = host.state.of(StepperOptions)
+        options = host.state.options.stepper
         asked = controls(Asked(options, host.state.options.language), self.playing)
-        host.apply(host.state.with_options(language=asked.language))
+        host.apply(host.state.with_options(replace(host.state.options, language=asked.language)))
         wish = self._asked or keys() or asked.wish
         self._asked = ""
         if asked.options != options:
             options = asked.options
-            host.apply(host.state.with_options(stepper=options))
+            host.apply(host.state.with_options(options))
         state = host.state
         camera = state.view.for_size(options.canvas)
         made = self._runs.of(state.scene, camera, options.canvas)
@@ -157,8 +157,9 @@ class StepperView(DockedView):
         """Put the steps into the state, for lectures and sessions. Undo is for scenes and cameras,
         and does not revisit steps.
         """
-        if tuple(steps) != host.state.of(StepperOptions).steps:
-            host.amend(host.state.with_options(stepper={"steps": tuple(steps)}))
+        if tuple(steps) != host.state.options.stepper.steps:
+            options = replace(host.state.options.stepper, steps=(steps[0], steps[1]))
+            host.amend(host.state.with_options(options))
 
     # The panels.
 
@@ -192,7 +193,7 @@ class StepperView(DockedView):
         assert self._uploads is not None
         name, exposure_ev = run.order.name, state.images.exposure_ev
         farthest = float(run.depth_t.upto(len(run.depth_t)).max(initial=0.0))
-        depth = farthest if state.of(StepperOptions).depth else None
+        depth = farthest if state.options.stepper.depth else None
         self._put[run.order](self._uploads, name, moment, depth, exposure_ev, theme.used())
         texture = self._uploads.get(name)
         assert texture is not None

@@ -15,7 +15,7 @@ import functools
 import re
 from dataclasses import dataclass, replace
 
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining.notation import Line
 
 

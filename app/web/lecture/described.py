@@ -4,18 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from app.images.compare.options import CompareOptions
-from app.images.pair.options import PairOptions
-from app.images.photograph.options import PhotographOptions
 from app.images.request import MIRROR_DEPTH
-from app.instruments.costs.options import CostOptions
 from app.instruments.costs.recorded import COSTS
-from app.instruments.laboratory.options import LaboratoryOptions
 from app.instruments.laboratory.pages import PAGES
-from app.instruments.mistakes.options import MistakesOptions
-from app.instruments.outside.options import OutsideOptions
 from app.instruments.probe.model import Probe
-from app.instruments.stepper.options import StepperOptions
 from app.lecture.model import Step
 from app.state.app_state import AppState
 from app.ui.explaining.notation import number, text_tuple
@@ -91,14 +83,14 @@ def _seen(step: Step, state: AppState) -> str:
 
 def _overlays(state: AppState) -> list[str]:
     """Return what is drawn over the images."""
-    pair = state.of(PairOptions)
+    pair = state.options.pair
     drawn = {
         f"{len(pair.parallels)} parallel lines along {text_tuple(pair.along)} are drawn to where "
         "they meet.": pair.vanishing,
         "A grid of straight lines around the eye is drawn over it.": pair.straight_lines,
         f"An inset shows the marked pixel's square; its colour is the mean of "
         f"{state.images.samples} samples in the ray image.": pair.footprint,
-        "A photograph lies over it.": bool(state.of(PhotographOptions).file),
+        "A photograph lies over it.": bool(state.options.photograph.file),
     }
     return [text for text, is_drawn in drawn.items() if is_drawn]
 
@@ -163,7 +155,7 @@ def _pixel(state: AppState, size: Size) -> str:
 
 
 def _outside(step: Step, state: AppState) -> str:
-    options = state.of(OutsideOptions)
+    options = state.options.outside
     parts = {
         "the basis u, v, w": options.basis,
         "the image plane": options.image,
@@ -193,13 +185,13 @@ def _pixels(state: AppState) -> str:
 
 
 def _compared(step: Step, state: AppState) -> str:
-    mode = state.of(CompareOptions).mode
+    mode = state.options.compare.mode
     told = "left of a line the raster image, right of it the ray image" if mode == "wipe" else mode
     return f"Both images at once: {told}. {_seen(step, state)}"
 
 
 def _stepper(step: Step, state: AppState) -> str:
-    options = state.of(StepperOptions)
+    options = state.options.stepper
     width, height = options.canvas
     shown = {"object": (0,), "image": (1,), "both": (0, 1)}[options.order]
     names = "object order, triangle by triangle", "image order, pixel by pixel"
@@ -208,7 +200,7 @@ def _stepper(step: Step, state: AppState) -> str:
 
 
 def _costs(step: Step, state: AppState) -> str:
-    unit = state.of(CostOptions).against
+    unit = state.options.costs.against
     costs = "; ".join(
         f"{getattr(cost, unit):,} {unit}: {cost.triangles:,} triangles set up, {cost.tested:,} "
         f"pixels tested, {cost.nodes:,} nodes visited"
@@ -218,14 +210,14 @@ def _costs(step: Step, state: AppState) -> str:
 
 
 def _laboratory(step: Step, state: AppState) -> str:
-    options = state.of(LaboratoryOptions)
+    options = state.options.laboratory
     told, is_scene = LABORATORY[options.page], PAGES[options.page].has_image
     stops = f" Exposed by {options.after_ev:g} stops after storage." if options.after_ev else ""
     return f"{told}{stops} {_scene(step)}" if is_scene else told
 
 
 def _mistakes(step: Step, state: AppState) -> str:
-    options = state.of(MistakesOptions)
+    options = state.options.mistakes
     if options.mode != "laboratory":
         return f"A quiz: which of four pictures does a wrong line make? {_seen(step, state)}"
     wrong = ", ".join(options.chosen) or "none"

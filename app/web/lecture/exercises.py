@@ -26,7 +26,7 @@ from app.lecture.inheriting import changed_view
 from app.lecture.model import Exercise, Step
 from app.lecture.text import Math, Paragraph, escaped, parse
 from app.state.kept_lecture import Judgement
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.ui.explaining import symbols
 from app.web.lecture.drawn import paper
 from app.web.lecture.mathml import VECTORS

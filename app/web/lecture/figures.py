@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from app.images.compare.options import CompareOptions
-from app.images.pair.options import PairOptions
 from app.images.photograph.model import path_of
-from app.images.photograph.options import PhotographOptions
 from app.images.photograph.reading import decoded
 from app.images.request import MIRROR_DEPTH
-from app.instruments.outside.options import STAGES, OutsideOptions
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.state.app_state import AppState
+from app.state.options.outside import STAGES, OutsideOptions
 from app.web.lecture.pictures import data_uri
 from app.web.scene_page import packed_scene
 from renderer.files.views import view_table
@@ -79,7 +76,7 @@ class Figures:
             options["size"] = state.images.resolution
             if state.marked is not None:
                 options["mark"] = state.marked
-        if "compare" in step.views and state.of(CompareOptions).mode == "wipe":
+        if "compare" in step.views and state.options.compare.mode == "wipe":
             options["mode"] = "wipe"
         if "outside" in step.views:
             options["outside"] = _outside(step, state)
@@ -111,7 +108,7 @@ class Figures:
 
 def _outside(step: Step, state: AppState) -> dict[str, Any]:
     """Return the camera of a step's outside view, and what that draws, as JSON."""
-    options = state.of(OutsideOptions)
+    options = state.options.outside
     drawn: dict[str, Any] = {
         "basis": options.basis,
         "image": options.image,
@@ -131,7 +128,7 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
 
 def _photograph(state: AppState) -> dict[str, Any] | None:
     """Return the picture that is laid over a step's images, as JSON; None for none."""
-    options = state.of(PhotographOptions)
+    options = state.options.photograph
     path = path_of(state)
     if path is None or not options.shown or options.lay != "over":
         return None
@@ -146,7 +143,7 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
 
 def _has_more(step: Step, state: AppState) -> bool:
     """Return True if images show more than a figure draws, and ask for nothing to be changed."""
-    pair, outside, images = state.of(PairOptions), state.of(OutsideOptions), state.images
+    pair, outside, images = state.options.pair, state.options.outside, state.images
     grows = (outside.formula is not None and outside.formula < GROWN) or any(
         getattr(outside, name) != getattr(OutsideOptions(), name) for name in DRAWN_IN_THE_WINDOW
     )
@@ -156,7 +153,7 @@ def _has_more(step: Step, state: AppState) -> bool:
         or pair.straight_lines
         or pair.footprint
         or bool(pair.parallels)
-        or (bool(state.of(PhotographOptions).file) and _photograph(state) is None)
+        or (bool(state.options.photograph.file) and _photograph(state) is None)
         or images.channel != "color"
         or images.samples > 1
     )

@@ -9,11 +9,10 @@ from typing import Any
 from app.checking.mistakes.program import Mistake
 from app.images.ray_pictures import RayPainter
 from app.instruments.mistakes.model import Bytes, Situation, of_line, rays_of, shown, situation_of
-from app.instruments.mistakes.options import MistakesOptions
 from app.instruments.mistakes.question import LETTERS, question, reason
 from app.lecture.model import Step
 from app.state.app_state import AppState
-from app.state.options import Notation
+from app.state.options.shared import Notation
 from app.web.lecture.pictures import data_uri
 from app.web.lecture.text import plain, written
 
@@ -76,7 +75,7 @@ def quiz(step: Step, state: AppState) -> tuple[str, dict[str, Any]] | None:
     """Return the quiz of a step, which picture a wrong line makes: its options as HTML, and the
     data that modules/exercise.js judges by. None if the camera tells too few pictures apart.
     """
-    options = state.of(MistakesOptions)
+    options = state.options.mistakes
     now = situation_of(state, state.images.resolution or SIZE)
     with _painter(state) as painter:
         asked = question(painter, now, options)

@@ -10,12 +10,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.mistakes.options import MistakesOptions
 from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture.text import Question
-from app.state.all_options import AllOptions
 from app.state.app_state import AppState
+from app.state.options import Options
 from app.web.document import document
 from app.web.formulas import templates
 from app.web.lecture import exercises, mistakes
@@ -66,7 +65,7 @@ def page(
         if written.figure is not None:
             shown[name] = written.figure
     options = lecture.steps[0].options
-    indexing = Indexing(int(options.get("one_based", AllOptions().one_based)))
+    indexing = Indexing(int(options.get("one_based", Options().one_based)))
     title = plain(lecture.title)
     author = f' <span class="author">{plain(lecture.author)}</span>' if lecture.author else ""
     body = (
@@ -150,7 +149,7 @@ class _Step:
 
     def _mistakes(self) -> tuple[str, str]:
         """Return the quiz below the text, or the laboratory among the views."""
-        if self._state.of(MistakesOptions).mode == "laboratory":
+        if self._state.options.mistakes.mode == "laboratory":
             return "", mistakes.laboratory(self._name, self._state)
         found = mistakes.quiz(self._step, self._state)
         if found is None:

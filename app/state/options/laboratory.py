@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from app.state.bounds import Range
-from app.state.options import Part
+from app.state.options.shared import Part
 
 LONGEST = 4.0  # the largest progress of all drawings
 
@@ -29,6 +29,3 @@ class LaboratoryOptions:
     after_ev: Annotated[float, Range(-6, 6)] = 0.0
     phase: Part = 0.0
     point: tuple[Part, Part] = (0.5, 0.5)
-
-
-OPTIONS = LaboratoryOptions

@@ -11,6 +11,3 @@ class CostOptions:
     """against: the horizontal axis, which is what grows."""
 
     against: Literal["triangles", "pixels"] = "triangles"
-
-
-OPTIONS = CostOptions

@@ -36,6 +36,3 @@ class MistakesOptions:
     answer: str = ""
     revealed: bool = False
     score: tuple[Count, Count] = (0, 0)
-
-
-OPTIONS = MistakesOptions

@@ -25,6 +25,3 @@ class PosesOptions:
     length: Annotated[float, Range(0.05, 20.0)] = 1.0
     points: bool = True
     reprojected: bool = False
-
-
-OPTIONS = PosesOptions

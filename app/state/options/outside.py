@@ -60,6 +60,3 @@ class OutsideOptions:
     basis_grown: Annotated[float, Range(0, 4)] = 4.0
     numbers: bool = False
     to_parallel: Annotated[float, Range(0, 1)] = 0.0
-
-
-OPTIONS = OutsideOptions

@@ -23,6 +23,3 @@ class YourCodeOptions:
     tasks: Annotated[str, Beside((".toml",))] = ""
     task: Annotated[str, AtMost(64)] = ""
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (32, 24)
-
-
-OPTIONS = YourCodeOptions

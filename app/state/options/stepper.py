@@ -36,6 +36,3 @@ class StepperOptions:
     steps: tuple[Step, Step] = (0, 0)
     depth: bool = False
     speed: Annotated[float, Range(1, 20_000)] = 8.0
-
-
-OPTIONS = StepperOptions

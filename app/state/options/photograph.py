@@ -31,6 +31,3 @@ class PhotographOptions:
     opacity: Annotated[float, Range(0, 1)] = 0.5
     follows: bool = False
     distorted: View | None = None
-
-
-OPTIONS = PhotographOptions

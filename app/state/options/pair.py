@@ -28,6 +28,3 @@ class PairOptions:
     extended: Annotated[float, Range(0, 1)] = 1.0
     straight_lines: bool = False
     footprint: bool = False
-
-
-OPTIONS = PairOptions

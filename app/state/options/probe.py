@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from app.state.bounds import AtMost
-from app.state.options import Pixel
+from app.state.options.shared import Pixel
+
+Section = Literal["all", "ray", "objects", "hit", "colour"]
 
 
 @dataclass(frozen=True)
@@ -18,7 +20,4 @@ class ProbeOptions:
     """
 
     pins: Annotated[tuple[Pixel, ...], AtMost(256)] = ()
-    section: Literal["all", "ray", "objects", "hit", "colour"] = "all"
-
-
-OPTIONS = ProbeOptions
+    section: Section = "all"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from app.state.bounds import Range
-from app.state.options import Part
+from app.state.options.shared import Part
 from renderer.images.difference import LARGEST_GAIN
 
 CompareMode = Literal["absolute", "signed", "wipe", "flip"]
@@ -29,6 +29,3 @@ class CompareOptions:
     rise: Part = 1.0
     flipped: bool = False
     causes: bool = False
-
-
-OPTIONS = CompareOptions

@@ -30,6 +30,3 @@ class ObjectsOptions:
     along: Literal["world", "object"] = "world"
     snaps: bool = False
     dropped: Literal["ask", "add", "open"] = "ask"
-
-
-OPTIONS = ObjectsOptions

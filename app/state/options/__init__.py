@@ -1,0 +1,83 @@
+"""All options of the window, as one immutable tree: shared ones, and those of each instrument.
+
+Each field has its bounds (app/state/bounds.py). Session and lecture files name a field as in
+`stepper.canvas`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from app.state.options.compare import CompareOptions
+from app.state.options.costs import CostOptions
+from app.state.options.laboratory import LaboratoryOptions
+from app.state.options.mistakes import MistakesOptions
+from app.state.options.objects import ObjectsOptions
+from app.state.options.outside import OutsideOptions
+from app.state.options.pair import PairOptions
+from app.state.options.photograph import PhotographOptions
+from app.state.options.poses import PosesOptions
+from app.state.options.probe import ProbeOptions
+from app.state.options.shared import ImageOptions, Preferences, SharedOptions
+from app.state.options.stepper import StepperOptions
+from app.state.options.your_code import YourCodeOptions
+
+Part = (
+    ImageOptions
+    | Preferences
+    | PhotographOptions
+    | PairOptions
+    | CompareOptions
+    | OutsideOptions
+    | ObjectsOptions
+    | ProbeOptions
+    | StepperOptions
+    | CostOptions
+    | LaboratoryOptions
+    | MistakesOptions
+    | YourCodeOptions
+    | PosesOptions
+)
+
+
+@dataclass(frozen=True)
+class Options(SharedOptions):
+    """The shared options and each instrument's."""
+
+    photograph: PhotographOptions = field(default_factory=PhotographOptions)
+    pair: PairOptions = field(default_factory=PairOptions)
+    compare: CompareOptions = field(default_factory=CompareOptions)
+    outside: OutsideOptions = field(default_factory=OutsideOptions)
+    objects: ObjectsOptions = field(default_factory=ObjectsOptions)
+    probe: ProbeOptions = field(default_factory=ProbeOptions)
+    stepper: StepperOptions = field(default_factory=StepperOptions)
+    costs: CostOptions = field(default_factory=CostOptions)
+    laboratory: LaboratoryOptions = field(default_factory=LaboratoryOptions)
+    mistakes: MistakesOptions = field(default_factory=MistakesOptions)
+    your_code: YourCodeOptions = field(default_factory=YourCodeOptions)
+    poses: PosesOptions = field(default_factory=PosesOptions)
+
+    def with_changes(self, changes: Mapping[str, Any]) -> Options:
+        """Return these options with fields changed by their names, as a lecture's file has them:
+        {"shadows": True, "stepper": {"canvas": (8, 8)}}.
+        """
+        parts = {
+            name: replace(getattr(self, name), **value) if isinstance(value, Mapping) else value
+            for name, value in changes.items()
+        }
+        return replace(self, **parts)
+
+    def with_parts(self, *parts: Options | Part) -> Options:
+        """Return these options with other parts, each in its place; all of them for `Options`."""
+        options = self
+        for part in parts:
+            if isinstance(part, Options):
+                options = part
+            else:
+                options = options.with_changes({_NAMES[type(part)]: part})
+        return options
+
+
+_NAMES = {type(getattr(Options(), entry.name)): entry.name for entry in fields(Options)}
