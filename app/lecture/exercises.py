@@ -142,8 +142,10 @@ DRAWN: dict[str, Drawn] = {
 
 
 def hint(mistake: Mistake) -> str:
-    """Return the explanation as a lecture's text, which is written with the book's letters."""
-    return symbols.words(mistake.hint, "book")
+    """Return the explanation as a lecture's text, with the book's formulas in place of code."""
+    parts = mistake.hint.split("`")
+    parts[1::2] = [f"${symbols.formula(code)}$" for code in parts[1::2]]
+    return "".join(parts)
 
 
 class WrongVector(StrictTable):

@@ -27,6 +27,10 @@ def test_a_formula_reads_the_same_typeset_and_as_text(formula):
     assert symbols.latex(formula, "book") == formula
 
 
+def test_code_as_a_formula():
+    assert symbols.formula("x*u + y*v - distance*w") == FORMULAS[0].partition(" = ")[2]
+
+
 def test_the_lecture_s_formula_in_code():
     assert symbols.latex(FORMULAS[0], "code") == (
         r"\mathbf{direction} = x\,\mathbf{u} + y\,\mathbf{v} - \mathit{distance}\,\mathbf{w}"

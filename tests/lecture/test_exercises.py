@@ -21,7 +21,6 @@ from app.lecture.exercises import (
     WrongVector,
 )
 from app.ui.explaining.arithmetic import number, text_of, vector, vector_text
-from app.ui.explaining.symbols import words
 from renderer.camera.camera import Camera, Ray
 from renderer.images.pixels import Indexing
 from renderer.system.errors import LucidaError
@@ -164,7 +163,7 @@ class TestRays:
             if not same and ray.direction.any():
                 told.add(verdict.text)
                 alike = [
-                    words(other.hint, "book")
+                    exercises.hint(other)
                     for other, its in made
                     if close(ray.origin, its.origin, TOLERANCE)
                     and same_direction(ray.direction, its.direction, TOLERANCE)

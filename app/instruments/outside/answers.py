@@ -16,6 +16,8 @@ from app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
 from renderer.camera.camera import Floats
 from renderer.camera.checks import LARGEST
 
+LONGEST = 2.0  # of a direction that was given, in lengths of the correct one
+
 
 def vector(name: str, role: Role, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
     """Return a vector at a point as it was given, and as it is."""
@@ -34,8 +36,7 @@ def _arrow(
     if not is_drawable(start, end):
         return []
     arrow = Arrow(name, role, start, end, dashed=dashed, layer=5 if dashed else 4)
-    strong = role in ("u", "v", "w")  # as the basis is named
-    return [arrow, Label(name, role, text, end, away=start, strong=strong)]
+    return [arrow, Label(name, role, text, end, away=start, strong=True)]
 
 
 def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
@@ -52,7 +53,7 @@ def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item
             items += [
                 Segments(text, role, line, 2.0, dashed=role == ROLE, layer=4),
                 Dot(text, role, end, 6.0, layer=5),
-                Label(text, role, text, end, away=start if (end != start).any() else None),
+                Label(text, role, text, end, start if (end != start).any() else None, strong=True),
             ]
     return items
 
@@ -70,11 +71,13 @@ def ray(given: GivenRay, correct: GivenRay, reach: float) -> list[Item]:
     if not is_drawable(given.origin, given.direction):
         return items
     items += second_ray(given, reach)
-    tip = given.origin + given.direction
+    lengths = [float(np.linalg.norm(one.direction)) for one in (given, correct)]
+    longest = LONGEST * lengths[1] / max(lengths[0], 1e-300)
+    tip = given.origin + min(longest, 1.0) * given.direction
     items += _arrow("your d", ROLE, "your vec(d)", given.origin, tip, dashed=True)
     if np.linalg.norm(given.origin - correct.origin) > 1e-3 * reach:
         items.append(Dot("your origin", ROLE, given.origin, 6.0, layer=5))
-        label = Label("your origin", ROLE, "your vec(p)", given.origin, away=tip)
+        label = Label("your origin", ROLE, "your vec(p)", given.origin, away=tip, strong=True)
         items.append(label)
     return items
 

@@ -39,7 +39,7 @@ FIXED: dict[Role, ImVec4] = {
     "eye": theme.rgb("#f4f1ea"),
     "text": theme.rgb("#eef1f4"),
     "extra": theme.rgb("#cc79a7"),  # the reddish purple of Okabe and Ito's palette
-    "other": theme.rgb("#a98bff"),
+    "other": theme.rgb("#c9b6ff"),
     "pose": theme.rgb("#dccba6"),
 }
 

@@ -95,7 +95,7 @@ def second_ray(ray: GivenRay, reach: float) -> list[Item]:
     end = RayEnd((0, 0), ray.t)
     reached = ray.origin + end.t_or(reach / length) * ray.direction
     way = np.array([[ray.origin, reached]])
-    items: list[Item] = [Segments("second ray", ROLE, way, 2.6, hidden=0.6, dashed=True, layer=3)]
+    items: list[Item] = [Segments("second ray", ROLE, way, 3.2, hidden=0.6, dashed=True, layer=3)]
     if end.is_hit:
         items.append(Dot("second hit", ROLE, reached, 6.0))
     return items

@@ -137,6 +137,12 @@ def words(text: str, notation: Notation) -> str:
     return "`".join(parts)
 
 
+def formula(code: str) -> str:
+    """Return code in code's words as a formula of the book."""
+    names = {one.code: rf"\mathbf{{{one.book}}}" if one.is_vector else one.book for one in TABLE}
+    return _NAME.sub(lambda found: names.get(found[0], found[0]), code).replace("*", r"\,")
+
+
 def vectors(code: str, notation: Notation) -> list[tuple[int, str, str]]:
     """Return the vectors in a line of a program that is shown in a notation: the column, the text,
     the vector's name.
