@@ -6,13 +6,12 @@ modules/scene.js reads it.
 from __future__ import annotations
 
 import base64
-import io
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.png import write_png
+from renderer.images.png import png_of
 from renderer.images.shared_numbers import TEXEL_BITS
 from renderer.scene.flat import FlatScene
 from renderer.scene.texture import packed_texels
@@ -76,9 +75,7 @@ def _images(flat: FlatScene) -> list[dict[str, Any]]:
     for first, (width, height, is_opacity) in sorted(places.items()):
         texels = flat.texels[first : first + width * height].reshape(height, width)
         picture, values = _opacity(texels) if is_opacity else _colors(texels)
-        file = io.BytesIO()
-        write_png(file, picture)
-        png = base64.b64encode(file.getvalue()).decode()
+        png = base64.b64encode(png_of(picture)).decode()
         images.append({"first": first, "opacity": is_opacity, "values": values, "png": png})
     return images
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.instruments.laboratory.view import LABORATORY, LaboratoryView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
 from app.ui.surface import Target
@@ -136,10 +137,14 @@ def lecture_stills(
 
     def take(place: int, window: MainWindow, target: Target) -> None:
         pixels = target.read()
+        laboratory = window.views[LABORATORY]
+        assert isinstance(laboratory, LaboratoryView)
         for view in lecture.builds[place].views:
             rect = window.shell.stage.rects.get(view.capitalize())
             if rect is not None:
-                stills[place].append(Still(view, np.ascontiguousarray(cut(pixels, rect))))
+                picture = np.ascontiguousarray(cut(pixels, rect))
+                drawn = laboratory.in_both_themes() if view == "laboratory" else None
+                stills[place].append(Still(view, picture, drawn))
 
     _draw_builds(lecture, path, size, take, progress, for_print=True)
     return stills

@@ -9,32 +9,30 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from importlib import import_module
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 from pyrr import matrix44
 
+from renderer.camera import image_plane
+from renderer.camera.basis import inverse, looking_at, orthonormal
 from renderer.camera.checks import (
-    SMALLEST,
     Floats,
     Vector,
-    arrays_text,
     check_basis,
     check_clip,
     check_projection,
     check_viewport,
+    checked_aspect,
     cross,
     dot,
-    listed,
     number,
     numbers,
     positive,
-    three,
     volume,
 )
+from renderer.camera.image_plane import Projected, Ray, Size
 from renderer.camera.intrinsics import (
     Intrinsics,
     as_camera_from_world,
@@ -46,33 +44,9 @@ from renderer.camera.lenses import Lens, check_lens
 from renderer.images.frame import DISPLAY, check_size
 from renderer.system.errors import LucidaError, not_together
 
-Size = tuple[int, int]
-
 # The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
 # float32: with a nearer plane, the rest of a long triangle might be behind the eye.
 NEAREST = 1e-6
-LARGEST_KEPT = 1 << 21  # pixels of a lens's directions that are kept: 48 MB
-
-
-class Ray(NamedTuple):
-    """A half-line: r(t) = origin + t * direction, t > 0. The direction is not normalised."""
-
-    origin: Floats
-    direction: Floats
-
-    def __repr__(self) -> str:
-        return arrays_text(self)
-
-
-class Projected(NamedTuple):
-    """The positions of points in the image; see Camera.project."""
-
-    row: Floats
-    column: Floats
-    parameter: Floats
-
-    def __repr__(self) -> str:
-        return arrays_text(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,26 +109,9 @@ class Camera:
         image.
 
         Give the vertical field of view, or the distance of a viewport 1 high; with neither, the
-        distance is 1. aspect: the viewport's width over its height. Source: Marschner and Shirley,
-        Fundamentals of Computer Graphics, "Constructing a basis".
+        distance is 1. aspect: the viewport's width over its height.
         """
-        position, toward, upward = (
-            np.array(numbers(name, value, 3))
-            for name, value in (("eye", eye), ("target", target), ("up", up))
-        )
-        back = position - toward
-        if not np.linalg.norm(back) >= SMALLEST:
-            at = listed(toward)
-            raise LucidaError("target", f"{at} is the eye itself", "look at another point")
-        if not np.linalg.norm(upward) >= SMALLEST:
-            remedy = "give a vector such as (0, 1, 0)"
-            raise LucidaError("up", f"{listed(upward)} has no direction", remedy)
-        w = back / np.linalg.norm(back)
-        right = np.cross(upward / np.linalg.norm(upward), w)
-        if not np.linalg.norm(right) > 1e-8:
-            problem = f"{listed(upward)} is along the view direction"
-            raise LucidaError("up", problem, "choose another up")
-        u = right / np.linalg.norm(right)
+        position, basis = looking_at(eye, target, up)
         if fov_y_deg is not None:
             if distance is not None:
                 raise not_together("fov_y_deg", "distance")
@@ -164,10 +121,8 @@ class Camera:
             distance = 0.5 / math.tan(math.radians(fov) / 2)
         aspect = positive("aspect", aspect, "width / height")
         return cls(
-            three(position),
-            three(u),
-            three(np.cross(w, u)),
-            three(w),
+            position,
+            *basis,
             1.0 if distance is None else distance,
             (-aspect / 2, aspect / 2, -0.5, 0.5),
             projection,
@@ -241,15 +196,8 @@ class Camera:
             along = tuple(zip((self.u, self.v)[axis], self.w, strict=True))
             a, b = ([x * e - self.distance * back for e, back in along] for x in (low, high))
             return math.degrees(math.atan2(math.hypot(*cross(a, b)), dot(a, b)))
-        points = np.zeros((2, 129))
-        ends = sorted((1 - 2 * axis) * end * self.distance for end in self.lens.ends(axis))
-        low, high = max(low, ends[0]), min(high, ends[1])
-        points[axis] = np.linspace(low, high, points.shape[1])
-        ways = self.direction(*points)
-        ways = ways[np.isfinite(ways[:, 0])]
-        one, other = ways[:-1], ways[1:]
-        sines = np.linalg.norm(np.cross(one, other), axis=-1)
-        return math.degrees(np.arctan2(sines, (one * other).sum(axis=-1)).sum())
+        points = image_plane.points_across(self.lens, axis, low, high, self.distance)
+        return image_plane.summed_angle_deg(self.direction(*points))
 
     @property
     def t_range(self) -> tuple[float, float]:
@@ -270,11 +218,7 @@ class Camera:
 
         i, j: row and column, any shape, may be fractional. size: (width, height).
         """
-        width, height = size
-        left, right, bottom, top = self.viewport
-        x = left + (np.asarray(j, float) + 0.5) / width * (right - left)
-        y = top - (np.asarray(i, float) + 0.5) / height * (top - bottom)
-        return x, y
+        return image_plane.image_point(i, j, self.viewport, size)
 
     def ray(self, i: ArrayLike, j: ArrayLike, size: Size) -> Ray:
         """Return the viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3).
@@ -301,9 +245,7 @@ class Camera:
         computed once, up to LARGEST_KEPT pixels. Only for a camera with a lens.
         """
         assert self.lens is not None
-        is_kept = size[0] * size[1] <= LARGEST_KEPT
-        compute = _lens_directions if is_kept else _lens_directions.__wrapped__
-        return compute(self.lens, self.viewport, self.distance, size)
+        return image_plane.all_seen_through(self.lens, self.viewport, self.distance, size)
 
     def direction(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the directions (..., 3) of the rays through points of the image plane, in
@@ -314,7 +256,7 @@ class Camera:
         x, y = np.asarray(x, float), np.asarray(y, float)
         if self.lens is None:
             return self._across(x, y) - self.distance * np.asarray(self.w)
-        return _through(self.lens, x, y, self.distance) @ self.basis.T
+        return image_plane.seen_through(self.lens, x, y, self.distance) @ self.basis.T
 
     def _across(self, x: Floats, y: Floats) -> Floats:
         across: Floats = x[..., None] * np.asarray(self.u) + y[..., None] * np.asarray(self.v)
@@ -376,7 +318,7 @@ class Camera:
         """The inverse of world_from_camera, read-only; not simply a transpose, since the basis may
         be skewed.
         """
-        return _camera_from_world(self.eye, self.u, self.v, self.w)
+        return inverse(self.eye, self.u, self.v, self.w)
 
     def image_from_world(self, size: Size) -> Floats:
         """Return the matrix (3, 4) from a world point (x, y, z, 1) to its place in the image, and
@@ -412,13 +354,8 @@ class Camera:
 
         w keeps its direction, and the basis its handedness.
         """
-        w = np.asarray(self.w) / np.linalg.norm(self.w)
-        v = np.asarray(self.v) - (w @ self.v) * w
-        v /= np.linalg.norm(v)
-        u = np.asarray(self.u) - (w @ self.u) * w
-        u -= (v @ u) * v
-        u /= np.linalg.norm(u)
-        return replace(self, u=three(u), v=three(v), w=three(w))
+        u, v, w = orthonormal(self.u, self.v, self.w)
+        return replace(self, u=u, v=v, w=w)
 
     def fitted(self, size: tuple[float, float]) -> Camera:
         """Return this camera with its viewport enlarged about its centre, in one direction, to the
@@ -428,12 +365,7 @@ class Camera:
         """
         left, right, bottom, top = self.viewport
         half_width, half_height = (right - left) / 2, (top - bottom) / 2
-        try:
-            width, height = (positive("size", side, 720) for side in size)
-        except (TypeError, ValueError):  # LucidaError is a ValueError
-            problem = f"{size!r} is not a width and a height"
-            raise LucidaError("size", problem, "give e.g. (1280, 720)") from None
-        aspect = width / height
+        aspect = checked_aspect(size)
         x, y = (left + right) / 2, (bottom + top) / 2
         dx, dy = max(half_width, half_height * aspect), max(half_height, half_width / aspect)
         viewport = (x - dx, x + dx, y - dy, y + dy)
@@ -455,32 +387,6 @@ class Camera:
         left, right, bottom, top = self.viewport
         dx, dy = columns / size[0] * (right - left), -rows / size[1] * (top - bottom)
         return replace(self, viewport=(left + dx, right + dx, bottom + dy, top + dy))
-
-
-def _through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
-    """Return the directions, in units of u, v and w, of what points of the image plane show."""
-    right, down, ahead = lens.direction(x / distance, -y / distance)
-    return np.stack([right, -down, -ahead], axis=-1) * distance
-
-
-@lru_cache(maxsize=8)  # several views ask for the same camera's in a frame
-def _camera_from_world(eye: Vector, u: Vector, v: Vector, w: Vector) -> Floats:
-    linear = np.linalg.inv(np.array((u, v, w)).T)
-    matrix = np.zeros((4, 4))
-    matrix[:3, :3], matrix[:3, 3], matrix[3, 3] = linear, -linear @ eye, 1.0
-    matrix.flags.writeable = False
-    return matrix
-
-
-@lru_cache(maxsize=2)
-def _lens_directions(
-    lens: Lens, viewport: tuple[float, float, float, float], distance: float, size: Size
-) -> Floats:
-    camera = Camera(viewport=viewport, distance=distance)
-    x, y = camera.image_point(np.arange(size[1])[:, None], np.arange(size[0]), size)
-    directions = _through(lens, x, y, distance)
-    directions.flags.writeable = False
-    return directions
 
 
 def check_camera(camera: object) -> Camera:

@@ -176,3 +176,13 @@ def check_clip(near: float | None, far: float | None) -> None:
     if far is not None and not far > (near or 0.0):
         limit = "0" if near is None else f"near = {near:g}"
         raise LucidaError("far", f"{far:g} is not above {limit}", "give a larger far")
+
+
+def checked_aspect(size: Iterable[float]) -> float:
+    """Return the width over the height of a size. Raises LucidaError for an invalid one."""
+    try:
+        width, height = (positive("size", side, 720) for side in size)
+    except (TypeError, ValueError):  # LucidaError is a ValueError
+        problem = f"{size!r} is not a width and a height"
+        raise LucidaError("size", problem, "give e.g. (1280, 720)") from None
+    return width / height

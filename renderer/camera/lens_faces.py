@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import LARGEST_KEPT, Camera, Floats, Size
+from renderer.camera.camera import Camera, Floats, Size
+from renderer.camera.image_plane import LARGEST_KEPT
 from renderer.camera.lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis

@@ -28,28 +28,25 @@ def undistorted_camera(camera: Camera, lens: Lens, size: Size) -> tuple[Camera, 
     camera: as if it had no lens. size: (width, height) of the photograph.
     """
     (left, right, bottom, top), (width, height) = camera.viewport, size
-    across, down = (np.arange(side) + 0.5 for side in size)
-    edges: list[tuple[ArrayLike, ArrayLike, int]] = [
-        (0.5, down, 0),
-        (width - 0.5, down, 0),
-        (across, 0.5, 1),
-        (across, height - 0.5, 1),
-    ]
-    # The ideal points of the outermost pixels, in the photograph's, from the principal point.
-    cx, cy = -left / (right - left) * width, top / (top - bottom) * height
-    reached = []
-    for x, y, axis in edges:
-        a, b = camera.image_point(np.asarray(y) - 0.5, np.asarray(x) - 0.5, size)
-        X, Y, Z = lens.direction(a / camera.distance, -b / camera.distance)
+    units = (right - left) / width, (top - bottom) / height
+
+    def reached(axis: int, i: ArrayLike, j: ArrayLike) -> Floats:
+        """Return where the ideal points of pixels are, in pixels from the principal point."""
+        x, y = camera.image_point(i, j, size)
+        place = lens.direction(x / camera.distance, -y / camera.distance)
         with np.errstate(all="ignore"):
-            ideal = (X, Y)[axis] / np.where(Z > 0, Z, np.nan) * camera.distance
-        units = (right - left) / width if axis == 0 else (top - bottom) / height
-        reached.append(ideal[np.isfinite(ideal)] / units)
-    near_x = -reached[0].max(initial=-math.inf)
-    near_y = -reached[2].max(initial=-math.inf)
+            ideal = place[axis] / np.where(place[2] > 0, place[2], np.nan) * camera.distance
+        return ideal[np.isfinite(ideal)] / units[axis]
+
+    rows, columns = np.arange(height), np.arange(width)
+    cx, cy = -left / (right - left) * width, top / (top - bottom) * height
+    near_x = -reached(0, rows, 0).max(initial=-math.inf)
+    near_y = -reached(1, 0, columns).max(initial=-math.inf)
+    far_x = reached(0, rows, width - 1).min(initial=math.inf)
+    far_y = reached(1, height - 1, columns).min(initial=math.inf)
     scales = (
-        1 / max(_ratio(cx, near_x), _ratio(width - 0.5 - cx, reached[1].min(initial=math.inf))),
-        1 / max(_ratio(cy, near_y), _ratio(height - 0.5 - cy, reached[3].min(initial=math.inf))),
+        1 / max(_ratio(cx, near_x), _ratio(width - 0.5 - cx, far_x)),
+        1 / max(_ratio(cy, near_y), _ratio(height - 0.5 - cy, far_y)),
     )
     new = tuple(
         max(1, int(min(max(scale, _SCALES[0]), _SCALES[1]) * side))

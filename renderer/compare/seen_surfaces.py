@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from renderer.camera.camera import NEAREST, Camera, Floats
 from renderer.camera.lens_faces import Face
 from renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
+from renderer.scene.boxes import corners_of
 from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from renderer.scene.positions import world_corners
 from renderer.scene.sampling import between, gloss, on_spheres, on_triangles, opacity, sampled
@@ -32,7 +33,6 @@ STEP_PX = 1 / 256  # of central differences
 ROUNDING_32 = 2.0**-21  # float32's error after a few roundings, relative
 ROUNDING_64 = 1e-12  # float64's error at the eye, relative to the largest coordinate
 MARGIN = 1024  # pixels around the image that OpenGL clips to (raster/scene_data.py)
-_CORNERS = np.array(list(np.ndindex(2, 2, 2)))  # of a box
 
 # Degenerate primitives and misses: their NaN and infinities are replaced at the end.
 quiet = partial(np.errstate, divide="ignore", invalid="ignore", over="ignore")
@@ -140,7 +140,7 @@ class Surfaces:
         origin, direction = self._view.ray(i[self._sphere], j[self._sphere])
         to_center, square = self._spheres[:, :3] - origin, _dot(direction, direction)
         middle = _dot(to_center, direction) / square
-        return length(to_center - middle[:, None] * direction), middle, square
+        return norm(to_center - middle[:, None] * direction), middle, square
 
     def point(self, i: Numbers, j: Numbers) -> tuple[Floats, Floats]:
         """Return the points of the extended surfaces, and the rays' directions, (n, 3)."""
@@ -154,7 +154,7 @@ class Surfaces:
         """
         found = np.zeros(len(self.t), bool)
         with quiet():
-            inside = self._side * self._edge_values(i, j) / _norm(self._edges[..., :2], 2)
+            inside = self._side * self._edge_values(i, j) / norm(self._edges[..., :2], 2)
             near = np.fmax(px, self._unknown_px(i, j))
         # Near an edge, and not beyond another one.
         found[self._triangle] = (np.abs(inside) <= near).any(axis=1) & (inside >= -near).all(axis=1)
@@ -170,14 +170,14 @@ class Surfaces:
         """
         view, camera, owner = self._view, self._view.camera, self._owner[self._triangle]
         linear = view.flat.world_from_object[owner, :3, :3]
-        size = length(np.ptp(view.flat.object_bounds[owner], axis=1) * _norm(linear, 1))
-        far = _norm(self._corners - np.asarray(camera.eye), 2).max(axis=1, initial=0)
+        size = norm(np.ptp(view.flat.object_bounds[owner], axis=1) * norm(linear, 1))
+        far = norm(self._corners - np.asarray(camera.eye), 2).max(axis=1, initial=0)
         left, right, bottom, top = camera.viewport
         pixels = np.divide(view.size, (right - left, top - bottom))  # per unit, at t = 1
-        pixels *= _norm(camera.camera_from_world[:2, :3], 1)
-        across = self._edges[..., :2] / _norm(self._edges[..., :2], 2)[..., None]
+        pixels *= norm(camera.camera_from_world[:2, :3], 1)
+        across = self._edges[..., :2] / norm(self._edges[..., :2], 2)[..., None]
         t = 1.0 if camera.is_parallel else np.abs(self._depth(i, j))
-        return _norm(across * pixels, 2) * (ROUNDING_32 * np.minimum(size, far) / t)[:, None]
+        return norm(across * pixels, 2) * (ROUNDING_32 * np.minimum(size, far) / t)[:, None]
 
     def at_clip(self, i: Numbers, j: Numbers, px: float, drawn: bool = False) -> Bools:
         """Return which pixels are within px of where near, far or the eye's plane cuts, or see a
@@ -198,7 +198,7 @@ class Surfaces:
             # OpenGL clips at NEAREST of the object's farthest depth. That displaces the rest of a
             # triangle by ROUNDING_32 of its size: if it is more than MARGIN, it may vanish.
             flat, owner = self._view.flat, self._owner[self._triangle]
-            corners = flat.object_bounds[owner][:, _CORNERS, np.arange(3)]
+            corners = corners_of(flat.object_bounds[owner])
             matrix = flat.world_from_object[owner]
             world = corners @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
             farthest = self._view.image_points(world)[..., 2].max(axis=1)
@@ -233,7 +233,7 @@ class Surfaces:
 
         here = cell(i, j)
         with quiet():
-            away = length(self.point(i, j)[0] - np.asarray(view.camera.eye))
+            away = norm(self.point(i, j)[0] - np.asarray(view.camera.eye))
             off = np.abs(here - np.round(here))
             unknown = ROUNDING_32 * away[:, None] * np.linalg.norm(rows[:, :, :3], axis=2)
             px = np.where(off <= unknown, 0.0, off / slope_of(cell, i, j))
@@ -330,10 +330,7 @@ def _dot(a: Floats, b: Floats) -> Floats:
     return np.einsum("nk,nk->n", a, b)
 
 
-def length(a: Floats) -> Floats:
-    return np.linalg.norm(a, axis=1)
-
-
-def _norm(a: Floats, axis: int) -> Floats:
-    length: Floats = np.linalg.norm(a, axis=axis)
-    return length
+def norm(a: Floats, axis: int = 1) -> Floats:
+    """Return the lengths of vectors along an axis."""
+    lengths: Floats = np.linalg.norm(a, axis=axis)
+    return lengths

@@ -9,6 +9,7 @@ import numpy as np
 from renderer.camera.camera import Camera
 from renderer.images.display import encode_srgb
 from renderer.images.frame import Frame
+from renderer.scene.boxes import corners_of
 from renderer.scene.flat import FlatScene
 
 DARK = 1.5 / 255  # a display value; an image below it looks black
@@ -123,7 +124,8 @@ def _points(flat: FlatScene, camera: Camera, visible: np.ndarray) -> np.ndarray:
     bounds, matrix = flat.object_bounds[visible].astype(float), flat.world_from_object[visible]
     eye = np.linalg.inv(matrix) @ np.append(camera.eye, 1.0)
     nearest = np.clip(eye[:, :3], bounds[:, 0], bounds[:, 1])
-    corners = bounds[:, np.array(list(np.ndindex(2, 2, 2))), np.arange(3)]
-    points = np.concatenate([corners, bounds.mean(axis=1)[:, None], nearest[:, None]], axis=1)
+    points = np.concatenate(
+        [corners_of(bounds), bounds.mean(axis=1)[:, None], nearest[:, None]], axis=1
+    )
     world: np.ndarray = points @ np.swapaxes(matrix[:, :3, :3], 1, 2) + matrix[:, None, :3, 3]
     return world

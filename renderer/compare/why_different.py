@@ -33,7 +33,7 @@ from renderer.compare.seen_surfaces import (
     Surfaces,
     View,
     is_within,
-    length,
+    norm,
     quiet,
     slope_of,
 )
@@ -154,7 +154,7 @@ def _jumps(seen: Surfaces, pixels: Differing, i: Numbers, j: Numbers) -> tuple[B
         moved[moved <= DEPTH_RELATIVE * t[1]] = 0
         is_moved = ~(moved <= TOLERANCE_PX * slope_of(seen.parameter, i, j))
         turned[turned <= NORMAL] = 0
-        bend = TOLERANCE_PX * length(slopes[:, :3])
+        bend = TOLERANCE_PX * norm(slopes[:, :3])
         tint = slopes[:, 3:] / seen.interpolated(i, j)[:, 3:]
         faded = np.abs(colors[1] - colors[0]) / colors.max(axis=0)
         faded[colors[0] == colors[1]] = 0

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 import weakref
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ from renderer.files.schema import AnyLight, LightTable, MeshTable, ModelTable, S
 from renderer.files.tables import to_struct
 from renderer.scene.model import Scene
 from renderer.scene.origin import FileEntry, ItemKind, Keys, Origin, SavedFile
-from renderer.system.errors import LucidaError
+from renderer.system.errors import LucidaError, under
 from renderer.system.file_dependencies import noting, stamp
 
 Item = int  # the key of an object or of a light
@@ -154,12 +154,22 @@ def set_field(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Sc
     value: as in the file; tuples and NumPy numbers are also accepted; None for the default. Raises
     LucidaError naming the field.
     """
+    return with_changed(scene, items, lambda _item, table: with_field(table, field, value))
+
+
+def with_changed(
+    scene: Scene, items: Sequence[Item], change: Callable[[Item, Table], Table]
+) -> Scene:
+    """Return the scene with the tables of some items changed. Raises LucidaError as change()
+    does.
+    """
     scene = as_tables(scene)
     changed: dict[Kind, list[Any]] = {}
     for item in items:
         kind, number = find(scene, item)
         tables = changed.setdefault(kind, list(listed(scene, kind)))
-        tables[number] = with_field(tables[number], field, value)
+        with under(f"{kind}[{number}]"):
+            tables[number] = change(item, tables[number])
     return with_listed(scene, changed)
 
 

@@ -17,21 +17,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.editing.changing import (
     Item,
-    Kind,
     Table,
     as_tables,
     entry_of,
     fields_of,
     find,
-    listed,
     plain,
-    with_listed,
+    with_changed,
 )
 from renderer.files.schema import DirectionalLightTable, MeshTable, PointLightTable, SphereTable
 from renderer.scene.boxes import extent, world_boxes
 from renderer.scene.model import Scene, Shape, Sphere
 from renderer.scene.shapes import placement
-from renderer.system.errors import LucidaError, under
+from renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 
@@ -105,14 +103,9 @@ def transform(scene: Scene, items: Sequence[Item], matrix: ArrayLike) -> Scene:
     if moved.shape != (4, 4) or not np.isfinite(moved).all():
         raise LucidaError("matrix", "is not 4 x 4 finite numbers", "give an affine matrix")
     scene = as_tables(scene)
-    changed: dict[Kind, list[Any]] = {}
-    for item in items:
-        kind, number = find(scene, item)
-        tables = changed.setdefault(kind, list(listed(scene, kind)))
-        fields = fields_of(scene, item)
-        with under(f"{kind}[{number}]"):
-            tables[number] = {**tables[number], **_moved(fields, moved)}
-    return with_listed(scene, changed)
+    return with_changed(
+        scene, items, lambda item, table: {**table, **_moved(fields_of(scene, item), moved)}
+    )
 
 
 def _moved(fields: Any, matrix: Floats) -> Table:

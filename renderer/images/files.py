@@ -93,16 +93,6 @@ def write_picture(path: str | Path, shown: Bytes) -> None:
         PICTURES[ending](file, content)
 
 
-def encode_array(array: NDArray, ending: str) -> bytes:
-    """Return the bytes of a file that holds a picture, uint8 (height, width) or (height, width, 3).
-
-    ending: one of PICTURES that holds such an array.
-    """
-    content = io.BytesIO()
-    PICTURES[ending](content, array)
-    return content.getvalue()
-
-
 def _write_netpbm(file: BinaryIO, shown: Bytes) -> None:
     """Write P6 for colours (height, width, 3), P5 for gray (height, width)."""
     kind = b"P6" if shown.ndim == 3 else b"P5"

@@ -6,6 +6,7 @@ takes longer than most pictures take to draw.
 
 from __future__ import annotations
 
+import io
 import struct
 import zlib
 from collections.abc import Iterable, Iterator
@@ -38,6 +39,13 @@ def write_png(file: BinaryIO, picture: NDArray[np.uint8] | NDArray[np.bool_]) ->
     _write_head(file, width, height, bits, kind)
     _write_chunk(file, b"IDAT", zlib.compress(filtered.data, LEVEL))
     _write_chunk(file, b"IEND", b"")
+
+
+def png_of(picture: NDArray[np.uint8]) -> bytes:
+    """Return the bytes of a picture's PNG file."""
+    file = io.BytesIO()
+    write_png(file, picture)
+    return file.getvalue()
 
 
 def join_pngs(file: BinaryIO, parts: Iterable[bytes], height: int) -> Iterator[None]:

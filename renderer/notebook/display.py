@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -20,7 +19,7 @@ from renderer.camera.camera import Camera
 from renderer.images import picture
 from renderer.images.display import depth_gray
 from renderer.images.frame import CHANNELS, Frame
-from renderer.images.png import write_png
+from renderer.images.png import png_of
 
 if TYPE_CHECKING:
     from renderer.scene import Scene
@@ -61,9 +60,7 @@ class Shown:
         bar = np.repeat(depth_gray(steps[:, None])[..., None], 3, axis=2).repeat(_BAR, axis=1)
         labels = f"<span>t = {near:.4g}</span><span>{far:.4g}</span>"
         column = "display:flex;flex-direction:column;justify-content:space-between"
-        file = io.BytesIO()
-        write_png(file, bar)
-        return f"{_image(file.getvalue(), 'height:100%')}<div style='{column}'>{labels}</div>"
+        return f"{_image(png_of(bar), 'height:100%')}<div style='{column}'>{labels}</div>"
 
 
 def frame_png(frame: Frame) -> bytes | None:
@@ -73,9 +70,7 @@ def frame_png(frame: Frame) -> bytes | None:
 
 
 def png(frame: Frame, channel: str) -> bytes:
-    file = io.BytesIO()
-    write_png(file, picture(frame, channel))
-    return file.getvalue()
+    return png_of(picture(frame, channel))
 
 
 def camera_html(camera: Camera) -> str:

@@ -22,6 +22,15 @@ def extent(vertices: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     return corners.min(0), corners.max(0)
 
 
+_CORNERS = np.array(list(np.ndindex(2, 2, 2)))
+
+
+def corners_of(bounds: NDArray[Any]) -> F64:
+    """Return the corners (..., 8, 3) of boxes (..., 2, 3), in world space or any other."""
+    corners: F64 = np.asarray(bounds, np.float64)[..., _CORNERS, np.arange(3)]
+    return corners
+
+
 def world_boxes(world_from_object: F64, bounds: F64) -> tuple[F64, F64]:
     """Return boxes around transformed boxes: lowest and highest corners, (n, 3) each.
 

@@ -17,7 +17,7 @@ objects, and sphere s has the number m + s.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,11 @@ I32 = NDArray[np.int32]
 # Rows of a material, each four numbers.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = range(3)
 PLAIN, TEXTURED = 0, 2  # its pattern, if it is not CHECKERED
+# The arrays that do not change when objects are moved.
+_LAYOUT = (
+    *("vertices", "colors", "faces", "face_object", "sphere_object"),
+    *("object_faces", "object_vertices", "object_sphere"),
+)
 BLOCK = 4096  # normals at a time: what is between two steps stays in the cache
 
 
@@ -124,9 +129,9 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     seen = [entry.shape for _, entry in scene.visible]
     spheres = [(*s.center, s.radius) for s in seen if isinstance(s, Sphere)]
     is_seen = [not entry.hidden for entry in scene.objects]
-    textured = texture_arrays(scene, layout.object_vertices, known and _known_textures(*known))
+    textured = texture_arrays(scene, layout["object_vertices"], known and _known_textures(*known))
     flat = FlatScene(
-        **layout._asdict(),
+        **layout,
         normals=_normals(scene, old, world_from_object),
         spheres=np.array(spheres, np.float64).reshape(-1, 4),
         object_bounds=object_bounds,
@@ -170,24 +175,11 @@ def _known_textures(scene: Scene, flat: FlatScene) -> tuple[Scene, I32, TextureA
     return scene, flat.object_vertices, arrays
 
 
-class _Layout(NamedTuple):
-    """The part that does not change when objects are moved."""
-
-    vertices: F32
-    colors: F32
-    faces: I32
-    face_object: I32
-    sphere_object: I32
-    object_faces: I32
-    object_vertices: I32
-    object_sphere: I32
+def _same_layout(flat: FlatScene) -> dict[str, Any]:
+    return {name: getattr(flat, name) for name in _LAYOUT}
 
 
-def _same_layout(flat: FlatScene) -> _Layout:
-    return _Layout(*(getattr(flat, name) for name in _Layout._fields))
-
-
-def _new_layout(scene: Scene) -> _Layout:
+def _new_layout(scene: Scene) -> dict[str, Any]:
     meshes = [entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh)]
     counts = [_room(entry) for entry in scene.objects]
     object_vertices, object_faces = (
@@ -198,7 +190,7 @@ def _new_layout(scene: Scene) -> _Layout:
     firsts = object_vertices[object_faces[:, 1] > 0, 0]
     faces = [m.faces + k if k else m.faces for m, k in zip(meshes, firsts, strict=True)]
     numbers = np.arange(len(scene.objects), dtype=np.int32)
-    return _Layout(
+    return dict(
         vertices=_stack([mesh.vertices for mesh in meshes], np.float32),
         colors=_stack(colors, np.float32),
         faces=_stack(faces, np.int32),

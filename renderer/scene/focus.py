@@ -6,13 +6,12 @@ Pure. A floor or a sky is not framed: it is only the background.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera.camera import Vector
-from renderer.scene.boxes import extent
+from renderer.scene.boxes import corners_of, extent
 from renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
@@ -50,17 +49,17 @@ def scene_focus(scene: Scene) -> Focus:
         return Focus()
     corners = [object_corners(entry) for entry in seen]
     balls = [_ball(entry, box) for entry, box in zip(seen, corners, strict=True)]
-    center = _median(np.array([middle for middle, _ in balls]))
+    center: Points = np.median([middle for middle, _ in balls], axis=0)
     extents = [float(np.linalg.norm(middle - center)) + radius for middle, radius in balls]
     eye = np.abs(np.asarray(scene.view.camera.eye) - center).max()
-    reach = 1.5 * max(float(_median(np.array(extents))), float(eye))
+    reach = 1.5 * max(float(np.median(extents)), float(eye))
     x, y, z = center.tolist()
     everything = np.concatenate(corners)
     return Focus(
         (x, y, z),
         float(f"{reach:.2g}"),
         np.concatenate([corners[k] for k in _things([radius for _, radius in balls], corners)]),
-        _box(everything.min(axis=0), everything.max(axis=0)),
+        corners_of(np.array([everything.min(axis=0), everything.max(axis=0)])),
     )
 
 
@@ -71,8 +70,8 @@ def object_corners(entry: SceneObject) -> Points:
     shape = entry.shape
     if isinstance(shape, Sphere):
         center = np.asarray(shape.center, float)
-        return _box(center - shape.radius, center + shape.radius)
-    box = _box(*extent(shape.vertices))
+        return corners_of(np.array([center - shape.radius, center + shape.radius]))
+    box = corners_of(np.array(extent(shape.vertices)))
     return box @ shape.transform[:3, :3].T + shape.transform[:3, 3]
 
 
@@ -87,22 +86,9 @@ def _things(radii: list[float], corners: list[Points]) -> list[int]:
     return [k for k, radius in enumerate(radii) if k in set(kept) or radius < size]
 
 
-def _median(values: Points) -> NDArray[np.float64]:
-    """Return the median along the first axis. NumPy's own takes as long as a frame at its first
-    call, because it imports its masked arrays.
-    """
-    ordered = np.sort(values, axis=0)
-    middle: NDArray[np.float64] = ordered[(len(ordered) - 1) // 2 : len(ordered) // 2 + 1]
-    return middle.mean(axis=0)
-
-
 def _ball(entry: SceneObject, corners: Points) -> tuple[Points, float]:
     """Return a ball around an object."""
     if isinstance(entry.shape, Sphere):
         return np.asarray(entry.shape.center, float), entry.shape.radius
     low, high = corners.min(axis=0), corners.max(axis=0)
     return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
-
-
-def _box(low: NDArray[np.floating], high: NDArray[np.floating]) -> Points:
-    return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))), float)

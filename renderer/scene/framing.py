@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera.camera import Camera
+from renderer.scene.focus import object_corners
 from renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
 from renderer.system.errors import LucidaError
 
@@ -71,6 +72,5 @@ def _outline(entry: SceneObject) -> NDArray[np.float64]:
     """
     shape = entry.shape
     if isinstance(shape, Sphere):
-        signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
-        return np.asarray(shape.center) + shape.radius * signs
+        return object_corners(entry)
     return shape.vertices @ shape.transform[:3, :3].T + shape.transform[:3, 3]

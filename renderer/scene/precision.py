@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from renderer.camera.camera import Camera, Size
+from renderer.scene.boxes import corners_of
 from renderer.scene.flat import FlatScene
 from renderer.system.errors import LucidaError
 
@@ -39,7 +40,7 @@ def check_precision(camera: Camera, size: Size, flat: Callable[[], FlatScene]) -
             raise LucidaError("camera", f"{problem} {_BITS}", "narrow its field of view")
         if 2 / pixel <= LARGEST_PX:
             return
-    corners = np.stack(np.meshgrid(*flat().bounds.astype(float).T), -1).reshape(-1, 3)
+    corners = corners_of(flat().bounds)
     reach = float(np.linalg.norm(np.ptp(corners, axis=0)))
     if not camera.is_parallel and reach:
         away = float(np.linalg.norm(corners - np.asarray(camera.eye), axis=1).max())

@@ -14,6 +14,7 @@ The name marks the part in the cache folder, and tells another process what to c
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from renderer.scene.model import Mesh, Scene, SceneObject
 from renderer.trace.image_job import Task
@@ -50,22 +51,14 @@ def compile_part(part: str) -> None:
     triangle = SceneObject(Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)))
     ray = np.zeros((1, 3)), np.zeros((1, 3)), 0.0, np.inf
 
-    def packets() -> PacketEngine:
-        return PacketEngine(nothing, alone)
-
-    def compile_walk(variant: Variant) -> Callable[[], object]:
-        return lambda: packets().compile_walk(variant)
-
-    def compile_write(variant: Variant) -> Callable[[], object]:
-        return lambda: packets().compile_write(variant)
-
+    packets = PacketEngine(nothing, alone)
     compilers: dict[str, Callable[[], object]] = {
         "trees": lambda: Instances(Scene((triangle,)), flatten(Scene((triangle,))), alone),
-        "lens": lambda: packets().compile_lens(),
-        "rays": lambda: packets().closest_hits(*ray),
-        "shade": lambda: packets().shaded(*ray),
+        "lens": packets.compile_lens,
+        "rays": partial(packets.closest_hits, *ray),
+        "shade": partial(packets.shaded, *ray),
         "reference": lambda: ReferenceEngine(nothing, alone).compile(),
-        **{f"walk-{variant}": compile_walk(variant) for variant in Variant},
-        **{f"write-{variant}": compile_write(variant) for variant in Variant},
+        **{f"walk-{variant}": partial(packets.compile_walk, variant) for variant in Variant},
+        **{f"write-{variant}": partial(packets.compile_write, variant) for variant in Variant},
     }
     compilers[part]()

@@ -17,16 +17,12 @@ from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import lecture_from_toml
-from app.lecture.step_options import state_of
-from app.state.app_state import AppState
 from app.web.bundle import bundle
 from app.web.lecture import exercises, pdf
-from app.web.lecture.figures import Figures
 from app.web.lecture.mathml import inline
 from app.web.lecture.page import Still, page
 from app.web.scene_page import packed_scene
 from renderer.editing.moving import transform
-from renderer.files.views import view_from_table
 from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 from tests.support.browser import chromium
 
@@ -78,7 +74,9 @@ def written(lecture, tmp_path_factory):
 def opened(browser, written):
     """The page in a browser; what goes wrong there fails the test."""
     said = []
-    tab = browser.new_page(viewport={"width": 1280, "height": 720})
+    tab = browser.new_page(
+        viewport={"width": 1280, "height": 720}, has_touch=True, reduced_motion="reduce"
+    )
     tab.on("console", lambda message: message.type == "error" and said.append(message.text))
     tab.on("pageerror", lambda error: said.append(str(error)))
     tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
@@ -207,25 +205,6 @@ def go(tab, number: int) -> None:
     tab.get_by_text(f"{number} / {len(TITLES)}", exact=True).wait_for()
 
 
-OUTSIDE = (640, 420)  # the outside view in modules/outside.js
-
-
-def test_figures_begin_as_their_steps_do(lecture):
-    figures, modes = Figures(), set()
-    for step in lecture.builds:
-        state = state_of(step, AppState.for_scene(step.scene, step.view))
-        figure = figures.of(step, state)
-        options = figure["options"] if figure else {}
-        modes.add(options.get("mode"))
-        has_camera = state.options.outside.image and not step.view.camera.is_parallel
-        if "outside" in options and has_camera:
-            looking = view_from_table(options["outside"]["camera"]).camera
-            seen = looking.project(step.view.camera.eye, OUTSIDE)
-            assert 0 < seen.row < OUTSIDE[1], step.title
-            assert 0 < seen.column < OUTSIDE[0], step.title
-    assert modes == {None, "wipe"}
-
-
 def test_keys_walk_all_builds(opened, written):
     _, some = written
     presses = 0
@@ -253,8 +232,14 @@ def test_keys_walk_all_builds(opened, written):
     assert opened.evaluate("scrollY") == 0  # an address does not hide the bar
 
 
+def try_it(tab) -> None:
+    tab.locator(".current .try summary").click()
+
+
 @pytest.mark.parametrize("focused", ["canvas", "[role=slider]"])
 def test_a_remote_is_heard_wherever_the_focus_is(opened, focused):
+    opened.set_viewport_size({"width": 1280, "height": 2000})
+    try_it(opened)
     part = opened.locator(f".current .lucida-figure {focused}").first
     part.focus()
     opened.keyboard.press(".")
@@ -265,6 +250,45 @@ def test_a_remote_is_heard_wherever_the_focus_is(opened, focused):
     part.focus()
     opened.keyboard.press("PageDown")
     assert opened.url.endswith("#1.2")
+
+
+def test_swipes_and_typed_numbers_go_to_builds(opened):
+    opened.set_viewport_size({"width": 360, "height": 740})
+
+    finger = opened.context.new_cdp_session(opened)
+
+    def swipe(*way: tuple[int, int], to: str) -> None:
+        moves = [("touchMove", [one]) for one in way[1:]]
+        for kind, points in (("touchStart", way[:1]), *moves, ("touchEnd", ())):
+            touches = [{"x": x, "y": y} for x, y in points]
+            finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+        opened.locator(f".current[id='{to}']").wait_for()
+
+    swipe((300, 200), (200, 205), (100, 210), to="1.2")
+    swipe((200, 200), (190, 150), (180, 100), to="1.2")  # it scrolls
+    swipe((100, 200), (200, 205), (300, 210), to="1")
+    for key in "10":
+        opened.keyboard.press(key)
+    opened.keyboard.press("Enter")
+    assert place(opened) == "10 / 10"
+    opened.keyboard.press("7")
+    opened.keyboard.press("7")
+    opened.keyboard.press("Enter")
+    assert place(opened) == "10 / 10" and "no step 77" in opened.inner_text("#told")
+
+
+def test_a_cross_fade_ends_at_the_last_build_that_was_asked_for(browser, written):
+    tab, said = browser.new_page(reduced_motion="no-preference"), []
+    tab.on("pageerror", lambda error: said.append(str(error)))
+    tab.goto(written[0].as_uri())
+    for _ in range(4):
+        tab.keyboard.press("ArrowRight")
+    shown = written[1].builds[4]
+    tab.wait_for_function(
+        f"document.querySelector('.current').id === '{shown.number + 1}.{shown.build + 1}'"
+    )
+    tab.close()
+    assert said == []
 
 
 def test_notes_follow_in_a_window_of_their_own(opened, written):
@@ -320,6 +344,7 @@ def test_handles_are_dragged_by_keys_and_mouse(opened, written):
         found.wait_for()
         return found
 
+    try_it(opened)
     handle("Eye along u").focus()
     eye = opened.evaluate("lucida.camera.eye")
     assert eye == list(written[1].steps[0].view.camera.eye)
@@ -415,17 +440,20 @@ def test_a_print_has_a_page_for_each_picture(written, answers):
     assert pages == html.count("<section class") >= len(TITLES)
 
 
-def test_a_print_leaves_out_builds_of_which_the_next_shows_all(tmp_path):
+def test_a_print_leaves_out_builds_on_the_way_to_the_next(tmp_path):
     text = (
         "title = 'L'\n[[steps]]\ntitle = 'T'\ntext = 'One.\\n> Why?'\n"
-        "[[steps.builds]]\ntext = 'Two.'\n[[steps.builds]]\noptions.shadows = true\n"
+        "[[steps.builds]]\ntext = 'Two.'\noptions.shadows = true\n"
+        "[[steps.builds]]\noptions.images.samples = 4\noptions.mirrors = true\n"
+        "[[steps.builds]]\ninstead = 'Three.'\n"
     )
     lecture = lecture_from_toml(
         text.replace("'One.\\n> Why?'", '"One.\\n\\n> Why?"'), tmp_path, "x"
     )
     none = [()] * len(lecture.builds)
     for answers, for_print, shown in (
-        (True, True, ["1.2", "1.3"]), (True, False, ["1", "1.2", "1.3"]), (False, True, ["1"]),
+        (True, True, ["1.2", "1.3", "1.4"]), (True, False, ["1", "1.2", "1.3", "1.4"]),
+        (False, True, ["1"]),
     ):  # fmt: skip
         html = page(lecture, none, answers, for_print)
         assert re.findall(r'<section [^>]*id="([\d.]+)"', html) == shown

@@ -5,7 +5,6 @@ Workers on other machines call draw_shot() with the scene that they have been se
 
 from __future__ import annotations
 
-import io
 from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
@@ -16,7 +15,7 @@ from renderer.camera.camera import Camera, Size
 from renderer.images import encode_image, picture
 from renderer.images.frame import Frame
 from renderer.images.pixels import ENLARGEMENT
-from renderer.images.png import write_png
+from renderer.images.png import png_of
 from renderer.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -88,9 +87,7 @@ class Drawing:
             return encode_image(look.ending, frames[0], look.channel, look.exposure)
         gap = np.zeros((shot.size[1], GAP, 3), np.uint8)
         one, other = (picture(frame, "color", look.exposure) for frame in frames)
-        file = io.BytesIO()
-        write_png(file, np.concatenate([one, gap, other], axis=1))
-        return file.getvalue()
+        return png_of(np.concatenate([one, gap, other], axis=1))
 
     def _frames(self, shot: Shot) -> list[Frame]:
         look, camera, size = self.look, shot.camera, shot.size

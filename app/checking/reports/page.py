@@ -19,7 +19,7 @@ from app.checking.reports.pictured import Pictured
 from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
 from app.checking.starter import signature
 from app.checking.tasks import CheckTask
-from renderer.images import encode_array
+from renderer.images.png import png_of
 from renderer.system.errors import visible
 
 STYLE = """
@@ -130,7 +130,7 @@ def _pictures(pictures: Pictured) -> str:
 
 
 def _data(image: NDArray[np.uint8]) -> str:
-    content = base64.b64encode(encode_array(np.ascontiguousarray(image), ".png")).decode()
+    content = base64.b64encode(png_of(np.ascontiguousarray(image))).decode()
     return f"data:image/png;base64,{content}"
 
 

@@ -15,12 +15,11 @@ from app.instruments.laboratory.images import boxes, image_size
 from app.instruments.laboratory.looks import look_of
 from app.instruments.laboratory.page import Image, Page
 from app.instruments.laboratory.pages import PAGES, drawn
-from app.instruments.laboratory.sheet import Look, Point, Sheet
+from app.instruments.laboratory.sheet import Point, Sheet
 from app.instruments.outside.figure import Figure
 from app.instruments.outside.painting import Painter
 from app.state.bounds import range_of
 from app.state.options.laboratory import LaboratoryOptions
-from app.state.options.shared import Notation
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
 from app.ui.messages import wrapped
@@ -46,7 +45,9 @@ class LaboratoryView(DockedView):
     def __init__(self) -> None:
         self._uploads: Uploads | None = None
         self._image = Memo(_drawn_image)
-        self._figure = Memo(_figure)
+        self._page = Memo(Page)
+        self._figure = Memo(drawn)
+        self.page: Page | None = None
         self.figure: Figure | None = None
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
@@ -78,9 +79,16 @@ class LaboratoryView(DockedView):
         place = self._read(host, size, color, corner, scale) if reads else options.point
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
         notation = host.state.options.notation
-        self.figure = self._figure(size, look, options, color, exposure_ev, place, notation)
+        self.page = self._page(size, look, options, color, exposure_ev, place, notation)
+        self.figure = self._figure(options.page, self.page)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)
+
+    def in_both_themes(self) -> tuple[Page, Page]:
+        """Return the input of the last drawing, in the light and in the dark theme of a hall."""
+        assert self.page is not None
+        light, dark = (look_of(one) for one in (theme.PRESENTED_LIGHT, theme.PRESENTED_DARK))
+        return replace(self.page, look=light), replace(self.page, look=dark)
 
     def _color(self, host: Host, page: str, size: Size) -> Image:
         """Return the image that a page shows, in linear light. Raises LucidaError."""
@@ -143,18 +151,6 @@ def _slider(label: str, value: float, limits: tuple[float, float], form: str) ->
     follow(width + imgui.calc_text_size(label).x)
     imgui.set_next_item_width(width)
     return slider_float(label, value, *limits, form)[1]
-
-
-def _figure(
-    size: Size,
-    look: Look,
-    options: LaboratoryOptions,
-    color: Image,
-    exposure_ev: float,
-    place: Point,
-    notation: Notation,
-) -> Figure:
-    return drawn(options.page, Page(size, look, options, color, exposure_ev, place, notation))
 
 
 def _drawn_image(rasterizer: WindowRasterizer, request: ImageRequest) -> Image:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import io
 import re
+from collections.abc import Callable
 from html import escape
 
 import numpy as np
@@ -28,6 +29,7 @@ from app.instruments.outside.figure import (
     Picture,
     Polygon,
 )
+from renderer.images.display import Bytes
 
 FONTS = "Roboto, Helvetica, Arial, sans-serif"
 MONO = "Roboto Mono, Consolas, Menlo, monospace"
@@ -36,6 +38,13 @@ ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 BLACK = (0.0, 0.0, 0.0)
 CASING, PALEST = 2.0, 0.45  # it is wider than a line by so many units; paler lines have none
 BASELINE = 0.35  # below a line's middle, in parts of the font's size
+
+
+def png_address(pixels: Bytes) -> str:
+    """Return pixels as the address of a PNG."""
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, "PNG")
+    return f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
 
 
 def svg(figure: Figure, title: str = "") -> str:
@@ -47,18 +56,23 @@ def svg(figure: Figure, title: str = "") -> str:
         f' width="{width}" height="{height}" viewBox="0 0 {width} {height}">',
         f"<title>{escape(_legal(title))}</title>",
     ]
-    return "\n".join([*lines, *_content(figure), "</svg>", ""])
+    return "\n".join([*lines, *content(figure), "</svg>", ""])
 
 
-def _content(figure: Figure) -> list[str]:
-    """Return the elements of a figure: its ground, its image, its lines, its labels."""
+def content(figure: Figure, address: Callable[[Bytes], str] = png_address) -> list[str]:
+    """Return the elements of a figure: its ground, its image, its lines, its labels.
+
+    address: returns the address of a picture's pixels.
+    """
     box, lines = f'width="{figure.size[0]}" height="{figure.size[1]}"', []
     if figure.ground is not None:
         lines.append(f'<rect class="ground" {box} fill="{_hex(figure.ground)}"/>')
     if figure.image is not None:
-        lines.append(f'<image class="scene" {box} {_png(figure.image)}/>')
+        lines.append(f'<image class="scene" {box} xlink:href="{address(figure.image)}"/>')
     lines.append('<g class="lines" fill="none" stroke-linecap="round" stroke-linejoin="round">')
-    lines += [_element(part, figure) for part in figure.parts if not isinstance(part, Label)]
+    lines += [
+        _element(part, figure, address) for part in figure.parts if not isinstance(part, Label)
+    ]
     lines.append(
         f'</g>\n<g class="labels" font-family="{FONTS}" text-anchor="middle"'
         ' stroke-linejoin="round">'
@@ -68,23 +82,19 @@ def _content(figure: Figure) -> list[str]:
     return [*lines, "</g>"]
 
 
-def _png(pixels: np.ndarray) -> str:
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, "PNG")
-    return f'xlink:href="data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"'
-
-
-def _element(part: Line | Polygon | Picture | Inset, figure: Figure) -> str:
+def _element(
+    part: Line | Polygon | Picture | Inset, figure: Figure, address: Callable[[Bytes], str]
+) -> str:
     if isinstance(part, Picture | Inset):
         x, y, width, height = map(_number, (*part.low, *np.subtract(part.high, part.low)))
         box = f'{_name(part)} x="{x}" y="{y}" width="{width}" height="{height}"'
     if isinstance(part, Picture):
-        look = 'preserveAspectRatio="none" style="image-rendering: pixelated"'
-        return f"<image{box} {look} {_png(part.pixels)}/>"
+        look = 'preserveAspectRatio="none" image-rendering="pixelated"'
+        return f'<image{box} {look} xlink:href="{address(part.pixels)}"/>'
     if isinstance(part, Inset):
         seen = np.subtract(part.high, part.low) / part.scale
         view = " ".join(map(_number, (*part.first, *seen)))
-        return "\n".join([f'<svg{box} viewBox="{view}">', *_content(part.figure), "</svg>"])
+        return "\n".join([f'<svg{box} viewBox="{view}">', *content(part.figure, address), "</svg>"])
     kind = "stroke" if isinstance(part, Line) else "fill"
     look = f'{_name(part)} {kind}="{_hex(part.color)}"'
     if part.opacity < 1:

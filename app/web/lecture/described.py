@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 from app.images.request import MIRROR_DEPTH
 from app.instruments.costs.recorded import COSTS
 from app.instruments.laboratory.pages import PAGES
 from app.instruments.probe.model import Probe
+from app.instruments.stepper.programs import run_part
 from app.lecture.model import Step
 from app.state.app_state import AppState
+from app.state.options.outside import STAGES
 from app.ui.explaining.notation import number, text_tuple
 from renderer.camera.camera import Camera, Size
 from renderer.editing.moving import bounds_of
@@ -39,12 +42,17 @@ LABORATORY = {
     "ruler": "A row of 10 pixels with rulers: for j = 7, j - 0.5 is 6.5, divided by W 0.65, minus "
     "0.5 0.15, which is u; the same downwards for i = 3, where v is 0.25.",
 }
+LINES = (
+    "no pixel is done", "the marked pixel's ray is generated", "its closest object is found",
+    "the marked pixel has its colour", "all pixels are done",
+)  # fmt: skip
+QUESTIONS = "a magnified image", "an eye with a frame before a ball", "a ray through the frame"
 TITLES = {
     "raster": "Raster image",
     "ray": "Ray image",
     "outside": "Outside view",
     "compare": "Raster against ray image",
-    "stepper": "Loop stepper",
+    "stepper": "Loops",
     "costs": "Costs",
     "laboratory": "Image laboratory",
     "your-code": "Your code",
@@ -155,18 +163,25 @@ def _pixel(state: AppState, size: Size) -> str:
 
 
 def _outside(step: Step, state: AppState) -> str:
-    options = state.options.outside
+    options, steps = state.options.outside, state.options.stepper.parts[1]
+    is_traced = "stepper" in step.views
     parts = {
-        "the basis u, v, w": options.basis,
+        "the basis u, v, w": options.basis and options.basis_grown > 0,
         "the image plane": options.image,
         "the view volume": options.volume,
-        "the marked pixel's ray": options.ray and state.marked is not None,
+        "the marked pixel's ray": (options.ray and state.marked is not None and not is_traced)
+        or (is_traced and steps > 0),
         f"{options.bundle[0]} x {options.bundle[1]} viewing rays": all(options.bundle),
-        "p, d and t = 1, 2, 3": options.half_line > 0,
+        "p": options.half_line > 0,
+        "d": options.half_line > 1,
+        "t = 1, 2, 3": options.half_line > 2,
         "all t at which it meets objects": options.meetings > 0,
-        "rays to points of the scene": bool(options.points),
+        f"the rays of {len(options.points)} points": bool(options.points)
+        and options.points_grown > 0,
         f"the target {text_tuple(options.target or (0,))}": options.target is not None,
-        "the terms of the ray's formula": options.formula is not None,
+        f"{options.formula or 0:g} of {len(STAGES)} terms of the ray's formula": bool(
+            options.formula
+        ),
         _pixels(state): options.pixels and not state.camera.is_parallel,
     }
     drawn = ", ".join(name for name, is_drawn in parts.items() if is_drawn)
@@ -193,10 +208,16 @@ def _compared(step: Step, state: AppState) -> str:
 def _stepper(step: Step, state: AppState) -> str:
     options = state.options.stepper
     width, height = options.canvas
-    shown = {"object": (0,), "image": (1,), "both": (0, 1)}[options.order]
-    names = "object order, triangle by triangle", "image order, pixel by pixel"
-    runs = "; ".join(f"{names[k]}, after {options.steps[k]} steps" for k in shown)
-    return f"An image of {width} x {height} pixels as it is made: {runs}. {_scene(step)}"
+    first, second = (f"{run_part(part):.0%}" for part in options.parts)
+    done = LINES[min(math.ceil(options.parts[1]), len(LINES) - 1)]
+    told = {
+        "loops": "Two loops in words, object order and image order, and the images that they "
+        f"fill; these are done to {first} and {second}",
+        "rays": f"Ray tracing in three lines, and the image that it fills; {done}",
+        "program": f"The whole program, and the image that it fills; it is done to {second}",
+        "questions": "Small pictures: " + ", ".join(QUESTIONS[: math.ceil(options.parts[0])]),
+    }[options.picture]
+    return f"{told}. {width} x {height} pixels. {_scene(step)}"
 
 
 def _costs(step: Step, state: AppState) -> str:

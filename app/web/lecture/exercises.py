@@ -53,13 +53,8 @@ def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
             data = _hiding(task, size)
         case _:
             return None
-    return with_replies({"step": step.title, "read": explained_by} | data)
-
-
-def with_replies(data: dict[str, Any]) -> dict[str, Any]:
-    """Return an exercise's data with the number of each reply."""
-    texts = dict.fromkeys(_texts(data))
-    return data | {"replies": {text: number for number, text in enumerate(texts)}}
+    data |= {"step": step.title, "read": explained_by}
+    return data | {"replies": {text: n for n, text in enumerate(dict.fromkeys(_texts(data)))}}
 
 
 def _choice(task: ChoiceExercise, step: Step) -> dict[str, Any]:
@@ -154,9 +149,12 @@ def numbers(values: ArrayLike) -> list[float | None]:
 
 
 def form(
-    number: str, task: Exercise, data: dict[str, Any] | None, notation: Notation, answers: bool
+    number: str, task: Exercise, data: dict[str, Any], notation: Notation, answers: bool
 ) -> str:
-    """Return an exercise of a step as HTML. answers: with its solution."""
+    """Return an exercise of a step as HTML.
+
+    data: as data_of() returns it. answers: with its solution.
+    """
     asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
     if isinstance(task, ChoiceExercise):
         options = (
@@ -174,23 +172,14 @@ def form(
             '<details class="solution"><summary>Show the solution</summary>'
             f"{written(task.solution(), notation)}</details>\n"
         )
-    return form_of(number, asked, data, notation, solution)
-
-
-def form_of(
-    number: str, asked: str, data: dict[str, Any] | None, notation: Notation, solution: str = ""
-) -> str:
-    """Return a form. asked: the question and its fields. data: with the replies."""
-    replies = ""
-    if data is not None:
-        replies = '<div class="reply" role="status"></div>\n<div class="drawing"></div>\n'
-        replies += "".join(
-            f'<template data-reply="{place}">{written(text, notation)}</template>\n'
-            for text, place in data["replies"].items()
-        )
+    replies = "".join(
+        f'<template data-reply="{place}">{written(text, notation)}</template>\n'
+        for text, place in data["replies"].items()
+    )
     return (
         f'<form class="exercise" data-step="{number}" novalidate>\n'
-        f"{asked}{replies}{solution}</form>\n"
+        f'{asked}<div class="reply" role="status"></div>\n<div class="drawing"></div>\n'
+        f"{replies}{solution}</form>\n"
     )
 
 

@@ -8,10 +8,12 @@ from typing import Any
 from app.images.photograph.model import path_of
 from app.images.photograph.reading import decoded
 from app.images.request import MIRROR_DEPTH
+from app.lecture.exercises import ChoiceExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.state.app_state import AppState
-from app.state.options.outside import STAGES, OutsideOptions
+from app.state.options.outside import OutsideOptions
+from app.state.options.pair import PairOptions
 from app.web.lecture.pictures import data_uri
 from app.web.scene_page import packed_scene
 from renderer.files.views import view_table
@@ -19,7 +21,7 @@ from renderer.scene.model import Scene, View
 from renderer.system.errors import LucidaError
 
 IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
-# What a figure shows for a view.
+# What a figure shows of a view.
 SHOWN = {
     "raster": ("raster",),
     "ray": ("ray",),
@@ -27,18 +29,11 @@ SHOWN = {
     "compare": ("raster", "ray", "wipe"),
     "probe": ("probe",),
 }
-# Drawings of the outside view that modules/outside.js does not draw.
-DRAWN_IN_THE_WINDOW = (
-    "points",
-    "half_line",
-    "meetings",
-    "simple",
-    "basis_grown",
-    "numbers",
-    "to_parallel",
-    "image_opacity",
+# Parts of the outside view that modules/outside.js draws; it draws no others.
+DRAWN = (
+    *("camera", "volume", "image", "basis", "grid", "ray", "gizmo"),
+    *("target", "up", "pixels"),
 )
-GROWN = len(STAGES)  # a formula, whole
 
 
 class Figures:
@@ -55,12 +50,21 @@ class Figures:
         self._kept: list[Scene] = []  # so that no id is used twice
 
     def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
-        """Return a step's figure as JSON; None if it shows something else.
+        """Return a step's figure as JSON; None if there is none to try.
 
-        state: the step's. Its field "folded": the step's pictures show more than it draws.
+        A figure that draws less than the step's pictures must have something to drag. state: the
+        step's. Its field "open": the step's exercise is answered in the figure.
         """
         shows = [name for view in step.views for name in SHOWN.get(view, ())]
-        if set(shows) <= {"controls"}:
+        outside = state.options.outside
+        drags = "wipe" in shows
+        if "outside" in shows:
+            drags = drags or outside.gizmo != "none" or outside.pixels
+        is_open = isinstance(step.exercise, HideExercise) or (
+            isinstance(step.exercise, ChoiceExercise)
+            and any(option.camera is not None for option in step.exercise.options)
+        )
+        if not shows or not (is_open or drags or _is_whole(step, state)):
             return None
         number = self._number(step.scene)
         if number is None:
@@ -86,7 +90,7 @@ class Figures:
             "shows": shows,
             "options": options,
             "photograph": _photograph(state),
-            "folded": _has_more(step, state),
+            "open": is_open,
         }
 
     def _number(self, scene: Scene) -> int | None:
@@ -114,7 +118,6 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
         "image": options.image,
         "volume": options.volume,
         "ray": options.ray,
-        "formula": options.formula is not None,
         "handles": "pixels" if options.pixels else options.gizmo,
     }
     if isinstance(task := step.exercise, HideExercise):
@@ -141,19 +144,14 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
     return SHOWN.get(view, ("",))[-1] in shows
 
 
-def _has_more(step: Step, state: AppState) -> bool:
-    """Return True if images show more than a figure draws, and ask for nothing to be changed."""
-    pair, outside, images = state.options.pair, state.options.outside, state.images
-    grows = (outside.formula is not None and outside.formula < GROWN) or any(
-        getattr(outside, name) != getattr(OutsideOptions(), name) for name in DRAWN_IN_THE_WINDOW
-    )
+def _is_whole(step: Step, state: AppState) -> bool:
+    """Return True if a figure draws all that a step's pictures show."""
+    outside, images = state.options.outside, state.images
+    drawn = {name: getattr(outside, name) for name in DRAWN}
     return (
-        (grows and step.exercise is None)  # whose figure shows the answers
-        or images.dissolved > 0
-        or pair.straight_lines
-        or pair.footprint
-        or bool(pair.parallels)
-        or (bool(state.options.photograph.file) and _photograph(state) is None)
-        or images.channel != "color"
-        or images.samples > 1
+        set(step.views) <= SHOWN.keys()
+        and outside == OutsideOptions(**drawn)
+        and state.options.pair == PairOptions()
+        and not state.options.photograph.file
+        and (images.dissolved, images.channel, images.samples) == (0, "color", 1)
     )

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any, Literal
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from app.instruments.laboratory.page import Page
 from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture.text import Question
@@ -17,21 +15,28 @@ from app.state.app_state import AppState
 from app.state.options import Options
 from app.web.document import document
 from app.web.formulas import templates
-from app.web.lecture import exercises, mistakes
+from app.web.lecture import exercises
 from app.web.lecture.described import SIZE, alternative, title_of
 from app.web.lecture.figures import Figures, is_live
-from app.web.lecture.pictures import data_uri
+from app.web.lecture.pictures import Form, data_uri, drawing
 from app.web.lecture.shell import BAR, DIALOGS, overview
 from app.web.lecture.text import blocks_html, plain
+from renderer.files.views import view_table
+from renderer.images.display import Bytes
 from renderer.images.pixels import Indexing
 
 
 @dataclass(frozen=True, eq=False)
 class Still:
-    """A picture of a view in a build. pixels: uint8 (height, width, 3)."""
+    """A picture of a view in a build.
+
+    pixels: (height, width, 3). drawn: the input of the laboratory's drawing, in the light and the
+    dark theme; None of other views.
+    """
 
     view: str
-    pixels: NDArray[np.uint8]
+    pixels: Bytes
+    drawn: tuple[Page, Page] | None = None
 
 
 def page(
@@ -43,17 +48,17 @@ def page(
     """Return the page.
 
     stills: of each build. answers: with answers and solutions. for_print: without live figures, and
-    only with builds that show more than another text before them.
+    without builds that are stages on the way to the next one.
     """
     steps: list[str] = []
     tasks: dict[str, Any] = {}
     shown: dict[str, Any] = {}
     figures = None if for_print else Figures()
-    builds = [one for one in lecture.builds if answers or not is_answer(one)]
+    builds = [one for one in lecture.builds if answers or not is_answer(one, lecture)]
     last = {one.number: one for one in builds}
     for place, step in enumerate(builds):
         after = builds[place + 1] if step is not last[step.number] else None
-        printed = after is None or not shows_as(step, after)
+        printed = is_printed(step, after)
         if for_print and not printed:
             continue
         name = f"{step.number + 1}.{step.build + 1}" if step.build else str(step.number + 1)
@@ -84,15 +89,31 @@ def page(
     return document(lecture.title, "slides.js", body, {"lucida-data": data}, style)
 
 
-def shows_as(step: Step, after: Step) -> bool:
-    """Return True if two builds of a step differ in their texts only."""
-    names = ("scene", "view", "views", "options", "pixel")
-    return all(getattr(step, name) == getattr(after, name) for name in names)
+def is_printed(step: Step, after: Step | None) -> bool:
+    """Return True if a build is more than a stage on the way to the next one.
+
+    after: the next build of the step, None for its last one.
+    """
+    if after is None or (step.blocks and not after.before):  # the next one replaces the text
+        return True
+    one, other = _settings(step), _settings(after)
+    return sum(one.get(name) != other.get(name) for name in one | other) > 1
 
 
-def is_answer(step: Step) -> bool:
+def _settings(step: Step) -> dict[str, Any]:
+    """Return what a build's pictures depend on, by names."""
+    tables = {"view": view_table(step.view)} | step.options
+    return {"scene": id(step.scene), "views": step.views, "pixel": step.pixel} | {
+        f"{name}.{key}": value
+        for name, table in tables.items()
+        for key, value in (table if isinstance(table, dict) else {"": table}).items()
+    }
+
+
+def is_answer(step: Step, lecture: Lecture) -> bool:
     """Return True for a build that comes after a question to the class in its step."""
-    return any(isinstance(block, Question) for block in step.before)
+    before = lecture.builds[lecture.place(step.number) : lecture.place(step.number, step.build)]
+    return any(isinstance(block, Question) for one in before for block in one.blocks)
 
 
 class _Step:
@@ -117,60 +138,50 @@ class _Step:
         size = self._state.images.resolution or SIZE
         self.task = exercises.data_of(step, explained_by, size)
         self.figure = figures.of(step, self._state) if figures else None
-        self._form: Literal["webp", "jpeg"] = "webp" if figures else "jpeg"
+        self._form: Form = "webp" if figures else "jpeg"
 
     def html(self, stills: Sequence[Still]) -> str:
         """Return the step. stills: its pictures."""
         number, step = self._name, self._step
         text = blocks_html(step.blocks, self._notation)
-        asked = live = figure = ""
-        if step.exercise is not None:
+        asked = figure = ""
+        if step.exercise is not None and self.task is not None:
             asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
-        elif "mistakes" in step.views and self._form == "webp":
-            asked, live = self._mistakes()
         if self.figure is not None:
             figure = f'<div class="live-figure" data-step="{number}" hidden></div>\n'
-            if self.figure["folded"]:
+            if not self.figure["open"]:
                 figure = f'<details class="try"><summary>Try it</summary>{figure}</details>\n'
         if step.notes and self._answers:
             notes = blocks_html(step.notes, self._notation)
             asked += f'<div class="notes" hidden>{notes}</div>\n'
         part = f'<p class="part">{plain(step.part)}</p>\n' if step.part else ""
         pictures = "".join(map(self._still, stills))
-        is_folded = self.figure is not None and self.figure["folded"]
-        views = pictures + figure if is_folded else figure + pictures
+        is_open = self.figure is not None and self.figure["open"]
+        views = figure + pictures if is_open else pictures + figure
         return (
             f'<section class="step{self._kind}" id="{number}" data-number="{step.number + 1}" '
             f'aria-labelledby="title-{number}">\n'
             f'<div class="words">\n{part}<h2 id="title-{number}" tabindex="-1">'
             f'{plain(step.title)}</h2>\n<div class="text">{text}</div>\n{asked}</div>\n'
-            f'<div class="views">\n{live}{views}</div>\n</section>\n'
+            f'<div class="views">\n{views}</div>\n</section>\n'
         )
-
-    def _mistakes(self) -> tuple[str, str]:
-        """Return the quiz below the text, or the laboratory among the views."""
-        if self._state.options.mistakes.mode == "laboratory":
-            return "", mistakes.laboratory(self._name, self._state)
-        found = mistakes.quiz(self._step, self._state)
-        if found is None:
-            return "", ""
-        html, data = found
-        self.task = exercises.with_replies(data)
-        return "", exercises.form_of(self._name, html, self.task, self._notation)
 
     def _still(self, still: Still) -> str:
-        step, state, name = self._step, self._state, "view"
-        if still.view == "mistakes":
-            name += " printed"  # on the screen it is live
-        elif (
-            self.figure and not self.figure["folded"] and is_live(still.view, self.figure["shows"])
-        ):
+        """Return a picture, or a drawing."""
+        name = f"view of-{still.view}"
+        if self.figure and self.figure["open"] and is_live(still.view, self.figure["shows"]):
             name += " still"  # for prints, and where there is no WebGL
-        name += f" of-{still.view}"
+        seen = plain(alternative(still.view, self._step, self._state))
         height, width = still.pixels.shape[:2]
-        return (
-            f'<figure class="{name}"><img src="{data_uri(still.pixels, self._form)}" '
-            f'width="{width}" height="{height}" '
-            f'alt="{plain(alternative(still.view, step, state))}">'
-            f"<figcaption>{plain(title_of(still.view))}</figcaption></figure>\n"
+        picture = (
+            f'<img src="{data_uri(still.pixels, self._form)}" width="{width}" height="{height}" '
+            f'alt="{seen}">'
         )
+        if still.drawn is not None:
+            width, height = still.drawn[0].size
+            picture = (
+                f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{seen}">'
+                f"{drawing(still.drawn, self._form)}</svg>"
+            )
+        caption = f"<figcaption>{plain(title_of(still.view))}</figcaption>"
+        return f'<figure class="{name}">{picture}{caption}</figure>\n'

@@ -1,22 +1,28 @@
-"""Pictures in a page, as data URIs."""
+"""Pictures in a page: pixels as data URIs, and the laboratory's drawings as SVG."""
 
 from __future__ import annotations
 
 import base64
 import io
+import re
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 
+from app.instruments.laboratory.page import Page
+from app.instruments.laboratory.pages import drawn
+from app.instruments.outside.svg import content
+from renderer.images.display import Bytes
+
+Form = Literal["webp", "jpeg"]
 QUALITY = {"webp": 82, "jpeg": 85}
+SMALL_PX = 256  # of a width: a picture whose pixels are drawn as squares
+COLOR = re.compile(r'"(#[0-9a-f]{6})"')  # of an attribute
 
 
-def data_uri(
-    pixels: NDArray[np.uint8], form: Literal["webp", "jpeg"] = "webp", is_exact: bool = False
-) -> str:
-    """Return a picture, uint8 (height, width, 3).
+def data_uri(pixels: Bytes, form: Form = "webp", is_exact: bool = False) -> str:
+    """Return a picture, (height, width, 3).
 
     form: PDF files take JPEG as it is. is_exact: with every pixel as it is, in WebP.
     """
@@ -24,3 +30,18 @@ def data_uri(
     image = Image.fromarray(np.ascontiguousarray(pixels))
     image.save(file, form, quality=QUALITY[form], lossless=is_exact)
     return f"data:image/{form};base64,{base64.b64encode(file.getvalue()).decode()}"
+
+
+def drawing(themes: tuple[Page, Page], form: Form = "webp") -> str:
+    """Return the elements of a laboratory's drawing as SVG, in the colours of the reader's theme.
+
+    themes: the drawing in the light and in the dark theme. form: of its pictures.
+    """
+
+    def address(pixels: Bytes) -> str:
+        is_small = pixels.shape[1] <= SMALL_PX
+        return data_uri(pixels, "webp" if is_small else form, is_small)
+
+    light, dark = ("\n".join(content(drawn(page.options.page, page), address)) for page in themes)
+    others = iter(COLOR.findall(dark))  # both themes draw the same elements
+    return COLOR.sub(lambda color: f'"light-dark({color[1]}, {next(others)})"', light)

@@ -18,9 +18,8 @@ const CLICK = 4; // CSS pixels: less is no drag
 /** Return a figure of a canvas and a caption. @param {string} title @returns {{view: HTMLElement, canvas: HTMLCanvasElement}} */
 export function imageView(title) {
   const canvas = element("canvas", { tabindex: "0", role: "img", "aria-label": title });
-  const caption = element("figcaption", {}, title);
   const stage = element("div", { class: "lucida-stage" }, canvas, element("span", { class: "lucida-mark" }));
-  return { view: element("figure", { class: "lucida-image" }, stage, caption), canvas };
+  return { view: element("figure", { class: "lucida-image" }, stage, element("figcaption", {}, title)), canvas };
 }
 
 /** Draw a coarse or full image on a canvas. @param {HTMLCanvasElement} canvas @param {[number, number]} size the full image's @param {import("./ray_client.js").RayImage} image */

@@ -48,21 +48,9 @@ export class LiveFigures {
     const options = { ...structuredClone(shown.options), onShift: (moved, where) =>
       place.dispatchEvent(new CustomEvent("shifted", { bubbles: true, detail: { scene: moved, place: where } })) };
     this.live = figure(place, { ...shown, shows, scene, options });
-    this.live.ready.then(() => {
-      fold(place);
-      if (shown.photograph) lay(place, shown.photograph);
-    });
+    this.live.ready.then(() => shown.photograph && lay(place, shown.photograph));
     Object.assign(window, { lucida: hooks(this.live) });
   }
-}
-
-/** Put a figure's controls under a heading that opens them. @param {HTMLElement} place */
-function fold(place) {
-  const controls = place.querySelector(".lucida-controls");
-  if (!controls) return;
-  const folded = element("details", {}, element("summary", {}, "Camera"));
-  controls.replaceWith(folded);
-  folded.append(controls);
 }
 
 /** Lay a photograph over a figure's image. @param {HTMLElement} place @param {{src: string, opacity: number}} photograph */

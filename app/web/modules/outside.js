@@ -8,7 +8,7 @@ import { addNavigation } from "./image_view.js";
 import { orbited, panned, zoomed } from "./navigation.js";
 import { placeOfObject } from "./setup.js";
 import { objectCount } from "./scene.js";
-import { cross, dot, inverseRows, length, minus, normalized, plus, times } from "./vectors.js";
+import { cross, dot, length, minus, normalized, plus, times } from "./vectors.js";
 
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./camera.js").Camera} Camera */
@@ -19,7 +19,6 @@ import { cross, dot, inverseRows, length, minus, normalized, plus, times } from 
  * @typedef {object} OutsideParts
  * @property {Camera} [camera] that looks; by default one that sees all
  * @property {boolean} [basis] @property {boolean} [volume] @property {boolean} [ray] what is drawn; by default all
- * @property {boolean} [formula] the terms of the marked pixel's ray
  * @property {import("./handles.js").Kind} [handles] @property {Vec} [target] @property {Vec} [up] what makes the basis
  * @property {import("./handles.js").Movable} [object] of the scene, to be moved
  * @property {boolean} [image] whether the viewport is drawn
@@ -191,7 +190,6 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
     parts.push(worldLine(outside, eye, drawn.target, "frustum"), worldDot(outside, drawn.target, "target"), worldLabel(outside, drawn.target, "target", "label"));
     parts.push(worldLine(outside, eye, tip, "up"), worldLabel(outside, tip, "up", "label"));
   }
-  if (drawn.formula && ray) parts.push(...termLines({ camera, size, ray }, outside));
   const basis = /** @type {[string, Vec][]} */ (drawn.basis === false ? [] : [["u", u], ["v", v], ["w", w]]);
   for (const [name, vector] of drawn.fails ? basis.slice(2) : basis) {
     // A lecture's camera was found for vectors of their own length.
@@ -206,19 +204,6 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
   parts.push(worldDot(outside, eye, "eye"), worldLabel(outside, eye, "e", "label eye"));
   const shown = parts.filter((part) => part !== null);
   return [...shown.filter((part) => part.tagName !== "text"), ...shown.filter((part) => part.tagName === "text")]; // no line across a letter
-}
-
-/** Return the terms of the marked pixel's ray, one after the other. @param {Shown & {ray: ShownRay}} shown @param {Camera} outside */
-function termLines({ camera, ray: { origin, direction } }, outside) {
-  const { eye, u, v, w, distance } = camera, isTurned = !isParallel(camera);
-  // The end of the terms: of the direction in perspective, of the origin in parallel projection.
-  const from = minus(isTurned ? plus(origin, direction) : origin, eye), [x, y] = inverseRows(u, v, w).map((row) => dot(row, from));
-  const ends = [eye, plus(eye, times(x, u)), plus(eye, plus(times(x, u), times(y, v)))];
-  const terms = [["u u", "basis u"], ["v v", "basis v"], ["\u2212d w", "basis w"]].slice(0, isTurned ? 3 : 2);
-  if (isTurned) ends.push(minus(ends[2], times(distance, w)));
-  return terms.flatMap(([name, kind], k) => [
-    worldLine(outside, ends[k], ends[k + 1], `${kind} term`), worldLabel(outside, times(0.5, plus(ends[k], ends[k + 1])), name, "label"),
-  ]);
 }
 
 /** @param {Camera} outside @param {Vec} point @param {string} kind */

@@ -5,10 +5,13 @@ export function overview(steps) {
   const dialog = /** @type {HTMLDialogElement} */ (document.getElementById("overview"));
   const links = /** @type {HTMLElement[]} */ ([...dialog.querySelectorAll("a")]);
   links.forEach((link, number) => {
-    const still = steps[number].querySelector(".view img");
-    const picture = Object.assign(new Image(), { alt: "", loading: "lazy" });
-    if (still instanceof HTMLImageElement) picture.src = still.src;
-    if (still) link.prepend(picture);
+    const picture = steps[number].querySelector(".view :is(img, svg)")?.cloneNode(true);
+    if (picture instanceof Element) {
+      for (const name of ["role", "aria-label"]) picture.removeAttribute(name);
+      picture.setAttribute("aria-hidden", "true");
+      picture.setAttribute("alt", "");
+      link.prepend(picture);
+    }
     link.addEventListener("click", () => dialog.close());
   });
   return (number) => {

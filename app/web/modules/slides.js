@@ -3,13 +3,14 @@
 import { Answers } from "./answers.js";
 import { attach } from "./exercise.js";
 import { LiveFigures } from "./live.js";
-import { attachMistakes } from "./mistakes.js";
 import { Notes } from "./notes.js";
 import { overview } from "./overview.js";
 
 const THEMES = ["dark", "light", "contrast"];
-const TYPED_INTO = "input:not([type=range], [type=radio], [type=checkbox]), select, textarea, dialog";
-const OWN_KEYS = "input, select, textarea, [role=slider], dialog";
+const TYPED_INTO = "input:not([type=range], [type=radio], [type=checkbox]), textarea, dialog";
+const OWN_KEYS = "input, textarea, [role=slider], dialog";
+const OWN_SWIPES = ".live-figure, pre, input";
+const SWIPE_PX = 40;
 
 /** @template {Element} T @param {string} id @param {new () => T} kind @returns {T} */
 function byId(id, kind) {
@@ -22,6 +23,7 @@ class Slides {
   constructor() {
     this.steps = /** @type {HTMLElement[]} */ ([...document.querySelectorAll("section.step")]);
     this.number = 0;
+    this.typed = "";
     this.told = byId("told", HTMLElement);
     this.notes = new Notes(this);
     this.openOverview = overview(this.steps.filter(({ id }) => !id.includes(".")));
@@ -38,11 +40,20 @@ class Slides {
     const isOther = this.steps[next].dataset.number !== this.step.dataset.number;
     this.number = next;
     history.replaceState(null, "", `#${this.step.id}`);
-    this.show();
-    if (isOther) {
-      scrollTo(0, 0);
-      this.step.querySelector("h2")?.focus({ preventScroll: true });
-    } else this.told.textContent = this.step.querySelector(".text")?.lastElementChild?.textContent ?? "";
+    crossFade(() => {
+      this.show();
+      if (isOther) {
+        scrollTo(0, 0);
+        this.step.querySelector("h2")?.focus({ preventScroll: true });
+      } else this.told.textContent = this.step.querySelector(".text")?.lastElementChild?.textContent ?? "";
+    });
+  }
+
+  /** Go to the step whose number was typed. @param {string} typed */
+  goToTyped(typed) {
+    const found = this.steps.findIndex((step) => step.dataset.number === String(Number(typed)));
+    if (found >= 0) this.go(found);
+    else this.told.textContent = `There is no step ${typed}`;
   }
 
   /** @param {1 | -1} by */
@@ -74,18 +85,23 @@ class Slides {
     const name = event.key === " " ? "Space" : event.key;
     const owner = name.startsWith("Page") ? "dialog" : name.length === 1 ? TYPED_INTO : OWN_KEYS;
     const isField = at.closest(owner) !== null;
+    const typed = this.typed;
+    this.typed = "";
     const isPressed = name === "Space" && at.closest("button, summary, a") !== null;
-    const action = isField || isPressed ? undefined : this.actions(event.shiftKey)[name];
+    const action = isField || isPressed ? undefined : this.actions(event.shiftKey, typed)[name];
     if (!action) return;
     event.preventDefault();
     if (document.body.classList.contains("blank")) blank();
     else action();
   }
 
-  /** @param {boolean} shift @returns {Record<string, () => void>} */
-  actions(shift) {
+  /** @param {boolean} shift @param {string} typed the digits before @returns {Record<string, () => void>} */
+  actions(shift, typed) {
     const [on, back] = [() => this.advance(1), () => this.advance(-1)];
+    const digits = [..."0123456789"].map((digit) => [digit, () => (this.typed = typed + digit)]);
     const letters = {
+      ...Object.fromEntries(digits),
+      ...(typed ? { Enter: () => this.goToTyped(typed) } : {}),
       o: () => this.openOverview(Number(this.step.dataset.number) - 1),
       n: () => this.notes.open(),
       t: nextTheme,
@@ -104,6 +120,28 @@ class Slides {
       End: () => this.go(this.steps.length - 1),
     };
   }
+}
+
+/** Fade from what is shown to what a change shows, unless motion is to be reduced. @param {() => void} change */
+function crossFade(change) {
+  const cuts = matchMedia("(prefers-reduced-motion: reduce)").matches || !document.startViewTransition;
+  if (cuts) change();
+  else document.startViewTransition(change).ready.catch(() => undefined); // a second change ends the first
+}
+
+/** Let a finger go on and back. @param {Slides} slides */
+function bindSwipes(slides) {
+  const main = /** @type {HTMLElement} */ (document.querySelector("main"));
+  let start = /** @type {PointerEvent | null} */ (null);
+  main.addEventListener("pointerdown", (event) => {
+    const isSwipe = event.isPrimary && event.pointerType === "touch";
+    start = isSwipe && !(/** @type {Element} */ (event.target).closest(OWN_SWIPES)) ? event : null;
+  });
+  main.addEventListener("pointerup", ({ clientX, clientY }) => {
+    const [x, y] = start ? [clientX - start.clientX, clientY - start.clientY] : [0, 0];
+    start = null;
+    if (Math.abs(x) > Math.max(SWIPE_PX, 2 * Math.abs(y))) slides.advance(x < 0 ? 1 : -1);
+  });
 }
 
 function nextTheme() {
@@ -151,7 +189,6 @@ export function start() {
     const exercise = data.exercises[form.dataset.step ?? ""];
     if (exercise) attach(form, exercise, answers);
   }
-  document.querySelectorAll(".mistakes").forEach(attachMistakes);
   bindAnswers(answers);
   /** @type {Record<string, () => void>} */
   const clicks = {
@@ -169,6 +206,7 @@ export function start() {
       byId(name, HTMLDialogElement).showModal(),
     );
   document.addEventListener("keydown", (event) => slides.key(event));
+  bindSwipes(slides);
   const addressed = () => slides.go(slides.steps.findIndex((step) => `#${step.id}` === location.hash));
   addEventListener("hashchange", addressed);
   document.body.classList.add("live");

@@ -5,7 +5,6 @@ Source: Khronos, glTF 2.0 Specification; KHR_lights_punctual; KHR_materials_spec
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Iterable
 from dataclasses import replace
@@ -29,7 +28,7 @@ from renderer.files.export.materials import (
 from renderer.files.export.meshes import Triangles, arrays_of, unit_sphere, wound
 from renderer.files.models.gltf_textures import WRAP_NAMES
 from renderer.images.display import to_srgb8
-from renderer.images.png import write_png
+from renderer.images.png import png_of
 from renderer.scene.model import (
     Checker,
     Color,
@@ -215,9 +214,7 @@ def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dic
 def _picture(
     made: GlbTree, texels: NDArray[np.uint8], filtered: int, wraps: Iterable[int]
 ) -> dict[str, int]:
-    file = io.BytesIO()
-    write_png(file, texels)
-    return {"index": made.texture(file.getvalue(), filtered, filtered, *wraps)}
+    return {"index": made.texture(png_of(texels), filtered, filtered, *wraps)}
 
 
 def _with_uv(found: Triangles, texture: Texture) -> Triangles:

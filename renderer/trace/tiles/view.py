@@ -120,7 +120,7 @@ def packet_view(
     if lens is None:
         farthest = float((abs(to_t @ (low + high)) + abs(to_t) @ (high - low)) / 2)
     else:
-        farthest = float(_lengths(np.maximum(abs(low), abs(high))) / _lengths(back))
+        farthest = float(np.linalg.norm(np.maximum(abs(low), abs(high))) / np.linalg.norm(back))
     scale = 2.0 ** math.ceil(math.log2(farthest)) if 0 < farthest < math.inf else 1.0
     linear[2] /= scale
     if not view.parallel:
@@ -185,13 +185,13 @@ def _rows(
     reach = np.maximum(bounds[:, 1] - origin, origin - bounds[:, 0])
     rows[:, EXTENT] = reach.max(1)
     # How many pixels the space's extent would take, at its nearest.
-    lengths = _lengths(part[..., :3])
+    lengths = np.linalg.norm(part[..., :3], axis=-1)
     pixels = lengths[:, :2].max(1)
-    extent = _lengths(reach)
+    extent = np.linalg.norm(reach, axis=-1)
     if parallel:
         pixels = pixels * extent
     else:
-        far = _lengths(origin - eye_in_space)
+        far = np.linalg.norm(origin - eye_in_space, axis=-1)
         pixels = (
             pixels
             / lengths[:, 2]
@@ -206,14 +206,6 @@ def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float3
     is_single = np.append(instances.world.attributes & IS_SINGLE_SIDED > 0, False)
     linear = rows[:, ROW_X:EXTENT].reshape(-1, 3, 4)[..., :3]
     return (is_single * np.sign(np.linalg.det(linear))).astype(np.float32)
-
-
-def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the lengths of vectors along the last axis; NumPy's norm takes twice as long for so
-    few.
-    """
-    lengths: NDArray[np.float64] = np.sqrt((vectors * vectors).sum(axis=-1))
-    return lengths
 
 
 def _is_coarse(
