@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
-from lecture_window import SMALL, give, item, lecture_of, number_of, shown
+from lecture_window import SMALL, give, lecture_of, number_of, shown
 from option_changes import with_options
 from window_driver import SIZE, Driver, Key, changed
 
@@ -345,21 +345,3 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     assert shown(d) == {LECTURE, "Raster"}
     d.window.undo()  # what was there before is one step of undo away
     assert d.window.state == with_options(d.start, preferences={"presentation": True})
-
-
-def drive_a_program_in_the_language_that_is_chosen(d: Driver) -> None:
-    text = "```python\\nx = 1\\n```\\n```julia\\ny = 1\\n```\\n\\nA **number**."
-    give(d, SMALL.replace("One **ball** at $z = -3$.", text))
-    d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
-    d.ctx.yield_(2)
-    before = d.picture()
-    d.ctx.item_click(item(d, "Julia##language"))
-    d.settle()
-    d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
-    d.ctx.yield_(2)
-    assert d.window.state.options.language == "julia"
-    assert changed(before, d.picture()) > 0.0005
-    d.ctx.key_press(int(Key.page_down))
-    d.settle()
-    assert d.window.state.options.language == "julia"  # the reader's own
-    d.window.change(with_options(d.window.state, language="python"))
