@@ -81,8 +81,7 @@ class Column:
 
     def draw_over(self, host: Host, session: LectureSession) -> None:
         """Draw the text over a picture."""
-        if session.step.blocks:
-            self._body(host, session, MOST_OVER * layout.window_px()[1])
+        self._body(host, session, MOST_OVER * layout.window_px()[1])
         if session.error:
             wrapped(session.error, theme.ERROR)
 
@@ -95,8 +94,9 @@ class Column:
         self._slides.notation = options.notation
         self._slides.lit = "" if formula is None else stage_at(formula, stages)
         self._fit(session, ImVec2(width, height))
+        alpha = self._alpha(host)  # also without a text, so that the fading ends
         if blocks:
-            self._slides.text(blocks, width, before=step.before, alpha=self._alpha(host))
+            self._slides.text(blocks, width, before=step.before, alpha=alpha)
         if self._seek:
             imgui.set_scroll_here_y(1.0)
             self._seek = False
