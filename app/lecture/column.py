@@ -28,7 +28,7 @@ from renderer.system.errors import LucidaError
 
 CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
 FADE_S = 0.5  # of a text that is added
-MOST_OVER = 0.3  # of the window's height, for a text over a picture
+MOST_OVER = 0.15  # of the window's height, for a text over a picture
 
 
 class Column:

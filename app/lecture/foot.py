@@ -7,29 +7,25 @@ from imgui_bundle import ImVec2, imgui
 from app.lecture.session import LectureSession
 
 BACK, NEXT = "back", "next"
-RESTORE = "Reset step"
 END = "End the lecture"
 STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
 
 
 def foot(session: LectureSession, typed: str = "") -> int | str | None:
-    """Draw the foot. Return the number of the step to go to, BACK, NEXT, RESTORE, END, or None.
+    """Draw the foot. Return the number of the step to go to, BACK, NEXT, END, or None.
 
     typed: digits of the step to go to.
     """
     count, size, asked = len(session.lecture.steps), imgui.get_font_size(), None
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):
         asked = BACK
-    imgui.set_item_tooltip("Back (Page Up)")
     imgui.same_line()
     place = f"{typed or session.number + 1} / {count}###outline"
     if imgui.button(place, ImVec2(PLACE_EM * size, 0)):
         imgui.open_popup("outline")
-    imgui.set_item_tooltip("All steps")
     imgui.same_line()
     if imgui.button(">##next", ImVec2(STEP_EM * size, 0)):
         asked = NEXT
-    imgui.set_item_tooltip("On (Page Down)")
     chosen = _outline(session)
     return asked if chosen is None else chosen
 
@@ -53,8 +49,7 @@ def _outline(session: LectureSession) -> int | str | None:
             if is_present and imgui.is_window_appearing():
                 imgui.set_scroll_here_y()
     imgui.separator()
-    for name in (RESTORE, END):
-        if imgui.selectable(name, False)[0]:
-            chosen = name
+    if imgui.selectable(END, False)[0]:
+        chosen = END
     imgui.end_popup()
     return chosen

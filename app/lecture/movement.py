@@ -32,11 +32,14 @@ class Movement:
         self._focus, self._size = focus, size if min(size) else SIZE
         self._passages: dict[tuple[View, View], Passage] = {}
 
-    def at(self, part: float) -> AppState:
-        """Return the state at 0 to 1 of the time; at 1 it is the end."""
+    def at(self, part: float, eased: bool = True) -> AppState:
+        """Return the state at 0 to 1 of the time; at 1 it is the end.
+
+        eased: slower at both ends.
+        """
         if part >= 1:
             return self.end
-        s = part * part * (3 - 2 * part)
+        s = part * part * (3 - 2 * part) if eased else part
         view = self._view(self.start.view, self.end.view, s)
         return replace(
             self.end, view=view, options=self._mixed(self.start.options, self.end.options, s)

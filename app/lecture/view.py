@@ -19,7 +19,7 @@ from app.lecture.answer_log import AnswerLog
 from app.lecture.column import Column
 from app.lecture.controls import Controls
 from app.lecture.drawn_answer import DrawnAnswer
-from app.lecture.foot import BACK, END, NEXT, RESTORE
+from app.lecture.foot import BACK, END, NEXT
 from app.lecture.invitation import invitation
 from app.lecture.model import Lecture
 from app.lecture.reading import load_lecture
@@ -33,9 +33,8 @@ from app.ui.background import Background
 from app.ui.view import DockedView, Host, view_of
 
 LECTURE = "Lecture"
-# Of a text over a picture: its part of the window's width, its least width, and the opacity of its
-# ground.
-OVER, LEAST_OVER_EM, GROUND = 0.6, 28.0, 0.85
+# Of a text over a picture: its part of the window's width, and the opacity of its ground.
+OVER, GROUND = 0.68, 0.85
 
 
 class LectureView(DockedView):
@@ -313,7 +312,7 @@ class LectureView(DockedView):
         if session is None or whole is None or not self._lies_over:
             return 0
         (left, top), (wide, high) = whole
-        width = max(OVER * wide, min(LEAST_OVER_EM * imgui.get_font_size(), wide))
+        width = OVER * wide
         is_empty = not (session.step.blocks or session.error or self.shows_controls)
         imgui.set_next_window_pos((left + 0.5 * (wide - width), top - high * is_empty))
         imgui.set_next_window_size_constraints((width, 0), (width, high))
@@ -338,8 +337,6 @@ class LectureView(DockedView):
         """Do what was asked for in the foot."""
         if asked == END:
             self.leave(host)
-        elif asked == RESTORE:
-            self.restore(host)
         elif asked in (BACK, NEXT):
             self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):

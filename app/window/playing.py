@@ -40,4 +40,4 @@ class Playing:
         if is_pressed or (part >= 1 and not self._loops):
             self.end()
         else:
-            self.shown = self._movement.at(part % 1)
+            self.shown = self._movement.at(part % 1, eased=not self._loops)

@@ -100,7 +100,8 @@ def _show_scene(
     """Draw linear light with the display transform. number: a key of the texture's content."""
     framebuffer.use()
     linear.use(0)
-    cover(screen, linear_color=0, exposure=exposure_factor(exposure_ev))
+    size = framebuffer.size
+    cover(screen, linear_color=0, exposure=exposure_factor(exposure_ev), target_size=size)
 
 
 class Overlay:
@@ -174,7 +175,7 @@ class Overlay:
     ) -> moderngl.Texture:
         """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
-        scene: drawn by `camera`, at `size`. mean: the scene's colour with smooth edges,
+        scene: drawn by `camera`, at `size` or smaller. mean: the scene's colour with smooth edges,
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
@@ -195,7 +196,7 @@ class Overlay:
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
         with plain_state(gl, 5):
-            shown = self._scene_shown(mean or scene.color, exposure_ev, number)
+            shown = self._scene_shown(mean or scene.color, size, exposure_ev, number)
             gl.copy_framebuffer(framebuffer, shown)
             try:
                 framebuffer.color_mask = True, True, True, False  # the target stays opaque
@@ -222,10 +223,10 @@ class Overlay:
         return drawn
 
     def _scene_shown(
-        self, linear: moderngl.Texture, exposure_ev: float, number: Hashable
+        self, linear: moderngl.Texture, size: Size, exposure_ev: float, number: Hashable
     ) -> moderngl.Framebuffer:
         """Return the scene after the display transform, recomputed only if necessary."""
-        _, framebuffer = self._targets["scene"].of_size(linear.size)
+        _, framebuffer = self._targets["scene"].of_size(size)
         if number is None:
             self._shown.forget()
         self._shown(self._show, framebuffer, linear, number, exposure_ev)

@@ -10,8 +10,9 @@ uniform vec4 plane_box;         // left, top, right, bottom around the picture, 
 uniform vec3 plane_depth;       // s of (x, y, 1)
 
 float scene_t(vec2 position) {
-    ivec2 last = textureSize(surface, 0) - 1;
-    return texelFetch(surface, clamp(ivec2(floor(position)), ivec2(0), last), 0).w;
+    ivec2 size = textureSize(surface, 0);  // smaller than the target's while the scene moves
+    vec2 texel = floor(position * (vec2(size) / (2.0 * half_size)));
+    return texelFetch(surface, clamp(ivec2(texel), ivec2(0), size - 1), 0).w;
 }
 
 // (X q, Y q, q, s) of the image plane at a position: affine on the screen.

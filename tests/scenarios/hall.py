@@ -42,8 +42,8 @@ def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None
         scrolled: dict[str, float] = {}
 
         def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
+            d.until(lambda: d.in_draw_lists(capital_heights))
             heights = d.in_draw_lists(capital_heights)
-            assert heights, name
             low |= {name: small} if (small := below(heights, least)) else {}
 
         d.window.lecture.give(lecture, BUILTIN)

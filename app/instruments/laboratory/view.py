@@ -133,9 +133,6 @@ def toolbar(host: Host) -> LaboratoryOptions:
     if builds:
         progress = _slider("progress", changed.progress, (0.0, float(builds)), "%.1f")
         changed = replace(changed, progress=progress)
-    if changed.page == "displays":
-        phase = _slider("of the cycle", changed.phase, (0.0, 1.0), "%.2f")
-        changed = replace(changed, phase=phase)
     if changed.page in ("kinds", "exposure"):
         limits = range_of(LaboratoryOptions, "after_ev")
         after_ev = _slider("exposure after storage", changed.after_ev, limits, "%+.1f EV")

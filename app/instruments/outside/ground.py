@@ -10,12 +10,13 @@ import moderngl
 
 from app.images.request import ImageRequest
 from app.images.window_rasterizer import WindowRasterizer
-from renderer.images.coarseness import STILL_S
+from renderer.images.coarseness import STILL_S, reduced
 from renderer.raster.overlay import Overlay
 from renderer.raster.targets import Textures
 from renderer.system.memo import Memo
 
-PLACE = "Outside"  # see Rasterizer.draw
+PLACES = {1: "Outside", 2: "Outside, moving"}  # by how many times coarser, see Rasterizer.draw
+SLOW_S = 1 / 30  # from one picture to the next while it moves: pictures become coarser
 # Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
 # is not, so that what lies behind is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
@@ -25,13 +26,14 @@ SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0
 class GroundPicture:
     """The scene from outside: another object for each drawing.
 
-    changed_s: since when it has been requested. mean: its colour with smooth edges, once it has
-    been still.
+    changed_s: since when it has been requested. factor: how many times coarser it is. mean: its
+    colour with smooth edges, once it has been still.
     """
 
     request: ImageRequest
     textures: Textures
     changed_s: float
+    factor: int
     mean: moderngl.Texture | None = None
 
 
@@ -73,13 +75,17 @@ class Ground:
         """
         now_s, picture = time.monotonic(), self.shown
         if picture is None or picture.request != request:
+            gap_s = STILL_S if picture is None else now_s - picture.changed_s
+            is_slow = gap_s > SLOW_S or (picture is not None and picture.factor > 1)
+            factor = 2 if is_slow and gap_s < STILL_S else 1
             self.shown = None
-            textures = rasterizer.draw(request, PLACE)
-            self.shown = picture = GroundPicture(request, textures, now_s)
+            drawn = replace(request, size=reduced(request.size, factor))
+            textures = rasterizer.draw(drawn, PLACES[factor])
+            self.shown = picture = GroundPicture(request, textures, now_s, factor)
         elif picture.mean is None and refines and now_s - picture.changed_s >= STILL_S:
             for number, shift in enumerate(SHIFTS):
                 camera = request.camera.shifted(*shift, request.size)
-                textures = rasterizer.draw(replace(request, camera=camera), PLACE)
+                textures = rasterizer.draw(replace(request, camera=camera), PLACES[1])
                 mean = overlay.gather(textures, number == 0, 1 / len(SHIFTS))
             self.shown = picture = replace(picture, textures=textures, mean=mean)
         return picture

@@ -6,6 +6,7 @@ drawn.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Container
 from functools import lru_cache
 
@@ -23,7 +24,7 @@ from app.ui import theme
 from app.ui.theme import framebuffer_scale
 from app.ui.view import Host
 from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.navigation import depth_of
+from renderer.camera.navigation import depth_of, orbited
 from renderer.system.memo import Memo, same
 
 NOTHING = np.zeros((0, 3))
@@ -65,7 +66,7 @@ class Scopes:
         place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
         options, inner = state.options.outside, both.camera(state)
         looking = options.camera
-        fixed = state.scene, more, looking, both.size, size, place, state.step
+        fixed = state.scene, more, looking, options.turned, both.size, size, place, state.step
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
@@ -109,9 +110,12 @@ def scope_of(
     points = _points(host, more)
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
-    camera = host.state.options.outside.camera or _for_all(points, host, size, extent)
+    options = host.state.options.outside
+    camera = options.camera or _for_all(points, host, size, extent)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
+    if options.turned:
+        camera = orbited(camera, middle, math.radians(options.turned), 0.0)
     return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
 
 

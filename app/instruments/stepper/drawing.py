@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -22,7 +23,7 @@ from renderer.images.pixels import Indexing
 
 GAP_EM = 0.9
 MOST_CODE = 0.68  # of the width or height
-LARGEST = 1.3  # the code's type size, in the window's
+LARGEST = 1.5, 1.3, 1.0  # the code's type size, in the window's
 NUMBERED = 12  # the most rows or columns that all have numbers
 Lit = Mapping[int, float]  # for the numbers of lines, the opacity of their highlight
 
@@ -65,8 +66,9 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     font = fonts.text if drawn.in_words else fonts.mono
     with lettering(font):
         needed = code_size(lines) * ImVec2(1.05, 1)  # letters have whole widths in each size
-    both = [_arranged(needed, drawn.size, room, em, beside) for beside in (False, True)]
-    best = max(both, key=lambda one: (one.fits, one.larger * one.canvas_px.x))
+    ways = itertools.product((False, True), LARGEST)
+    arranged = [_arranged(needed, drawn.size, room, em, *way) for way in ways]
+    best = max(arranged, key=lambda one: (one.fits, one.larger * one.canvas_px.x))
     total = best.total_px
     spare, canvas_at = total - best.code_px, total - best.canvas_px
     low = low + (room - total) * 0.5
@@ -116,10 +118,12 @@ class Arranged:
         return ImVec2(max(a.x, b.x), a.y + self.gap + b.y)
 
 
-def _arranged(needed: ImVec2, size: Size, room: ImVec2, em: float, beside: bool) -> Arranged:
+def _arranged(
+    needed: ImVec2, size: Size, room: ImVec2, em: float, beside: bool, largest: float
+) -> Arranged:
     """Arrange a program that needs some room, and a canvas of some pixels."""
     most = ImVec2(MOST_CODE * room.x, room.y) if beside else ImVec2(room.x, MOST_CODE * room.y)
-    largest = min(most.x / needed.x, most.y / needed.y, LARGEST)
+    largest = min(most.x / needed.x, most.y / needed.y, largest)
     larger = max(theme.whole_px(largest * em - 0.5) / em, 1.0)
     code_px = ImVec2(min(larger * needed.x, most.x), min(larger * needed.y, most.y))
     gap, margin = GAP_EM * em, _margin(size, em)

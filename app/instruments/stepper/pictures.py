@@ -35,6 +35,8 @@ from renderer.camera.camera import Camera, Floats, Size
 from renderer.system.errors import describe
 from renderer.system.memo import Memo
 
+TEXT = 0.12  # of the height, above the two loops: for a text that lies over it
+
 
 class LoopPictures:
     """wake: called from a thread when the hits are found."""
@@ -60,6 +62,8 @@ class LoopPictures:
         state, options = host.state, host.state.options.stepper
         made = self._hits.of(state.scene, state.view.for_size(options.canvas), options.canvas)
         low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        if options.picture == "loops":
+            low.y, room.y = low.y + TEXT * room.y, (1 - TEXT) * room.y
         if self._hits.error is not None:
             imgui.text_colored(theme.ERROR, describe(self._hits.error))
             return

@@ -14,7 +14,8 @@ EYE = ImVec2(0.04, 0.56)
 FRAME = ImVec2(0.28, 0.84), ImVec2(0.28, 0.24), ImVec2(0.54, 0.12), ImVec2(0.54, 0.64)
 BALL, RADIUS = ImVec2(0.83, 0.42), 0.165
 PIXEL, HIT = ImVec2(0.41, 0.492), ImVec2(0.68, 0.444)
-COUNT = 3
+# The columns and rows of the pictures; in a narrow room.
+PLACES = ((0.0, 0.0), (1.0, 0.0), (0.5, 1.0)), ((0.0, 0.0), (0.0, 1.0), (0.0, 2.0))
 
 
 def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: float) -> None:
@@ -22,13 +23,14 @@ def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: fl
 
     texture: of the image, (width, height) = size.
     """
-    gap, wide = 2.0 * imgui.get_font_size(), room.x > room.y
-    side = min((max(room.x, room.y) - gap * (COUNT - 1)) / COUNT, room.x, room.y)
-    pitch = ImVec2(side + gap, 0) if wide else ImVec2(0, side + gap)
-    low = low + (room - pitch * (COUNT - 1) - ImVec2(side, side)) * 0.5
+    gap, places = imgui.get_font_size(), PLACES[room.x < 0.6 * room.y]
+    columns, rows = (1 + max(axis) for axis in zip(*places, strict=True))
+    side = min((room.x - gap * (columns + 1)) / columns, (room.y - gap * (rows + 1)) / rows)
+    low = low + (room - ImVec2(columns, rows) * (side + gap) + ImVec2(gap, gap)) * 0.5
     draw = imgui.get_window_draw_list()
-    for number in range(COUNT):
-        at, opacity = low + pitch * number, min(max(part - number, 0.0), 1.0)
+    for number, place in enumerate(places):
+        at = low + ImVec2(*place) * (side + gap)
+        opacity = min(max(part - number, 0.0), 1.0)
         if not opacity:
             continue
         if number == 0:

@@ -17,7 +17,7 @@ class LaboratoryOptions:
 
     progress: how far the drawing is, in builds: 0 is its first, 1 its second, 0.5 halfway.
     after_ev: the exposure, in stops, of images that have been stored.
-    phase: the moment in the cycle of the displays, 0 to 1.
+    phase: the moment in the displays' cycles: 0 to 1 in the first, to 2 in the second.
     point: the one whose light is read, as fractions of the image's width and height.
     """
 
@@ -27,5 +27,5 @@ class LaboratoryOptions:
     ] = "kinds"  # fmt: skip
     progress: Annotated[float, Range(0, LONGEST)] = 0.0
     after_ev: Annotated[float, Range(-6, 6)] = 0.0
-    phase: Part = 0.0
+    phase: Annotated[float, Range(0, 2)] = 0.0
     point: tuple[Part, Part] = (0.5, 0.5)

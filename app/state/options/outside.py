@@ -20,9 +20,9 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 @dataclass(frozen=True)
 class OutsideOptions:
     """The outside view. camera: the free camera that looks at the scene and the other camera;
-    None: one that shows both. bundle: rows and columns of the bundle of viewing rays; (0, 0): none.
-    gizmo: what the handles in the view do: move the eye or the image plane, turn the basis, or turn
-    up, from which the basis then follows.
+    None: one that shows both. turned: its degrees around the scene. bundle: rows and columns of the
+    bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do: move the eye or
+    the image plane, turn the basis, or turn up, from which the basis then follows.
     target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
     from; None: neither. formula:
     how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None: it is not drawn.
@@ -60,3 +60,4 @@ class OutsideOptions:
     basis_grown: Annotated[float, Range(0, 4)] = 4.0
     numbers: bool = False
     to_parallel: Annotated[float, Range(0, 1)] = 0.0
+    turned: Annotated[float, Range(0, 360)] = 0.0

@@ -32,6 +32,7 @@ class Part:
     linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
     uv (n, 2), v up, or None; where a texture needs them. has_backs: whether a face that repeats
     another one turned over stays: where a material is single-sided, each is seen from its side.
+    origin (3,): of the mesh's own space; None for that of own_origin().
     """
 
     name: str
@@ -43,6 +44,7 @@ class Part:
     material: Material | None = None
     uv: Any = None
     has_backs: bool = False
+    origin: NDArray[np.float64] | None = None
 
 
 def build_mesh(part: Part) -> Mesh | None:
@@ -72,7 +74,7 @@ def build_mesh(part: Part) -> Mesh | None:
         lost_places = int(np.count_nonzero(~usable.all(axis=1)))
         uv = np.where(usable, uv, 0.0).astype(np.float32)
     _check_used(vertices, faces)
-    origin = _own_origin(vertices, faces)
+    origin = own_origin(vertices, faces) if part.origin is None else part.origin
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
     merged = merge_positions(positions)
@@ -156,7 +158,7 @@ def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None
         )
 
 
-def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+def own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the origin of the mesh's own space: the file's origin, or a point near a far mesh.
 
     That point is a multiple of a power of two of about the mesh's size: exact, and a pattern of
