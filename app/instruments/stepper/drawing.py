@@ -68,8 +68,10 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     with lettering(font):
         needed = code_size(lines) * ImVec2(1.05, 1)  # letters have whole widths in each size
     least = LEAST_WORDS if drawn.in_words else 1.0
-    ways = itertools.product((False, True), LARGEST)
-    arranged = [_arranged(needed, drawn.size, room, em, least, *way) for way in ways]
+    arranged = [
+        _arranged(needed, drawn.size, room, em, least, *way)
+        for way in itertools.product((False, True), LARGEST)
+    ]
     best = max(arranged, key=lambda one: (one.fits, one.larger * one.canvas_px.x))
     total = best.total_px
     spare, canvas_at = total - best.code_px, total - best.canvas_px
