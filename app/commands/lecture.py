@@ -228,7 +228,7 @@ def _check(lecture: Lecture, path: Path, name: str) -> int:
     wrong = first_wrong_answer(lecture)
     if wrong is not None:
         raise located(wrong, Places(path.read_text("utf-8-sig")), str(path))
-    exercises = sum(step.exercise is not None for step in lecture.steps)
+    exercises = sum(build.exercise is not None for build in lecture.builds)
     unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
     told = common.counted((len(lecture.steps), "step"), (exercises, "exercise"))
     common.say(f"{name}: {told}{unseen}")

@@ -27,12 +27,12 @@ def first_wrong_answer(lecture: Lecture) -> LucidaError | None:
     """Return an error for the first exercise whose answer is wrong, or which is solved before
     anything is moved; None if all are sound.
     """
-    for number, step in enumerate(lecture.steps):
-        if isinstance(step.exercise, HideExercise):
+    for build in lecture.builds:
+        if isinstance(build.exercise, HideExercise):
             try:
-                _check(step.exercise)
+                _check(build.exercise)
             except LucidaError as error:
-                return error.within(f"steps[{number}].exercise")
+                return error.within(f"steps[{build.number}].exercise")
     return None
 
 

@@ -29,7 +29,6 @@ def inherited(table: StepTable, build: BuildTable, view: View) -> StepTable:
         views=table.views if build.views is None else build.views,
         options=_merged(table.options, build.options),
         pixel=table.pixel if build.pixel is None else build.pixel,
-        highlight=table.highlight if build.highlight is None else build.highlight,
     )
 
 

@@ -27,7 +27,6 @@ class Step:
     full: the picture fills the window, and the text lies over it.
     options: changes of the default options, by part.
     pixel: the marked one, (row, column), 0-based.
-    highlight: the names of controls to point out.
     exercise: of the step's last build; otherwise None.
     move_s: how long the movement from the build before takes; 0 for a cut.
     loop: the movement begins again until the next key.
@@ -48,7 +47,6 @@ class Step:
     full: bool
     options: dict[str, Any]
     pixel: tuple[int, int] | None
-    highlight: tuple[str, ...]
     exercise: Exercise | None
     move_s: float
     loop: bool

@@ -11,13 +11,12 @@ from dataclasses import replace
 
 from app.lecture.schema import StepTable
 from app.lecture.text import Block, ItemList, parse
-from renderer.system.errors import under
 
 Blocks = tuple[Block, ...]
-FIELDS = ("reveal", "answer", "links", "low")
+FIELDS = ("reveal", "answer", "links", "low", "highlight")
 REMEDY = (
     "is of an older format: write what is shown later as [[steps.builds]]; "
-    "links and low are ignored"
+    "links, low and highlight are ignored"
 )
 
 
@@ -34,9 +33,7 @@ def old_builds(table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
     texts = [tuple(_shown(blocks, count)) for count in range(sum(len(x.items) for x in lists))]
     texts.append(blocks)
     if table.answer:
-        with under("answer"):
-            answer = parse(table.answer)
-        texts.append((*blocks, *answer))
+        texts.append((*blocks, *parse(table.answer)))
     return [(_shared(*pair), pair[1]) for pair in itertools.pairwise([(), *texts])]
 
 

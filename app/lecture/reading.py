@@ -14,20 +14,17 @@ from app.checking.task_file import check_known
 from app.lecture import text as texts
 from app.lecture.inheriting import inherited
 from app.lecture.model import Lecture, Step, Written
-from app.lecture.notation import explained
 from app.lecture.old_format import REMEDY, fields_of, old_builds
 from app.lecture.reading_exercises import exercise_of, pixel_of
 from app.lecture.schema import (
     DEFAULT_VIEWS,
-    HIGHLIGHTS,
-    PANEL,
     VIEWS,
     BuildTable,
     LectureFile,
     StepTable,
 )
 from app.lecture.step_options import files_named, options_from_table, with_files
-from app.lecture.written import formulas_written, pieces_written
+from app.lecture.written import formulas_written, texts_of
 from app.state.options import Options
 from app.state.options.shared import Notation
 from app.state.removed import without_removed, without_removed_views
@@ -41,7 +38,7 @@ from renderer.files.views import load_view, view_from_table
 from renderer.images.pixels import Indexing
 from renderer.scene.limits import TOML_BYTES, TRIANGLES
 from renderer.scene.model import Mesh, Scene, View
-from renderer.system.errors import LucidaError, under
+from renderer.system.errors import LucidaError, not_together, under
 from renderer.system.file_dependencies import noting
 
 _FOLDER = Path(__file__).parent / "lectures"
@@ -152,23 +149,26 @@ class _LectureReader:
             field = f"steps[{number}]"
             entry: StepTable = to_struct(table, StepTable, field)
             part = entry.part or part
-            self._at = field
-            with under(field):
-                builds += self._builds(entry, part, number)
-            pieces += pieces_written(table)
+            for path, text in texts_of(table, field):
+                with under(path):
+                    blocks = texts.parse(text)
+                pieces += texts.pieces(blocks)
+                written += formulas_written(text, blocks, path, self._places, self._source)
             if pieces > PIECES:
                 raise LucidaError(
                     field,
                     f"brings the lecture to more than {PIECES} formulas and runs of words",
                     "divide it into several lectures",
                 )
-            written += formulas_written(table, field, self._places, self._source)
+            self._at = field
+            with under(field):
+                builds += self._builds(entry, part, number)
         if self._old:
             self._notes.insert(0, self._old)
         return Lecture(
             file.title,
             file.author,
-            explained(builds),
+            tuple(builds),
             self._source,
             tuple(written),
             notes=tuple(self._notes),
@@ -210,10 +210,7 @@ class _LectureReader:
             _check_title("part", table.part, "the part's title")
         if len(table.builds) >= BUILDS:
             raise LucidaError("builds", f"holds {len(table.builds)}", f"give fewer than {BUILDS}")
-        with under("notes"):
-            notes = texts.parse(table.notes)
-        with under("text"):
-            texts.parse(table.text)
+        notes = texts.parse(table.notes)
         given = self._present(table)
         first = self._build(given)
         first = replace(first, number=number, part=part, notes=notes)
@@ -280,7 +277,6 @@ class _LectureReader:
             full=table.full,
             options=options,
             pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
-            highlight=_highlight(table.highlight),
             exercise=None,
             move_s=0.0,
             loop=False,
@@ -353,14 +349,13 @@ def _builds_of(table: Any) -> list[Any]:
 
 def _check_build(build: BuildTable) -> None:
     if build.text and build.instead:
-        raise LucidaError("instead", "is given beside text", "give one of them")
+        raise not_together(
+            "instead", "text", "text is added below the text so far, instead replaces it"
+        )
     if not 0 <= build.move_s <= MOVE_S:
         raise LucidaError("move_s", f"{build.move_s:g} is out of range", f"give 0 to {MOVE_S}")
     if build.loop and not build.move_s:
         raise LucidaError("loop", "has no movement to repeat", "give move_s above 0")
-    for name in ("text", "instead"):
-        with under(name):
-            texts.parse(getattr(build, name))
 
 
 def _objects_of(table: Any) -> list[Any]:
@@ -376,23 +371,13 @@ def _check_title(field: str, title: str, what: str) -> None:
         raise LucidaError(field, f"is {len(title)} characters long", f"stay within {TITLE_LETTERS}")
 
 
-def _highlight(names: list[str]) -> tuple[str, ...]:
-    """Return each name once, because all are searched in each frame."""
-    for number, name in enumerate(names):
-        check_known(f"highlight[{number}]", name, HIGHLIGHTS)
-    return tuple(dict.fromkeys(names))
-
-
 def _views(names: list[str]) -> tuple[str, ...]:
     for number, name in enumerate(names):
-        check_known(f"views[{number}]", name, (*VIEWS, PANEL))
+        check_known(f"views[{number}]", name, VIEWS)
     if len(set(names)) < len(names):
         raise LucidaError("views", "names one twice", "name each view once")
-    pictures = [name for name in names if name != PANEL]
-    if not 1 <= len(pictures) <= 2:
+    if len(names) not in (1, 2):
         raise LucidaError(
-            "views",
-            f"names {len(pictures)} besides {PANEL!r}",
-            "give one or two: a class looks at one thing at a time",
+            "views", f"names {len(names)}", "give one or two: a class looks at one thing at a time"
         )
     return tuple(names)

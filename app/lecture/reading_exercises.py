@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.lecture import text as texts
 from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.inheriting import changed_view
@@ -30,8 +29,6 @@ def exercise_of(table: Any, scene: Scene, view: View, indexing: Indexing) -> Exe
     entry: RayTable | VectorExercise | ChoiceExercise | HideTable = to_struct(table, AnyExercise)
     if not entry.question.strip():
         raise LucidaError("question", "is empty", "ask something")
-    with under("question"):
-        texts.parse(entry.question)
     match entry:
         case RayTable():
             return _ray_exercise(entry, view, indexing)
@@ -84,9 +81,6 @@ def _check_vectors(entry: VectorExercise) -> None:
                 raise LucidaError("name", f"{answer.name!r} is there already", "give another name")
             names.add(answer.name)
             _check_answers("wrong", len(answer.wrong), MISTAKES)
-            for place, known in enumerate(answer.wrong):
-                with under(f"wrong[{place}].feedback"):
-                    texts.parse(known.feedback)
     _check_tolerance(entry.tolerance)
 
 
@@ -103,9 +97,6 @@ def _check_options(entry: ChoiceExercise, view: View) -> None:
     if right != 1:
         raise LucidaError("options", f"has {right} right ones", "set right = true in exactly one")
     for number, option in enumerate(entry.options):
-        for field in ("text", "feedback"):
-            with under(f"options[{number}].{field}"):
-                texts.parse(getattr(option, field))
         if option.camera is not None:
             with under(f"options[{number}]"):
                 changed_view(view, option.camera)

@@ -18,23 +18,7 @@ VIEWS = (
     *("raster", "ray", "compare", "outside", "objects", "inspector", "probe", "stepper"),
     *("costs", "laboratory", "mistakes", "your-code", "poses"),
 )
-PANEL = "camera"  # may stand beside them
 DEFAULT_VIEWS = ["raster"]
-
-# What a step can point out: fields of the camera's panel, and views.
-HIGHLIGHTS = (
-    "projection",
-    "eye",
-    "u",
-    "v",
-    "w",
-    "distance",
-    "viewport",
-    "lens",
-    "clip",
-    "keep_orthonormal",
-    *VIEWS,
-)
 
 
 class StepTable(StrictTable):
@@ -44,7 +28,7 @@ class StepTable(StrictTable):
     pixel: the marked pixel, row and column, counted as the lecture does.
     full: the picture fills the window, and the text lies over it.
     exercise: asked in the last build.
-    reveal, answer, links, low: of the format before builds, see old_format.py.
+    reveal, answer, links, low, highlight: of the format before builds, see old_format.py.
     """
 
     title: str
@@ -57,13 +41,13 @@ class StepTable(StrictTable):
     full: bool = False
     options: dict[str, Any] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
-    highlight: list[str] = field(default_factory=list)
     exercise: dict[str, Any] | None = None
     builds: list[Any] = field(default_factory=list)
     reveal: bool = False
     answer: str = ""
     links: dict[str, Any] = field(default_factory=dict)
     low: bool = False
+    highlight: list[str] = field(default_factory=list)
 
 
 class BuildTable(StrictTable):
@@ -82,7 +66,6 @@ class BuildTable(StrictTable):
     views: list[str] | None = None
     options: dict[str, Any] = field(default_factory=dict)
     pixel: tuple[int, int] | None = None
-    highlight: list[str] | None = None
     move_s: float = 0.5
     loop: bool = False
 

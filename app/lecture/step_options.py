@@ -29,7 +29,7 @@ _types = lru_cache(get_type_hints)  # which takes long
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 CHOSEN = ("language", "notation")  # by the user, until a step changes them
-ELSEWHERE = (*OWN, "marked", "marked_size", "highlight")  # what has a field of its own in a step
+ELSEWHERE = (*OWN, "marked", "marked_size")  # what has a field of its own in a step
 
 NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
 
@@ -46,7 +46,7 @@ def state_of(step: Step, base: AppState) -> AppState:
     base: the current state. Only the user's own options, the language of programs, the notation and
     the place in the lecture are kept.
     """
-    options = replace(own(base.options), marked=step.pixel, highlight=step.highlight)
+    options = replace(own(base.options), marked=step.pixel)
     keep = is_orthonormal(step.view.camera)
     state = AppState(step.scene, step.view, keep, options, base.step)
     if isinstance(step.exercise, HideExercise):

@@ -1,8 +1,7 @@
 r"""Markdown with formulas, into blocks to draw.
 
 A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
-**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. \$ is a dollar sign. Of a program
-in two languages (```python, ```julia, one after the other), one is shown.
+**bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. \$ is a dollar sign.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from app.ui.explaining.languages import LANGUAGES
 from renderer.system.errors import LucidaError
 
 
@@ -65,10 +63,9 @@ class ItemList:
 
 @dataclass(frozen=True)
 class Code:
-    """Lines of code, unchanged. language: the fence's, or empty."""
+    """Lines of code, unchanged."""
 
     text: str
-    language: str = ""
 
 
 @dataclass(frozen=True)
@@ -135,23 +132,6 @@ def extended(text: str, more: str) -> str:
     return f"{text}\n{more}" if goes_on else f"{text}\n\n{more}"
 
 
-def in_language(blocks: tuple[Block, ...], language: str) -> tuple[Block, ...]:
-    """Return the text in one language. Of programs in several languages, one fence after another,
-    keep the one in that language, or else the first.
-    """
-    kept: list[Block] = []
-    for same, group in itertools.groupby(blocks, lambda block: _language(block) != ""):
-        programs = list(group)
-        if same:
-            programs = [one for one in programs if _language(one) == language] or programs[:1]
-        kept += programs
-    return tuple(kept)
-
-
-def _language(block: Block) -> str:
-    return block.language if isinstance(block, Code) and block.language in LANGUAGES else ""
-
-
 def escaped(text: str) -> str:
     """Escape a text so that it is shown as typed, whatever signs are in it."""
     return re.sub(r"([\\$*`[])", r"\\\1", text)
@@ -187,7 +167,7 @@ def _blocks(lines: list[str]) -> Iterator[Block]:
                 number += 1
             if number == len(lines):
                 raise TextError(start, "the code does not end", "close it by a line of ```")
-            yield Code("\n".join(lines[start + 1 : number]), line[3:].strip())
+            yield Code("\n".join(lines[start + 1 : number]))
             number += 1
         elif line.startswith("$$"):
             while not (

@@ -1,7 +1,7 @@
 """The guided lecture: a column of text next to the views that a step shows.
 
-The view has the open lecture, and puts the window into the state of a step. slide.py draws texts,
-exercise.py exercises, foot.py the navigation; model.py defines a step, step_options.py its state.
+The view has the open lecture, and puts the window into the state of a step. column.py draws texts
+and exercises, controls.py the foot; model.py defines a step, step_options.py its state.
 """
 
 from __future__ import annotations
@@ -14,42 +14,27 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.outside.growing import stage_at, stages_of
 from app.instruments.outside.view import OutsideView
 from app.lecture.answer_log import AnswerLog
-from app.lecture.answer_note import note
-from app.lecture.arrangement import arrange
+from app.lecture.column import Column
+from app.lecture.controls import Controls
 from app.lecture.drawn_answer import DrawnAnswer
-from app.lecture.exercise import exercise
-from app.lecture.exercises import ChoiceExercise
-from app.lecture.foot import BACK, END, NEXT, foot, foot_height
-from app.lecture.hiding import HideExercise
-from app.lecture.inheriting import changed_view
+from app.lecture.foot import BACK, END, NEXT
 from app.lecture.invitation import invitation
 from app.lecture.model import Lecture
 from app.lecture.reading import load_lecture
 from app.lecture.session import LectureReread, LectureSession, reread
-from app.lecture.slide import TITLE, Slides
 from app.lecture.step_options import own, state_of
-from app.lecture.text import in_language
-from app.lecture.watching_hidden import HiddenWatch
 from app.state.app_state import AppState
 from app.state.kept_lecture import KeptLecture
 from app.state.session import source_of
-from app.ui import layout, theme
+from app.ui import layout
 from app.ui.background import Background
-from app.ui.lettering import lettering
-from app.ui.messages import wrapped
 from app.ui.view import DockedView, Host, view_of
-from renderer.system.errors import LucidaError
 
 LECTURE = "Lecture"
-CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
-FADE_S = 0.5  # of a text that is added
-CONTROLS_S = 2.0  # until controls go after the mouse rests
-# Of a text over a picture: its parts of the window's width and, at most, of its height, and the
-# opacity of its ground.
-OVER, MOST_OVER, GROUND = 0.68, 0.15, 0.85
+# Of a text over a picture: its part of the window's width, and the opacity of its ground.
+OVER, GROUND = 0.68, 0.85
 
 
 class LectureView(DockedView):
@@ -66,24 +51,27 @@ class LectureView(DockedView):
         self._views = views
         self.session: LectureSession | None = None
         self._reading: Background[LectureReread] | None = None
-        self._slides: Slides | None = None
-        self.hidden_watch: HiddenWatch | None = None
+        self._column: Column | None = None
         self._arranged = True
         self._entered = False  # whether the step's state has been taken
         self._before: AppState | None = None  # what the window showed when the lecture began
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
-        self._answered = self._begun = False
+        self._begun = False
         self.arrangements = 0  # how often the views have been put into their places
         self._layout = ""  # the one that was shown when the lecture began
-        self._moved_s = 0.0  # when the mouse moved last
-        self._typed = ""  # digits of a step's number
         self._lies_over = False  # the text, in the last frame
-        self._to_top = False  # a step's text is read from its beginning
         self.log: AnswerLog | None = None
-        self._seek = False  # the text is scrolled to what was just added
-        self._added_s: float | None = None  # when that was, while it fades in
-        self._fitted: tuple[object, ...] = ()  # what the size of the text follows from
+        self._controls = Controls()
         self._drawn_answer = DrawnAnswer()
+
+    @property
+    def column(self) -> Column:
+        assert self._column is not None
+        return self._column
+
+    @property
+    def shows_controls(self) -> bool:
+        return self._controls.shown
 
     @property
     def _others(self) -> list[DockedView]:
@@ -133,7 +121,7 @@ class LectureView(DockedView):
 
     def take_answered(self) -> bool:
         """Return True if something was answered since the last call."""
-        answered, self._answered = self._answered, False
+        answered, self.column.answered = self.column.answered, False
         return answered
 
     def leave(self, window: Host) -> None:
@@ -184,8 +172,7 @@ class LectureView(DockedView):
         if not self._entered or step.number != before.number:
             self._enter(window)
             return
-        self._answered = self._seek = True
-        self._added_s = time.monotonic() if builds > 0 else None
+        self.column.begin_build(fades=builds > 0)
         move_s = (before if builds < 0 else step).move_s
         self._build(window, move_s, step.loop and builds > 0)
         if step.views != before.views:
@@ -211,7 +198,8 @@ class LectureView(DockedView):
         if self.session is None:
             return
         self._build(window, 0.0, **preferences)
-        self._entered = self._to_top = True
+        self._entered = True
+        self.column.begin_step()
         for view in self._others:
             view.begin_anew()
         self._arrange()
@@ -231,8 +219,7 @@ class LectureView(DockedView):
 
     @property
     def settled(self) -> bool:
-        working = any(one is not None and one.busy for one in (self._reading, self.hidden_watch))
-        working = working or self._added_s is not None
+        working = any(one is not None and one.busy for one in (self._reading, self._column))
         return not (self.is_entering or (self.session is not None and working))
 
     @property
@@ -242,13 +229,13 @@ class LectureView(DockedView):
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._reading = Background("lucida-lecture", host.animate)
-        self._slides = Slides(host.fonts)
-        self.hidden_watch = HiddenWatch(host.animate)
+        self._column = Column(host, self.log)
 
     def end(self) -> None:
-        for one in (self._reading, self.hidden_watch):
-            if one is not None:
-                one.close()
+        if self._reading is not None:
+            self._reading.close()
+        if self._column is not None:
+            self._column.hidden_watch.close()
 
     def follow(self, host: Host) -> None:
         """Take steps and newer files. Call once a frame, also while the view is hidden."""
@@ -262,40 +249,19 @@ class LectureView(DockedView):
                 self._before, self._layout = host.state, layout.current().name
             self.restore(host, presentation=True)
             self._begun = True
-        self._follow_mouse(host)
+        number = self._controls.follow(host)
+        if number is not None:
+            self.go(host, number)
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
-            arrange(self._others, self.session.step)
+            names = map(str.capitalize, self.session.step.views)
+            spaces = (layout.MAIN, layout.LOWER_SPACE)
+            layout.arrange(self._others, dict(zip(names, spaces, strict=False)))
             self.arrangements += 1
             self._arranged = True
             imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
             host.animate()
         self._follow_file(host, self.session)
-
-    @property
-    def shows_controls(self) -> bool:
-        """True while the mouse moves, and two seconds after it."""
-        return time.monotonic() - self._moved_s < CONTROLS_S or bool(self._typed)
-
-    def _follow_mouse(self, host: Host) -> None:
-        """Follow the mouse, and the digits of a step's number that are typed before Enter."""
-        io = imgui.get_io()
-        if host.moves and (io.mouse_delta.x or io.mouse_delta.y):
-            self._moved_s = time.monotonic()
-        popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
-        if imgui.is_popup_open("", int(popup)):
-            self._moved_s = time.monotonic()
-        if self.shows_controls:
-            host.animate()
-        if io.want_text_input or io.key_ctrl or io.key_shift or io.key_alt:
-            self._typed = ""
-            return
-        for digit in range(10):
-            if imgui.is_key_pressed(imgui.Key(int(imgui.Key._0) + digit)):
-                self._typed = (self._typed + str(digit))[-3:]
-        if self._typed and imgui.is_key_pressed(imgui.Key.enter):
-            self.go(host, int(self._typed) - 1)
-            self._typed = ""
 
     def _follow_undo(self, place: tuple[str, int, int] | None, session: LectureSession) -> None:
         """Show another step's text and views if undo or redo went into its states."""
@@ -319,46 +285,22 @@ class LectureView(DockedView):
             self.restore(host)
         session.error = outcome.value.mistake
 
-    # The column.
+    # What is drawn.
 
     def draw(self, host: Host) -> None:
-        if self.session is None:
+        session = self.session
+        if session is None:
             if (path := invitation(host)) is not None:
                 self.give(load_lecture(path), path)
             return
-        session, slides = self.session, self._slides
         self._keys(host)
-        assert slides is not None
-        slides.notation = host.state.options.notation
-        position = host.state.options.outside.formula
-        stages = stages_of(host.renderers.camera(host.state))
-        slides.lit = stage_at(position, stages) if position is not None else ""
         if self._lies_over:
-            self._over(host, session, slides)
+            self.column.draw_over(host, session)
         else:
-            self._column(host, session, slides)
+            self.column.draw(host, session)
+        if not self._lies_over or self.shows_controls:
+            self._do(host, self._controls.draw(host, session))
         self._drawn_answer.show(host, view_of(self._views, OutsideView), session)
-
-    def _column(self, host: Host, session: LectureSession, slides: Slides) -> None:
-        """Draw the text, which is scrolled if it is longer than the column, and what is below."""
-        imgui.text_colored(theme.DIM, session.step.part or session.lecture.title)
-        with lettering(host.fonts.bold, TITLE):
-            wrapped(session.step.title)
-        imgui.dummy(ImVec2(0, 0.25 * imgui.get_font_size()))
-        if session.error:
-            wrapped(session.error, theme.ERROR)
-        if self.log is not None and note(self.log, session.step.exercise is not None):
-            self.log = None
-        room = ImVec2(0, -foot_height())
-        if imgui.begin_child("step", room, imgui.ChildFlags_.nav_flattened):
-            if self._to_top:
-                imgui.set_scroll_y(0.0)
-                self._to_top = False
-            self._body(host, session, slides, imgui.get_content_region_avail().y)
-        imgui.end_child()
-        self._controls(host, session)
-
-    # Over the picture.
 
     def _is_over(self, host: Host) -> bool:
         """Return True if the picture fills the window and the text lies over it."""
@@ -378,15 +320,6 @@ class LectureView(DockedView):
         flags = imgui.WindowFlags_
         return int(flags.no_decoration | flags.always_auto_resize | flags.no_move)
 
-    def _over(self, host: Host, session: LectureSession, slides: Slides) -> None:
-        """Draw the text over the picture, and the controls below it while the mouse moves."""
-        if session.step.blocks:
-            self._body(host, session, slides, MOST_OVER * layout.window_px()[1])
-        if session.error:
-            wrapped(session.error, theme.ERROR)
-        if self.shows_controls:
-            self._controls(host, session)
-
     def _keys(self, host: Host) -> None:
         """Handle the arrow keys while the column has the keyboard. Page Up and Page Down are
         actions.
@@ -397,74 +330,11 @@ class LectureView(DockedView):
             if imgui.shortcut(int(key)):
                 self.advance(host, steps)
 
-    def _body(self, host: Host, session: LectureSession, slides: Slides, height: float) -> None:
-        """Draw the text and the exercise. height: the room for the longest text of the step."""
-        step = session.step
-        blocks = in_language(step.blocks, host.state.options.language)
-        width = imgui.get_content_region_avail().x
-        old, alpha = in_language(step.before, host.state.options.language), self._alpha(host)
-        self._fit(session, slides, host.state.options.language, ImVec2(width, height))
-        if blocks:
-            slides.text(blocks, width, before=old, alpha=alpha)
-        if self._seek:
-            imgui.set_scroll_here_y(1.0)
-            self._seek = False
-        if step.exercise is None:
-            return
-        if blocks:
-            imgui.dummy(ImVec2(0, 0.5 * imgui.get_font_size()))
-        answers = session.answers
-        before = replace(answers, texts=dict(answers.texts))
-        task, said = step.exercise, None
-        if isinstance(task, HideExercise):
-            assert self.hidden_watch is not None
-            said = self.hidden_watch.judgement(host, task)
-        shown = exercise(task, answers, slides, host.fonts, said)
-        if isinstance(task, ChoiceExercise) and answers.chosen not in (None, before.chosen):
-            fields = task.options[answers.chosen].camera
-            if fields is not None:
-                host.move(host.state.with_view(changed_view(step.view, fields)), CHOSEN_S)
-        if shown and isinstance(task, HideExercise):
-            try:
-                host.change(replace(host.state, scene=task.solved(host.state.scene)))
-            except LucidaError as error:  # it was deleted
-                host.files.message = str(error)
-        self._answered = self._answered or answers != before
-        if self.log is not None and answers.verdict != before.verdict:
-            self.log.exercise(session.lecture, step, answers)
-        if self.log is not None and said is not None:
-            self.log.hidden(session.lecture, step, said, answers.solved)
-
-    def _fit(self, session: LectureSession, slides: Slides, language: str, room: ImVec2) -> None:
-        """Make the text as large as all builds of the step allow; an exercise needs its room."""
-        builds = [one for one in session.lecture.builds if one.number == session.number]
-        fitted = *builds, room, theme.used(), slides.notation, language
-        if fitted == self._fitted:
-            return
-        self._fitted = fitted
-        texts = [in_language(one.blocks, language) for one in builds]
-        is_asked = any(one.exercise is not None for one in builds)
-        slides.fit(texts, room.x, 0.0 if is_asked else room.y)
-
-    def _alpha(self, host: Host) -> float:
-        """Return the opacity of the text that was just added."""
-        if self._added_s is None:
-            return 1.0
-        alpha = (time.monotonic() - self._added_s) / FADE_S
-        if alpha >= 1 or not host.moves or host.state.preferences.reduced_motion:
-            self._added_s = None
-            return 1.0
-        host.animate()
-        return alpha
-
     def unseen(self, host: Host) -> None:
         self._drawn_answer.hide(view_of(self._views, OutsideView))
 
-    def _controls(self, host: Host, session: LectureSession) -> None:
-        is_shown = not host.state.preferences.presentation or self.shows_controls
-        imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
-        asked = foot(session, self._typed)
-        imgui.pop_style_var()
+    def _do(self, host: Host, asked: int | str | None) -> None:
+        """Do what was asked for in the foot."""
         if asked == END:
             self.leave(host)
         elif asked in (BACK, NEXT):

@@ -1,4 +1,4 @@
-"""The positions of formulas in a lecture's file, for messages about a wrong one."""
+"""The texts in a lecture's file, and the lines in which their formulas begin."""
 
 from __future__ import annotations
 
@@ -12,28 +12,32 @@ from app.lecture import text as texts
 from app.lecture.model import Written
 from renderer.files.places import Places
 
+TEXTS = ("text", "instead", "notes", "question", "feedback", "answer")  # fields of Markdown
 _SOLID = re.compile(r"[^\s>]+")
 
 
+def texts_of(table: dict[str, Any], field: str) -> Iterator[tuple[str, str]]:
+    """Yield the texts of a step, or of a table in it, each with its path. field: the table's."""
+    for name, value in table.items():
+        path = f"{field}.{name}"
+        if name in TEXTS and isinstance(value, str):
+            yield path, value
+        elif name == "exercise" and isinstance(value, dict):
+            yield from texts_of(value, path)
+        elif isinstance(value, list):
+            for number, entry in enumerate(value):
+                if isinstance(entry, dict):
+                    yield from texts_of(entry, f"{path}[{number}]")
+
+
 def formulas_written(
-    step: dict[str, Any], field: str, places: Places, source: str
+    text: str, blocks: tuple[texts.Block, ...], field: str, places: Places, source: str
 ) -> Iterator[Written]:
-    """Yield all formulas of a step.
-
-    step: its table, already checked.
-    field: its path.
-    source: the file's name.
-    """
-    for name, text in _texts_of(step):
-        formulas = texts.formulas(texts.parse(text))
-        first = places.line(f"{field}.{name}")
-        for latex, line in zip(formulas, _lines(formulas, text), strict=True):
-            yield Written(latex, f"{field}.{name}", source, first + line)
-
-
-def pieces_written(step: dict[str, Any]) -> int:
-    """Count the pieces of a step's texts. step: as for formulas_written."""
-    return sum(texts.pieces(texts.parse(text)) for _, text in _texts_of(step))
+    """Yield all formulas of a text. field: its path. source: the file's name."""
+    formulas = texts.formulas(blocks)
+    first = places.line(field)
+    for latex, line in zip(formulas, _lines(formulas, text), strict=True):
+        yield Written(latex, field, source, first + line)
 
 
 def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
@@ -54,27 +58,3 @@ def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
             line += text.count("\n", counted, here)
             counted, at = here, start + len(bare)
         yield line
-
-
-def _texts_of(step: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a step, each after its field."""
-    if "text" in step:
-        yield "text", step["text"]
-    for name in ("answer", "notes"):
-        if step.get(name):
-            yield name, step[name]
-    for number, build in enumerate(step.get("builds", ())):
-        for name in ("text", "instead"):
-            if build.get(name):
-                yield f"builds[{number}].{name}", build[name]
-    exercise = step.get("exercise")
-    if exercise is None:
-        return
-    yield "exercise.question", exercise["question"]
-    for number, option in enumerate(exercise.get("options", ())):
-        yield f"exercise.options[{number}].text", option["text"]
-        yield f"exercise.options[{number}].feedback", option["feedback"]
-    for number, answer in enumerate(exercise.get("answers", ())):
-        for place, wrong in enumerate(answer.get("wrong", ())):
-            field = f"exercise.answers[{number}].wrong[{place}].feedback"
-            yield field, wrong["feedback"]

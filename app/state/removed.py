@@ -67,6 +67,7 @@ REMOVED: dict[str, Removed] = {
     "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
     "pair.value": Removed("the laboratory's page 'function' reads an image", False),
     "outside.answers": Removed("a wrong answer is always drawn", True),
+    "highlight": Removed("a step's pictures point out what it is about", []),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 
@@ -82,6 +83,7 @@ REPLACED: dict[tuple[str, Any], Replaced] = {
 
 # Views that a lecture's step could show.
 REMOVED_VIEWS: dict[str, str] = {
+    "camera": "a step shows pictures; a build moves the camera",
     "detective": "paste a matrix with Ctrl+V, which asks what it means",
 }
 

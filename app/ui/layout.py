@@ -124,7 +124,6 @@ LAYOUTS = (
         "A lecture's text, and what its step shows.",
         (
             (MAIN, RIGHT_SPACE, RIGHT, 0.33),
-            (MAIN, CAMERA_SPACE, LEFT, 0.42),
             (MAIN, LOWER_SPACE, RIGHT, 0.5),
             (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),

@@ -17,7 +17,6 @@ import numpy as np
 from app.instruments.laboratory.view import LABORATORY, LaboratoryView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
-from app.lecture.schema import PANEL
 from app.ui.surface import Target
 from app.window.capture import cut
 from app.window.launch import start_drawing
@@ -133,11 +132,7 @@ def lecture_stills(
     """
     from app.web.lecture.page import Still
 
-    seen = [
-        replace(step, views=tuple(v for v in step.views if v != PANEL), full=False)
-        for step in lecture.builds
-    ]
-    lecture = replace(lecture, builds=tuple(seen))
+    lecture = replace(lecture, builds=tuple(replace(one, full=False) for one in lecture.builds))
     stills: list[list[Still]] = [[] for _ in lecture.builds]
 
     def take(place: int, window: MainWindow, target: Target) -> None:

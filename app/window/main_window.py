@@ -29,7 +29,6 @@ from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.background import Background
 from app.ui.fly import Fly
-from app.ui.highlight import frame_views
 from app.ui.view import AView, DockedView
 from app.window.action_table import run_shortcuts
 from app.window.entry_boxes import EntryBoxes
@@ -373,7 +372,6 @@ class MainWindow:
         self.change(self.boxes.draw(self.state, self.renderers))
         self._bars()
         self.shell.draw(self, self.boxes.focused, self.menu_keys.in_menus)
-        frame_views(self.state, self.shell.stage.rects)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 

@@ -13,7 +13,6 @@ from app.instruments.stepper import loop_parts, raster_parts
 from app.instruments.stepper.loop_parts import Model
 from app.instruments.stepper.recording import Order
 from app.instruments.stepper.source import shown_lines, source_of
-from app.lecture import text as texts
 from app.lecture.reading import BUILTIN, load_lecture
 from app.lecture.step_options import state_of
 from app.state.app_state import AppState
@@ -113,17 +112,6 @@ def test_every_line_has_its_line_in_julia(order):
         kept = set(re.findall(r"\w+", line)) - {"def", "range", "0", "5"}
         assert kept <= set(re.findall(r"\w+", twin)), (line, twin)
     assert "j - 0.5" in "".join(written.lines) and "j + 0.5" in "".join(lines)
-
-
-def test_one_of_a_texts_programs_is_shown():
-    blocks = texts.parse(
-        "a\n```python\nP\n```\n```julia\nJ\n```\nb\n```\nplain\n```\n```julia\nD\n```"
-    )
-    for language, shown in (("python", "PplainD"), ("julia", "JplainD")):
-        kept = texts.in_language(blocks, language)
-        code = [block.text for block in kept if isinstance(block, texts.Code)]
-        assert "".join(code) == shown
-        assert len(kept) == len(blocks) - 1
 
 
 def test_the_language_stays_from_step_to_step():

@@ -28,12 +28,12 @@ def read(text: str) -> Lecture:
 def test_a_build_has_what_it_leaves_out_from_the_one_before():
     lecture = read(
         f"{STEP}text = 'One.'\nscene = 'spheres'\nviews = ['raster', 'outside']\n"
-        "camera = { eye = [1, 2, 5], target = [0, 0, 0] }\npixel = [2, 3]\nhighlight = ['eye']\n"
+        "camera = { eye = [1, 2, 5], target = [0, 0, 0] }\npixel = [2, 3]\n"
         "options.images.resolution = [8, 6]\noptions.outside.grid = false\nnotes = 'Say it.'\n"
         "exercise = { kind = 'ray', question = 'Which?', pixel = [1, 1], size = [8, 6] }\n"
         f"{BUILD}text = 'Two.'\ncamera.projection = 'parallel'\nmove_s = 4\n"
         f"{BUILD}instead = 'Three.'\nscene = 'columns'\nviews = ['ray']\npixel = [1, 1]\n"
-        "highlight = []\noptions.outside.volume = true\nloop = true\n"
+        "options.outside.volume = true\nloop = true\n"
         f"{STEP}"
     )
     one, two, three, other = lecture.builds
@@ -48,7 +48,7 @@ def test_a_build_has_what_it_leaves_out_from_the_one_before():
     )  # fmt: skip
     assert two.view == replace(one.view, camera=replace(one.view.camera, projection="parallel"))
     assert (one.move_s, two.move_s, three.move_s, three.loop) == (0, 4, 0.5, True)
-    assert (three.views, three.pixel, three.highlight) == (("ray",), (0, 0), ())
+    assert (three.views, three.pixel) == (("ray",), (0, 0))
     assert three.scene is not one.scene and three.view == two.view
     assert three.options["outside"] == {"grid": False, "volume": True}
     # Notes are the step's; its exercise is asked last, about what is then seen.
@@ -98,7 +98,10 @@ def test_a_list_goes_on_across_builds_and_nothing_else_does(text, more, kinds):
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ("text = 'a'\ninstead = 'b'", "6: steps[0].builds[0].instead: is given beside text; give"),
+        (
+            "text = 'a'\ninstead = 'b'",
+            "6: steps[0].builds[0].instead: cannot be used together with text; ",
+        ),
         ("move_s = -1", "5: steps[0].builds[0].move_s: -1 is out of range; give 0 to 60"),
         ("move_s = 0\nloop = true", "6: steps[0].builds[0].loop: has no movement to repeat; give"),
         ("text = 'a $b'", "5: steps[0].builds[0].text: a formula does not end"),
@@ -154,7 +157,9 @@ class TestTheOlderFormat:
         assert shown == [*words, [*words[-1], "So."]]
 
     def test_one_line_says_what_to_change(self):
-        lecture = read(f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\n")
+        lecture = read(
+            f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
+        )
         (note,) = lecture.notes
         assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
         assert load_lecture(BUILTIN).notes == ()
@@ -163,11 +168,3 @@ class TestTheOlderFormat:
         assert plain_text(read(f"{STEP}text = 'They [meet](#lines).'\n").steps[0].blocks) == (
             "They meet."
         )
-
-
-def test_every_question_of_the_built_in_lecture_has_an_answer():
-    for step in load_lecture(BUILTIN).builds:
-        last = step.blocks[-1] if step.blocks else None
-        if isinstance(last, Question):
-            lecture = load_lecture(BUILTIN)
-            assert step.build + 1 < lecture.count(step.number), step.title

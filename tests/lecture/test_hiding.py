@@ -249,9 +249,11 @@ def test_the_solution_turns_the_object_as_it_was():
 def test_checking_a_lecture_tries_the_answer(line, wrong, told, tmp_path, capsys):
     assert line in TEXT
     path = tmp_path / "x.toml"
-    path.write_text("\ufeff" + TEXT.replace(line, wrong), "utf-8")
+    asked_last = TEXT.replace(line, wrong) + "\n[[steps.builds]]\ntext = 'Now.'\n"
+    path.write_text("\ufeff" + asked_last, "utf-8")
     assert main(["lecture", str(path), "--check"]) == (0 if told is None else 2)
-    error = capsys.readouterr().err
+    out, error = capsys.readouterr()
+    assert ("1 exercise" in out) == (told is None)
     if told is not None:
         assert error.startswith(f"lucida: {path}" + told.format("steps[0].exercise")), error
         assert error.count("\n") == 1

@@ -28,9 +28,8 @@ class TestReading:
         assert [step.line for step in lecture.steps] == [10, 36, 39]
         assert one.scene.name == "ball"
         assert one.view.camera == Camera(eye=(0, 0, 5))
-        assert one.views == ("outside", "camera")
+        assert one.views == ("outside", "ray")
         assert one.pixel == (1, 2)  # row 2, column 3
-        assert one.highlight == ("eye", "outside")
         assert one.options["images"] == {"pixel_size": 8, "channel": "depth"}
         assert one.options["outside"]["bundle"] == (4, 4)
         assert one.options["outside"]["camera"] == Camera.look_at((5, 5, 5), (0, 0, 0))
@@ -137,11 +136,10 @@ class TestReading:
             ('"ball"', '"gone.toml"', 19, "scene: gone.toml: does not exist"),
             ("{ eye = [0, 0, 5] }", '"gone.toml"', 20, "camera: gone.toml: does not exist"),
             ('"outside", "', '"outsid", "', 21, "views[0]: 'outsid' is unknown; did you mean"),
-            ('"outside", "', '"ray", "probe", "raster", "', 21, "views: names 3 besides 'camera'"),
-            ('"outside", "camera"]', '"ray", "ray"]', 21, "views: names one twice"),
+            ('"outside", "', '"stepper", "probe", "', 21, "views: names 3; give one or two"),
+            ('"outside", "ray"]', '"ray", "ray"]', 21, "views: names one twice"),
             ("[2, 3]", "[0, 3]", 27, "pixel: [0, 3] is no pixel; give row and column, from 1"),
             ("pixel_size = 8", "resolution = [2, 9]", 27, "pixel: [2, 3] is not in an image"),
-            ('"eye", "', '"eyes", "', 28, "highlight[0]: 'eyes' is unknown; did you mean 'eye'?"),
             ('title = "One"', 'titel = "One"', 11, "titel: is unknown; did you mean 'title'?"),
             ('title = "Two"', "", 36, "title: is missing; give it"),
             ('title = "Two"', 'title = " "', 37, "title: is empty"),

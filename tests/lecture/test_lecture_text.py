@@ -36,7 +36,7 @@ class TestText:
             texts.ItemList(((words("x"),), (words("y"),)), numbered=True),
             texts.DisplayedFormula("a\nb"),
             texts.DisplayedFormula("c"),
-            texts.Code("  x = $1", "python"),
+            texts.Code("  x = $1"),
         )
         assert texts.formulas(blocks) == ("x", "a\nb", "c")
         assert "slanted" in plain_text(blocks) and "*" not in plain_text(blocks)
@@ -76,18 +76,6 @@ class TestText:
         assert texts.pieces(blocks) == 2 + 3 + 1 + 1 + 3 + 1
         assert texts.formulas(blocks) == ("x", "y", "z")
         assert texts.pieces(()) == 0
-
-    def test_a_program_in_one_of_its_languages(self):
-        def fenced(*names):
-            return "".join(f"```{name}\n{name} {k}\n```\n" for k, name in enumerate(names))
-
-        def shown(text, language):
-            return [block.text for block in texts.in_language(texts.parse(text), language)]
-
-        text = fenced("python", "julia", "toml", "julia")
-        assert shown(text, "julia") == ["julia 1", "toml 2", "julia 3"]
-        assert shown(text, "python") == ["python 0", "toml 2", "julia 3"]  # or else the first
-        assert shown(fenced("toml", "toml"), "julia") == ["toml 0", "toml 1"]
 
     def test_how_long_a_text_may_be(self):
         assert texts.parse("a" * texts.LETTERS)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from sample_lecture import read
-
 from app.lecture import reading
 from app.lecture.model import Lecture
 from app.lecture.reading import load_lecture
@@ -13,12 +11,6 @@ from app.lecture.session import LectureSession
 from app.state.kept_lecture import Judgement
 from app.ui.watching import FilesWatch
 from renderer.system.file_dependencies import stamp
-
-
-def test_what_is_pointed_out_is_looked_for_once():
-    highlight = "highlight = ['eye'" + ", 'u', 'eye'" * 1000 + "]\n"
-    lecture = read("title = 'L'\n[[steps]]\ntitle = 'A'\n" + highlight)
-    assert lecture.steps[0].highlight == ("eye", "u")
 
 
 class TestWatching:

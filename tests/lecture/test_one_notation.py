@@ -31,7 +31,7 @@ from app.instruments.stepper import loop_parts, raster_parts
 from app.instruments.stepper.recording import Order
 from app.instruments.stepper.source import shown_code, shown_lines, source_of
 from app.lecture import text as texts
-from app.lecture.notation import TwiceUsed, in_notation
+from app.lecture.notation import in_notation
 from app.state.options.laboratory import LaboratoryOptions
 from app.state.options.outside import OutsideOptions
 from app.state.options.shared import Notation
@@ -171,13 +171,6 @@ def test_no_symbol_is_spelled_as_in_the_other_notation(room, notation):
     assert count > 20
     other = NOTATIONS[notation == "book"]
     assert any(foreign(kind, text, other) for _, kind, text in room(notation))  # it can fail
-
-
-def test_the_first_step_with_a_letter_twice_says_so():
-    said = [b for b in LECTURE.builds if any(isinstance(block, TwiceUsed) for block in b.blocks)]
-    assert {build.title for build in said} == {"Any camera"}
-    assert said[-1].build + 1 == LECTURE.count(said[-1].number)
-    assert len(in_notation(said[0].blocks, "code")) == len(said[0].blocks) - 1
 
 
 def test_a_word_and_its_symbol_are_one_in_code():

@@ -19,6 +19,7 @@ from app.instruments.laboratory.looks import look_of
 from app.instruments.laboratory.page import Page
 from app.instruments.laboratory.pages import drawn
 from app.instruments.outside.figure import Figure, Inset, Label
+from app.lecture.exercises import ChoiceExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.state.app_state import AppState
@@ -59,7 +60,7 @@ def state_of(lecture: Lecture, build: Step) -> AppState:
 
 def stills(build: Step, state: AppState) -> list[Still]:
     given = (page_of(state), page_of(state)) if build.views == ("laboratory",) else None
-    return [Still(view, GRAY, given) for view in build.views if view != "camera"]
+    return [Still(view, GRAY, given) for view in build.views]
 
 
 def page_of(state: AppState) -> Page:
@@ -95,7 +96,7 @@ def window_says(lecture: Lecture) -> Iterator[Said]:
             found = camera.ray(*state.marked, size)
             pixel = state.options.indexing.text(state.marked)
             ray = pixel, text_tuple(found.origin), text_tuple(found.direction)
-        seen = [view for view in build.views if view != "camera"]
+        seen = list(build.views)
         with_ray = [view for view in seen if view in WITH_RAY]
         outside = state.options.outside
         yield {
@@ -104,7 +105,7 @@ def window_says(lecture: Lecture) -> Iterator[Said]:
             "views": seen,
             "rays": [ray] * len(with_ray) if ray else [],
             "labels": sorted({*labels_of(figure)}) if "laboratory" in seen else [],
-            "must be open": isinstance(build.exercise, HideExercise),
+            "must be open": isinstance(build.exercise, HideExercise | ChoiceExercise),
             "camera": numbers_of(state.view.camera),
             "objects": [entry.name for entry in state.scene.objects],
             "size": state.images.resolution,
@@ -136,7 +137,7 @@ def page_says(html: str) -> Iterator[Said]:
             options, scene = figure["options"], data["scenes"][figure["scene"]]
             looking = options.get("outside", {}).get("camera")
             said |= {
-                "must be open": figure["open"] and "controls" not in figure["shows"],
+                "must be open": figure["open"],
                 "camera": numbers_of(view_from_table(figure["camera"]).camera),
                 "objects": scene["names"],
                 "size": options.get("size") and tuple(options["size"]),

@@ -91,7 +91,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     assert chosen(begun) == (task.item,)
 
     def said() -> Judgement:
-        watch = lecture_of(d).hidden_watch
+        watch = lecture_of(d).column.hidden_watch
         assert watch is not None
         judged = watch.said[1]
         assert judged is not None

@@ -81,7 +81,7 @@ def _spoil(d: Driver) -> None:
         laboratory={"page": "array", "progress": 3.0},
     )
     d.window.change(changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))))
-    for name in ("Raster", "Camera", "Outside"):
+    for name in ("Raster", "Outside"):
         d.window.shell.stage.show(name, not d.window.shell.stage.is_shown(name))
     _rest(d)
 

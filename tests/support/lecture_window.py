@@ -16,7 +16,7 @@ text = "One **ball** at $z = -3$."
 scene = "spheres"
 [[steps]]
 title = "Second"
-views = ["ray", "camera"]
+views = ["ray"]
 scene = "canonical"
 options.images.exposure_ev = 1.0
 """

@@ -31,7 +31,6 @@ from app.ui import pending, rows, theme
 from app.ui.checks import checkbox, radio_button
 from app.ui.explaining.symbols import spoken, vector
 from app.ui.fields import Scale
-from app.ui.highlight import pointed
 
 ROLES = {
     "eye": ("e", "", "The eye: where all viewing rays start (perspective)."),
@@ -80,14 +79,12 @@ def _panel(
     state: AppState, panel: PanelOutcome, around: PanelContext
 ) -> tuple[AppState, PanelOutcome]:
     draft = panel.draft.following(state.camera)
-    with pointed("projection", state):
-        wish = _projection(state)
+    wish = _projection(state)
     rows.line()
     state, draft = _vectors(state, draft, around)
     found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
     basis_readout(found, around.fonts.mono)
-    with pointed("keep_orthonormal", state):
-        state = _orthonormal(state)
+    state = _orthonormal(state)
     rows.line()
     state, draft = projection_numbers(state, draft, around)
     state = _exposure(state, around)
@@ -131,19 +128,18 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
     for name, (letter, role, tip) in ROLES.items():
         label, tooltip = vector(letter, notation), spoken(tip, notation)
         color = theme.BASIS.get(name, theme.PLAIN)
-        with pointed(name, state):
-            rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
-            reach = around.focus.reach if name == "eye" else 1.0
-            for axis, letter in enumerate("xyz"):
-                thirds.go(axis)
-                # Around 0, unless the scene is far from there.
-                middle = around.focus.center[axis] if name == "eye" else 0.0
-                middle = middle if abs(middle) > reach else 0.0
-                scale = Scale(middle - reach, middle + reach)
-                place, width = (name, axis), thirds.field_px
-                state, draft = component(
-                    state, draft, around, place, f"{name}.{letter}", width, scale, color, tooltip
-                )
+        rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
+        reach = around.focus.reach if name == "eye" else 1.0
+        for axis, letter in enumerate("xyz"):
+            thirds.go(axis)
+            # Around 0, unless the scene is far from there.
+            middle = around.focus.center[axis] if name == "eye" else 0.0
+            middle = middle if abs(middle) > reach else 0.0
+            scale = Scale(middle - reach, middle + reach)
+            place, width = (name, axis), thirds.field_px
+            state, draft = component(
+                state, draft, around, place, f"{name}.{letter}", width, scale, color, tooltip
+            )
     return state, draft
 
 
@@ -193,11 +189,8 @@ def _sections(
         any_toggled = any_toggled or toggled
         return now
 
-    with pointed("lens", state):
-        if "lens" in state.options.highlight:
-            imgui.set_next_item_open(True)
-        if is_open("Lens", 0.0 if state.camera.lens is not None else math.inf):
-            state, draft, wish = lens_section(state, draft, around)
+    if is_open("Lens", 0.0 if state.camera.lens is not None else math.inf):
+        state, draft, wish = lens_section(state, draft, around)
     if is_open("K, R and t", WORDS_OPEN_EM):
         state, wanted = words_section(state, around.size, around.fonts)
         wish = wish or wanted

@@ -16,7 +16,6 @@ from app.ui import rows, theme
 from app.ui.checks import checkbox
 from app.ui.explaining.symbols import program, spoken
 from app.ui.fields import Scale, number_field, short_number
-from app.ui.highlight import pointed
 from renderer.camera.camera import Camera, Size, Vector
 from renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
 from renderer.scene.focus import Focus
@@ -88,17 +87,14 @@ def projection_numbers(
     state: AppState, draft: Draft, around: PanelContext
 ) -> tuple[AppState, Draft]:
     """Draw all numbers into the current window."""
-    with pointed("distance", state):
-        state, draft = _distance(state, draft.following(state.camera), around)
+    state, draft = _distance(state, draft.following(state.camera), around)
     state, draft = _field_of_view(state, draft.following(state.camera), around)
     state = _dolly(state, around)
     rows.line()
-    with pointed("viewport", state):
-        state, draft = _viewport(state, draft.following(state.camera), around)
+    state, draft = _viewport(state, draft.following(state.camera), around)
     state, draft = _shift(state, draft, around)
     _as_drawn(around)
-    with pointed("clip", state):
-        return _clip(state, draft, around)
+    return _clip(state, draft, around)
 
 
 def component(

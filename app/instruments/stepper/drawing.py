@@ -24,6 +24,7 @@ from renderer.images.pixels import Indexing
 GAP_EM = 0.9
 MOST_CODE = 0.68  # of the width or height
 LARGEST = 1.5, 1.3, 1.0  # the code's type size, in the window's
+LEAST_WORDS = 0.8  # that of prose, so that a slide need not scroll
 NUMBERED = 12  # the most rows or columns that all have numbers
 Lit = Mapping[int, float]  # for the numbers of lines, the opacity of their highlight
 
@@ -66,8 +67,11 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     font = fonts.text if drawn.in_words else fonts.mono
     with lettering(font):
         needed = code_size(lines) * ImVec2(1.05, 1)  # letters have whole widths in each size
-    ways = itertools.product((False, True), LARGEST)
-    arranged = [_arranged(needed, drawn.size, room, em, *way) for way in ways]
+    least = LEAST_WORDS if drawn.in_words else 1.0
+    arranged = [
+        _arranged(needed, drawn.size, room, em, least, *way)
+        for way in itertools.product((False, True), LARGEST)
+    ]
     best = max(arranged, key=lambda one: (one.fits, one.larger * one.canvas_px.x))
     total = best.total_px
     spare, canvas_at = total - best.code_px, total - best.canvas_px
@@ -84,9 +88,9 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
         f"code at {low.x}, {low.y}", best.code_px, 0, imgui.WindowFlags_.horizontal_scrollbar
     )
     with lettering(font, best.larger):
-        if best.code_px.y < best.larger * needed.y - 1:  # a small window: around the lit line
-            lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
-            imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
+        # In a small window: around the lit line.
+        lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
+        imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
         code(lines, drawn.lit, max(best.code_px.x, best.larger * needed.x))
     imgui.end_child()
     imgui.set_cursor_screen_pos(low)
@@ -119,18 +123,18 @@ class Arranged:
 
 
 def _arranged(
-    needed: ImVec2, size: Size, room: ImVec2, em: float, beside: bool, largest: float
+    needed: ImVec2, size: Size, room: ImVec2, em: float, least: float, beside: bool, largest: float
 ) -> Arranged:
     """Arrange a program that needs some room, and a canvas of some pixels."""
     most = ImVec2(MOST_CODE * room.x, room.y) if beside else ImVec2(room.x, MOST_CODE * room.y)
     largest = min(most.x / needed.x, most.y / needed.y, largest)
-    larger = max(theme.whole_px(largest * em - 0.5) / em, 1.0)
+    larger = max(theme.whole_px(largest * em - 0.5) / em, least)
     code_px = ImVec2(min(larger * needed.x, most.x), min(larger * needed.y, most.y))
     gap, margin = GAP_EM * em, _margin(size, em)
     rest = room - (ImVec2(code_px.x + gap, 0) if beside else ImVec2(0, code_px.y + gap))
     unit = canvas_unit(size, rest - margin)
     canvas_px = margin + ImVec2(*size) * unit
-    return Arranged(beside, largest >= 1, larger, unit, code_px, canvas_px, gap)
+    return Arranged(beside, largest >= least, larger, unit, code_px, canvas_px, gap)
 
 
 def _margin(size: Size, em: float) -> ImVec2:

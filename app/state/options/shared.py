@@ -106,8 +106,7 @@ class SharedOptions:
 
     marked: the pixel that the user has marked, in every view; None for none. marked_size: (width,
     height) of the image that it was set in, so that it keeps its ray in an image of another size;
-    None until an image of its size is shown. highlight: what a lecture points out: fields of the
-    camera panel, and views, in small letters.
+    None until an image of its size is shown.
 
     shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
     lecture, or from 0, as in arrays. notation: the symbols of formulas and programs, see
@@ -120,7 +119,6 @@ class SharedOptions:
     preferences: Preferences = field(default_factory=Preferences)
     marked: Pixel | None = None
     marked_size: Annotated[tuple[int, int], Accepted(check_size)] | None = None
-    highlight: Annotated[tuple[str, ...], AtMost(256)] = ()
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True

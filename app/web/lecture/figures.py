@@ -8,6 +8,7 @@ from typing import Any
 from app.images.photograph.model import path_of
 from app.images.photograph.reading import decoded
 from app.images.request import MIRROR_DEPTH
+from app.lecture.exercises import ChoiceExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.model import Step
 from app.state.app_state import AppState
@@ -27,7 +28,6 @@ SHOWN = {
     "outside": ("outside",),
     "compare": ("raster", "ray", "wipe"),
     "probe": ("probe",),
-    "camera": ("controls",),
 }
 # Parts of the outside view that modules/outside.js draws; it draws no others.
 DRAWN = (
@@ -57,13 +57,14 @@ class Figures:
         """
         shows = [name for view in step.views for name in SHOWN.get(view, ())]
         outside = state.options.outside
-        drags = "controls" in shows or "wipe" in shows
+        drags = "wipe" in shows
         if "outside" in shows:
             drags = drags or outside.gizmo != "none" or outside.pixels
         is_open = isinstance(step.exercise, HideExercise) or (
-            step.exercise is not None and "controls" in shows
+            isinstance(step.exercise, ChoiceExercise)
+            and any(option.camera is not None for option in step.exercise.options)
         )
-        if set(shows) <= {"controls"} or not (is_open or drags or _is_whole(step, state)):
+        if not shows or not (is_open or drags or _is_whole(step, state)):
             return None
         number = self._number(step.scene)
         if number is None:
@@ -85,10 +86,9 @@ class Figures:
             options["outside"] = _outside(step, state)
         return {
             "scene": number,
-            "camera": _camera_table(step),
+            "camera": view_table(step.view),
             "shows": shows,
             "options": options,
-            "lens": "lens" in step.highlight,
             "photograph": _photograph(state),
             "open": is_open,
         }
@@ -127,14 +127,6 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
         drawn |= {"target": options.target, "up": options.up}
     looking = options.camera
     return drawn if looking is None else drawn | {"camera": view_table(View(looking))}
-
-
-def _camera_table(step: Step) -> dict[str, Any]:
-    """Return a step's camera as JSON, with the numbers of a lens that the step is about."""
-    table = view_table(step.view)
-    if "lens" in step.highlight and table.get("lens", {}).get("model") == "brown":
-        table["lens"] = {"k1": 0.0, "k2": 0.0} | table["lens"]
-    return table
 
 
 def _photograph(state: AppState) -> dict[str, Any] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from html import escape
 
@@ -21,7 +20,6 @@ from app.lecture.text import (
     parse,
 )
 from app.state.options.shared import Notation
-from app.ui.explaining.languages import LANGUAGES
 from app.web.lecture.mathml import VECTORS, displayed, inline
 from renderer.system.errors import visible
 
@@ -41,18 +39,8 @@ BEFORE_STOP = re.compile(r"(<math\b.*?</math>)([.,;:?!)]+)", re.DOTALL)
 
 
 def blocks_html(blocks: tuple[Block, ...], notation: Notation) -> str:
-    """Return a text as HTML. Neighbouring programs are one group."""
-    parts = []
-    for is_program, group in itertools.groupby(in_notation(blocks, notation), _is_program):
-        html = [_block(block) for block in group]
-        inside = "".join(html)
-        is_choice = is_program and len(html) > 1
-        parts.append(f'<div class="programs">{inside}</div>\n' if is_choice else inside)
-    return "".join(parts)
-
-
-def _is_program(block: Block) -> bool:
-    return isinstance(block, Code) and block.language in LANGUAGES
+    """Return a text as HTML."""
+    return "".join(map(_block, in_notation(blocks, notation)))
 
 
 def _block(block: Block) -> str:
@@ -68,9 +56,8 @@ def _block(block: Block) -> str:
             name = "ol" if block.numbered else "ul"
             items = "".join(f"<li>{_line(item)}</li>" for item in block.items)
             return f"<{name}>{items}</{name}>\n"
-        case Code(text=text, language=language):
-            of = f' data-language="{language}"' if language in LANGUAGES else ""
-            return f'<pre tabindex="0"{of}><code>{plain(text)}</code></pre>\n'
+        case Code(text=text):
+            return f'<pre tabindex="0"><code>{plain(text)}</code></pre>\n'
         case DisplayedFormula(latex=latex):
             return displayed(latex)
     raise AssertionError(block)

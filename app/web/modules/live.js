@@ -6,7 +6,7 @@ import { hooks } from "./hooks.js";
 
 /** @typedef {import("./figure.js").LiveFigure} LiveFigure */
 /** @typedef {Parameters<typeof figure>[1]} Content */
-/** @typedef {Omit<Content, "scene"> & {scene: number, lens: boolean, photograph: {src: string, opacity: number} | null}} StepFigure */
+/** @typedef {Omit<Content, "scene"> & {scene: number, photograph: {src: string, opacity: number} | null}} StepFigure */
 
 // What is shown without WebGL.
 const INSTEAD = /** @type {Record<string, Content["shows"]>} */ ({ raster: ["ray"], wipe: [], difference: [] });
@@ -48,23 +48,9 @@ export class LiveFigures {
     const options = { ...structuredClone(shown.options), onShift: (moved, where) =>
       place.dispatchEvent(new CustomEvent("shifted", { bubbles: true, detail: { scene: moved, place: where } })) };
     this.live = figure(place, { ...shown, shows, scene, options });
-    this.live.ready.then(() => {
-      fold(place, shown.lens);
-      if (shown.photograph) lay(place, shown.photograph);
-    });
+    this.live.ready.then(() => shown.photograph && lay(place, shown.photograph));
     Object.assign(window, { lucida: hooks(this.live) });
   }
-}
-
-/** Put a figure's controls under a heading that opens them; a lens that the step is about stays above. @param {HTMLElement} place @param {boolean} lens */
-function fold(place, lens) {
-  const controls = place.querySelector(".lucida-controls");
-  if (!controls) return;
-  const folded = element("details", {}, element("summary", {}, "Camera"));
-  controls.replaceWith(folded);
-  folded.append(controls);
-  for (const group of lens ? controls.querySelectorAll("fieldset") : [])
-    if (group.firstElementChild?.textContent?.startsWith("Lens")) folded.before(group);
 }
 
 /** Lay a photograph over a figure's image. @param {HTMLElement} place @param {{src: string, opacity: number}} photograph */

@@ -176,29 +176,6 @@ function bindAnswers(answers) {
   count();
 }
 
-/** Show programs in one language, if they are there in several. @param {Element} group */
-function bindLanguages(group) {
-  const programs = /** @type {HTMLElement[]} */ ([...group.querySelectorAll("pre")]);
-  const row = document.createElement("p");
-  row.className = "languages";
-  /** @param {number} chosen */
-  const choose = (chosen) => {
-    programs.forEach((program, number) => program.toggleAttribute("hidden", number !== chosen));
-    [...row.children].forEach((button, number) =>
-      button.setAttribute("aria-pressed", String(number === chosen)),
-    );
-  };
-  programs.forEach((program, number) => {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = program.dataset.language ?? "";
-    button.addEventListener("click", () => choose(number));
-    row.append(button);
-  });
-  group.prepend(row);
-  choose(0);
-}
-
 /** Start the lecture. */
 export function start() {
   const data = JSON.parse(byId("lucida-data", HTMLElement).textContent ?? "{}");
@@ -213,7 +190,6 @@ export function start() {
     if (exercise) attach(form, exercise, answers);
   }
   bindAnswers(answers);
-  document.querySelectorAll(".programs").forEach(bindLanguages);
   /** @type {Record<string, () => void>} */
   const clicks = {
     previous: () => slides.advance(-1),

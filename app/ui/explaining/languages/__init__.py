@@ -3,9 +3,3 @@
 Programs are written once, in Python, and julia.py translates them, so that they cannot diverge.
 Only the Python of this project's own programs is translated: numbers, vectors of three, loops.
 """
-
-from __future__ import annotations
-
-from app.state.options.shared import Language
-
-LANGUAGES: dict[Language, str] = {"python": "Python", "julia": "Julia"}

@@ -1,0 +1,160 @@
+"""The text and the exercise of a step: in a column, or over a picture that fills the window."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+from imgui_bundle import ImVec2, imgui
+
+from app.instruments.outside.growing import stage_at, stages_of
+from app.lecture.answer_log import AnswerLog
+from app.lecture.answer_note import note
+from app.lecture.exercise import exercise
+from app.lecture.exercises import ChoiceExercise
+from app.lecture.foot import foot_height
+from app.lecture.hiding import HideExercise
+from app.lecture.inheriting import changed_view
+from app.lecture.model import Exercise, Step
+from app.lecture.session import LectureSession
+from app.lecture.slide import TITLE, Slides
+from app.lecture.watching_hidden import HiddenWatch
+from app.state.kept_lecture import Answers
+from app.ui import layout, theme
+from app.ui.lettering import lettering
+from app.ui.messages import wrapped
+from app.ui.view import Host
+from renderer.system.errors import LucidaError
+
+CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
+FADE_S = 0.5  # of a text that is added
+MOST_OVER = 0.15  # of the window's height, for a text over a picture
+
+
+class Column:
+    """Draws texts and exercises.
+
+    log: keeps what is answered, if the user asked for it.
+    answered: something was answered, or a build was reached, since this was last set to False.
+    """
+
+    def __init__(self, host: Host, log: AnswerLog | None) -> None:
+        self.log, self.answered = log, False
+        self.hidden_watch = HiddenWatch(host.animate)
+        self._slides = Slides(host.fonts)
+        self._to_top = False  # a step's text is read from its beginning
+        self._seek = False  # the text is scrolled to what was just added
+        self._added_s: float | None = None  # when that was, while it fades in
+        self._fitted: tuple[object, ...] = ()  # what the size of the text follows from
+
+    @property
+    def busy(self) -> bool:
+        """True while a text fades in, or the reply to an exercise is still to come."""
+        return self.hidden_watch.busy or self._added_s is not None
+
+    def begin_step(self) -> None:
+        """Show the text from its beginning."""
+        self._to_top = True
+
+    def begin_build(self, fades: bool) -> None:
+        """Show the end of the text. fades: it has grown."""
+        self.answered = self._seek = True
+        self._added_s = time.monotonic() if fades else None
+
+    def draw(self, host: Host, session: LectureSession) -> None:
+        """Draw the text, which is scrolled if it is longer than the column."""
+        imgui.text_colored(theme.DIM, session.step.part or session.lecture.title)
+        with lettering(host.fonts.bold, TITLE):
+            wrapped(session.step.title)
+        imgui.dummy(ImVec2(0, 0.25 * imgui.get_font_size()))
+        if session.error:
+            wrapped(session.error, theme.ERROR)
+        if self.log is not None and note(self.log, session.step.exercise is not None):
+            self.log = None
+        room = ImVec2(0, -foot_height())
+        if imgui.begin_child("step", room, imgui.ChildFlags_.nav_flattened):
+            if self._to_top:
+                imgui.set_scroll_y(0.0)
+                self._to_top = False
+            self._body(host, session, imgui.get_content_region_avail().y)
+        imgui.end_child()
+
+    def draw_over(self, host: Host, session: LectureSession) -> None:
+        """Draw the text over a picture."""
+        self._body(host, session, MOST_OVER * layout.window_px()[1])
+        if session.error:
+            wrapped(session.error, theme.ERROR)
+
+    def _body(self, host: Host, session: LectureSession, height: float) -> None:
+        """Draw the text and the exercise. height: the room for the longest text of the step."""
+        step, options = session.step, host.state.options
+        blocks, width = step.blocks, imgui.get_content_region_avail().x
+        stages = stages_of(host.renderers.camera(host.state))
+        formula = options.outside.formula
+        self._slides.notation = options.notation
+        self._slides.lit = "" if formula is None else stage_at(formula, stages)
+        self._fit(session, ImVec2(width, height))
+        alpha = self._alpha(host)  # also without a text, so that the fading ends
+        if blocks:
+            self._slides.text(blocks, width, before=step.before, alpha=alpha)
+        if self._seek:
+            imgui.set_scroll_here_y(1.0)
+            self._seek = False
+        if step.exercise is not None:
+            if blocks:
+                imgui.dummy(ImVec2(0, 0.5 * imgui.get_font_size()))
+            self._exercise(host, session, step.exercise)
+
+    def _exercise(self, host: Host, session: LectureSession, task: Exercise) -> None:
+        answers, said = session.answers, None
+        before = replace(answers, texts=dict(answers.texts))
+        if isinstance(task, HideExercise):
+            said = self.hidden_watch.judgement(host, task)
+        if exercise(task, answers, self._slides, host.fonts, said):
+            _solve(host, task)
+        if answers.chosen != before.chosen:
+            _show_chosen(host, session.step, answers)
+        self.answered = self.answered or answers != before
+        if self.log is not None and answers.verdict != before.verdict:
+            self.log.exercise(session.lecture, session.step, answers)
+        if self.log is not None and said is not None:
+            self.log.hidden(session.lecture, session.step, said, answers.solved)
+
+    def _fit(self, session: LectureSession, room: ImVec2) -> None:
+        """Make the text as large as all builds of the step allow; an exercise needs its room."""
+        builds = [one for one in session.lecture.builds if one.number == session.number]
+        fitted = *builds, room, theme.used(), self._slides.notation
+        if fitted == self._fitted:
+            return
+        self._fitted = fitted
+        texts = [one.blocks for one in builds]
+        is_asked = any(one.exercise is not None for one in builds)
+        self._slides.fit(texts, room.x, 0.0 if is_asked else room.y)
+
+    def _alpha(self, host: Host) -> float:
+        """Return the opacity of the text that was just added."""
+        if self._added_s is None:
+            return 1.0
+        alpha = (time.monotonic() - self._added_s) / FADE_S
+        if alpha >= 1 or not host.moves or host.state.preferences.reduced_motion:
+            self._added_s = None
+            return 1.0
+        host.animate()
+        return alpha
+
+
+def _solve(host: Host, task: Exercise) -> None:
+    """Put the object of a hiding exercise where it hides the other one."""
+    assert isinstance(task, HideExercise)
+    try:
+        host.change(replace(host.state, scene=task.solved(host.state.scene)))
+    except LucidaError as error:  # it was deleted
+        host.files.message = str(error)
+
+
+def _show_chosen(host: Host, step: Step, answers: Answers) -> None:
+    """Move the camera as the chosen answer says."""
+    assert isinstance(step.exercise, ChoiceExercise) and answers.chosen is not None
+    changes = step.exercise.options[answers.chosen].camera
+    if changes is not None:
+        host.move(host.state.with_view(changed_view(step.view, changes)), CHOSEN_S)
