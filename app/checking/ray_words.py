@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.checking.conventions import PAIRS, Conventions
 from app.checking.mistakes.rays import EDGES, GRID, SIZES, WORDS, RayTask, has_corners
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 LETTERS = {"row": "i", "column": "j"}  # names in the table
 

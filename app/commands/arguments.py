@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from app.cameras.options import with_camera_options
 from app.commands.given_camera import say_changes, viewed
-from renderer.images.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
+from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:

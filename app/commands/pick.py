@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from app.cameras.options import add_camera_options
 from app.commands import arguments as common
 from app.commands.given_camera import add_view_option
-from renderer.images.pixels import Pixel
+from renderer.camera.pixels import Pixel
 from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:

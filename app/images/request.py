@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from renderer.camera.camera import Camera
+from renderer.camera.pixels import ENLARGEMENT
 from renderer.editing.documents import are_versions
-from renderer.images.pixels import ENLARGEMENT
 from renderer.scene.model import Scene
 
 MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown

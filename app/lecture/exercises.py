@@ -20,8 +20,8 @@ from app.state.kept_lecture import Judgement
 from app.ui.explaining import symbols
 from app.ui.explaining.arithmetic import text_of, vector, vector_text
 from renderer.camera.camera import Camera, Floats, Ray
+from renderer.camera.pixels import Indexing
 from renderer.files.schema import Numbers3, StrictTable
-from renderer.images.pixels import Indexing
 from renderer.system.errors import LucidaError
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits

@@ -28,6 +28,7 @@ from app.lecture.written import formulas_written, texts_of
 from app.state.options import Options
 from app.state.options.shared import Notation
 from app.state.removed import without_removed, without_removed_views
+from renderer.camera.pixels import Indexing
 from renderer.files.load import BUILTIN_SCENES, load_scene
 from renderer.files.outside import check_inside, kept_inside
 from renderer.files.places import Places, located
@@ -35,7 +36,6 @@ from renderer.files.reading import decode_text, read_file, suggestion
 from renderer.files.scene_file import scene_from_tables
 from renderer.files.tables import parse_toml, to_struct
 from renderer.files.views import load_view, view_from_table
-from renderer.images.pixels import Indexing
 from renderer.scene.limits import TOML_BYTES, TRIANGLES
 from renderer.scene.model import Mesh, Scene, View
 from renderer.system.errors import LucidaError, not_together, under

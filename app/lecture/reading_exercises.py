@@ -9,10 +9,10 @@ from app.lecture.hiding import HideExercise
 from app.lecture.inheriting import changed_view
 from app.lecture.model import Exercise
 from app.lecture.schema import AnyExercise, HideTable, RayTable
+from renderer.camera.pixels import Indexing
 from renderer.files.tables import to_struct
 from renderer.files.views import view_from_table
 from renderer.images.frame import check_size
-from renderer.images.pixels import Indexing
 from renderer.scene.model import Scene, View
 from renderer.system.errors import LucidaError, under
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from latex2mathml.converter import convert
 
 from app.instruments.probe.lens_formulas import ANGLES, PANORAMAS
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 _ACROSS = r"u\,\mathbf{u} + v\,\mathbf{v}"
 RAY = {

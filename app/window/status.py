@@ -12,7 +12,7 @@ from imgui_bundle import ImVec2, imgui
 from app.images.agreement import Verdict
 from app.ui import theme
 from app.ui.lettering import fitting_words
-from renderer.images.pixels import Indexing, Pixel
+from renderer.camera.pixels import Indexing, Pixel
 from renderer.system.errors import describe
 
 VERDICTS = "agree", "disagree"  # what begins so is about both images

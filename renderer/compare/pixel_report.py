@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from renderer.camera.camera import Camera
+from renderer.camera.pixels import Indexing, Pixel
 from renderer.images import to_srgb8
 from renderer.images.frame import Frame
-from renderer.images.pixels import Indexing, Pixel
 from renderer.scene.model import Scene
 from renderer.system.errors import one_line
 

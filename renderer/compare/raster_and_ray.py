@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera.camera import Camera
+from renderer.camera.pixels import ENLARGEMENT, Indexing, Pixel
 from renderer.compare.why_black import hits_nothing, why_nothing_is_hit
 from renderer.compare.why_different import CAUSES, DEPTH_RELATIVE, NORMAL, Differing, explained
 from renderer.images.difference import (
@@ -30,7 +31,6 @@ from renderer.images.difference import (
 )
 from renderer.images.display import encode_srgb
 from renderer.images.frame import CHANNELS, Frame
-from renderer.images.pixels import ENLARGEMENT, Indexing, Pixel
 from renderer.images.shared_numbers import MUTED, SRGB_SLOPE
 from renderer.scene.flat import FlatScene, flatten
 from renderer.scene.model import Scene

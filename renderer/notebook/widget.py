@@ -21,13 +21,13 @@ from PIL import Image
 
 from renderer.camera import navigation
 from renderer.camera.camera import Camera, Size, Vector, check_camera
+from renderer.camera.pixels import Indexing, Pixel
 from renderer.compare.pixel_report import as_rows, picked
 from renderer.files import load_scene
 from renderer.files.views import view_from_table, view_table
 from renderer.images import picture
 from renderer.images.coarseness import Coarseness, reduced
 from renderer.images.frame import CHANNELS, Frame, check_size
-from renderer.images.pixels import Indexing, Pixel
 from renderer.images.png import write_png
 from renderer.notebook.sliders import sliders_of, target_of, with_number
 from renderer.scene import Scene

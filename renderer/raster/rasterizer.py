@@ -17,8 +17,8 @@ from typing import Any
 import moderngl
 
 from renderer.camera.camera import Camera, check_camera
+from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS
 from renderer.images.frame import Frame, check_channels, check_size
-from renderer.images.pixels import ENLARGEMENT, ENLARGEMENTS
 from renderer.images.samples import Progress, check_samples, supersampled
 from renderer.raster.contexts import check_process, is_inherited, open_platform
 from renderer.raster.lens_passes import draw_passes

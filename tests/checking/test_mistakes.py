@@ -23,7 +23,7 @@ from app.checking.mistakes.rays import (
 )
 from app.checking.mistakes.value_programs import value_program
 from renderer.camera.camera import Camera
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 PROJECTIONS = ("perspective", "parallel")
 BASIS = value_program("basis")

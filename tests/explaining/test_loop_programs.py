@@ -18,8 +18,8 @@ from app.lecture.step_options import state_of
 from app.state.app_state import AppState
 from app.ui.explaining.languages import julia
 from app.ui.explaining.symbols import TABLE
+from renderer.camera.pixels import Indexing
 from renderer.files import load_scene
-from renderer.images.pixels import Indexing
 
 # The stepper's loops.
 

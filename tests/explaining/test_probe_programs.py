@@ -23,8 +23,8 @@ from app.state.options.shared import Notation
 from app.ui.explaining.languages import julia
 from app.ui.explaining.symbols import TABLE
 from renderer.camera.lenses import Lens
+from renderer.camera.pixels import Indexing
 from renderer.files import load_scene
-from renderer.images.pixels import Indexing
 
 SIZE = (64, 48)
 LENSES = (

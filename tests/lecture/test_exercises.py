@@ -22,7 +22,7 @@ from app.lecture.exercises import (
 )
 from app.ui.explaining.arithmetic import number, text_of, vector, vector_text
 from renderer.camera.camera import Camera, Ray
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.system.errors import LucidaError
 
 

@@ -37,8 +37,8 @@ from app.state.options.outside import OutsideOptions
 from app.state.options.shared import Notation
 from app.ui.explaining import symbols
 from app.ui.explaining.symbols import TABLE
+from renderer.camera.pixels import Indexing
 from renderer.files import load_scene
-from renderer.images.pixels import Indexing
 
 LECTURE = both_lectures()
 STEPS = LECTURE.builds

@@ -15,8 +15,8 @@ from app.instruments.mistakes import model
 from app.instruments.mistakes.model import Situation
 from app.state.app_state import AppState
 from app.ui.picture_grid import columns_for
+from renderer.camera.pixels import Indexing
 from renderer.files import load_scene
-from renderer.images.pixels import Indexing
 from renderer.trace import Tracer
 
 SIZE = (80, 60)

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from renderer.images.pixels import Pixel
+from renderer.camera.pixels import Pixel
 from renderer.notebook import explore
 
 pytest.importorskip("anywidget")

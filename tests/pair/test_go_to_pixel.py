@@ -3,7 +3,7 @@
 import pytest
 
 from app.images.pair.boxes import parsed_pixel
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.system.errors import LucidaError
 
 SIZE = (8, 6)

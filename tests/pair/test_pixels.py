@@ -11,7 +11,7 @@ from app.cli import main
 from app.images.pair.actions import COUNTING
 from app.state.options import Options
 from app.window.action_table import ACTIONS
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 PIXEL = (0, 11)
 

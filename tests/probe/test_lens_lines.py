@@ -13,7 +13,7 @@ from app.instruments.probe.model import Probe
 from app.instruments.probe.reading import OUTSIDE
 from renderer.camera.camera import Camera
 from renderer.camera.lenses import Lens
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 PIXEL = (19, 37)
 CAMERA = Camera(distance=1.3, viewport=(-0.8, 0.8, -0.6, 0.6), u=(1.0, 0.2, 0.0))

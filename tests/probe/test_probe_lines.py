@@ -27,7 +27,7 @@ from app.lecture.typesetting import mistake
 from app.ui import formula
 from app.ui.explaining.languages import julia
 from renderer.camera.camera import Camera
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.scene.model import (
     DirectionalLight,
     Mesh,

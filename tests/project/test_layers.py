@@ -18,7 +18,7 @@ SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 # those that are only for types.
 LAYERS = (
     ("renderer.system",),
-    ("renderer.camera.checks", "renderer.images"),
+    ("renderer.camera.checks", "renderer.camera.pixels", "renderer.images"),
     ("renderer.camera", "renderer.images.samples"),
     ("renderer.scene",),
     ("renderer.files",),

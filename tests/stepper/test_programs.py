@@ -26,8 +26,8 @@ from app.instruments.stepper.programs import (
 from app.instruments.stepper.source import shown_lines
 from app.ui.explaining.languages import julia
 from renderer.camera.camera import Camera
+from renderer.camera.pixels import Indexing
 from renderer.files import load_scene
-from renderer.images.pixels import Indexing
 from renderer.scene.model import Scene
 
 SIZE = (8, 6)

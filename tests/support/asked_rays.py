@@ -11,7 +11,7 @@ import numpy as np
 from app.checking.mistakes.ray_trial import RayCase
 from app.checking.mistakes.rays import WORDS, RayTask
 from renderer.camera.camera import Camera
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 KINDS = ("orthonormal", "off-axis", "skewed", "left-handed")
 PIXEL = {"i", "j", "width", "height"}

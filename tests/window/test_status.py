@@ -14,7 +14,7 @@ from app.window.status import (
     right_texts,
     time_texts,
 )
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spheres")
 

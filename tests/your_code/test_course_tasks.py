@@ -31,7 +31,7 @@ from app.checking.your_code.model import (
 from app.checking.your_code.report import CodeQuestion, CodeReport
 from app.checking.your_code.words import told_of, verdict_of
 from renderer.camera.camera import Camera
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.system.errors import LucidaError
 
 SIZE = (8, 6)

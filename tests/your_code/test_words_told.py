@@ -16,7 +16,7 @@ from app.checking.your_code.model import RAY, cases_for, rays_of
 from app.checking.your_code.report import CodeQuestion, CodeReport
 from app.checking.your_code.words import told_of, verdict_of
 from renderer.camera.camera import Camera
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 SIZE = (4, 3)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)

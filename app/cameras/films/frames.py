@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from renderer.camera.camera import Camera, Size
+from renderer.camera.pixels import ENLARGEMENT
 from renderer.images import encode_image, picture
 from renderer.images.frame import Frame
-from renderer.images.pixels import ENLARGEMENT
 from renderer.images.png import png_of
 from renderer.scene.model import Scene
 

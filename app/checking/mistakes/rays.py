@@ -23,7 +23,7 @@ from app.checking.conventions import camera_words, pixel_words
 from app.checking.mistakes.catalogue import Part, part, part_from_angles
 from app.checking.mistakes.program import Mistake, Program
 from renderer.camera.camera import Camera, Size
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 Floats = NDArray[np.float64]
 

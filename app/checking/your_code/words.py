@@ -16,7 +16,7 @@ from app.checking.tasks import CheckTask
 from app.checking.your_code.model import BASIS, CodeRays
 from app.checking.your_code.report import CodeReport
 from app.state.options.shared import Pixel
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.system.errors import visible
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]

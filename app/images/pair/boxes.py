@@ -14,7 +14,7 @@ from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.asking import TYPED, begin_box
 from renderer.camera.camera import Size
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.system.errors import LucidaError
 
 T = TypeVar("T")

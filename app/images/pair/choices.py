@@ -20,7 +20,7 @@ from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
 from app.ui.action import ALT, Action, Key, changing
-from renderer.images.pixels import ENLARGEMENTS
+from renderer.camera.pixels import ENLARGEMENTS
 
 Change = Callable[[AppState], AppState]
 

@@ -19,8 +19,8 @@ from app.state.app_state import AppState
 from app.state.options.shared import Pixel
 from app.ui.explaining.breaking import broken
 from renderer.camera.camera import Camera, Floats, Size
+from renderer.camera.pixels import Indexing
 from renderer.images import to_srgb8
-from renderer.images.pixels import Indexing
 
 Light = NDArray[np.float32]
 Bytes = NDArray[np.uint8]

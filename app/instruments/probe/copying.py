@@ -12,7 +12,7 @@ from app.state.options.shared import Notation
 from app.ui.explaining.languages import julia
 from app.ui.explaining.notation import Line, number
 from app.ui.explaining.symbols import in_notation, program
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 from renderer.images.shared_numbers import (
     SRGB_GAMMA,
     SRGB_LINEAR,

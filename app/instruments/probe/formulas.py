@@ -24,7 +24,7 @@ from app.ui.explaining.notation import (
 )
 from app.ui.explaining.shading import SurfaceHit
 from renderer.camera.camera import Camera
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
 LEAST_COSINE = (

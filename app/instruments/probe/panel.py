@@ -27,8 +27,8 @@ from app.ui.messages import wrapped
 from app.ui.rows import button_width, follow, tip
 from app.ui.theme import Fonts
 from renderer.camera.camera import Size
+from renderer.camera.pixels import Indexing
 from renderer.images.display import encode_srgb
-from renderer.images.pixels import Indexing
 from renderer.scene.model import Color
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column

@@ -19,7 +19,7 @@ from app.ui.explaining.languages import julia
 from app.ui.lettering import lettering
 from app.ui.theme import Fonts
 from renderer.camera.camera import Size
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 GAP_EM = 0.9
 MOST_CODE = 0.68  # of the width or height

@@ -11,7 +11,7 @@ from app.ui.explaining import symbols
 from app.ui.lettering import underline
 from app.ui.rows import follow
 from app.ui.theme import Fonts
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 

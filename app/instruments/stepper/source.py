@@ -13,7 +13,7 @@ from typing import Any
 
 from app.state.options.shared import Notation
 from app.ui.explaining import symbols
-from renderer.images.pixels import Indexing
+from renderer.camera.pixels import Indexing
 
 _COMMENT = re.compile(r"(?P<code>[^#\n]+)(?P<comment>(?:#.*)?)")
 # Python that counts pixels from 0, and the same from 1; its arrays count from 0 in any case.

@@ -11,8 +11,8 @@ from typing import Annotated, Literal
 
 from app.state.bounds import Accepted, AtMost, OneOf, Range
 from renderer.camera.intrinsics import PixelOrigin
+from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from renderer.images.frame import LARGEST_SIDE, check_size
-from renderer.images.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from renderer.scene.model import View
 
 Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]

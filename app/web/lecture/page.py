@@ -21,9 +21,9 @@ from app.web.lecture.figures import Figures, is_live
 from app.web.lecture.pictures import Form, data_uri, drawing
 from app.web.lecture.shell import BAR, DIALOGS, overview
 from app.web.lecture.text import blocks_html, plain
+from renderer.camera.pixels import Indexing
 from renderer.files.views import view_table
 from renderer.images.display import Bytes
-from renderer.images.pixels import Indexing
 
 
 @dataclass(frozen=True, eq=False)
