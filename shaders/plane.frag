@@ -7,8 +7,7 @@
 uniform sampler2D picture;    // as shown, row 0 at the top
 uniform float opacity;        // of the picture
 uniform float picture_light;  // of the picture: its back is darker
-
-const int TAPS = 4;  // points that are taken of the picture, a side of a pixel
+uniform int taps;             // points that are taken of the picture, a side of a pixel
 
 in vec2 position;
 
@@ -34,8 +33,8 @@ void main() {
     ivec2 last = textureSize(picture, 0) - 1;
     vec3 shown = vec3(0.0);
     float covered = 0.0;
-    for (int k = 0; k < TAPS * TAPS; ++k) {
-        vec2 within = (vec2(k % TAPS, k / TAPS) + 0.5) / float(TAPS);
+    for (int k = 0; k < taps * taps; ++k) {
+        vec2 within = (vec2(k % taps, k / taps) + 0.5) / float(taps);
         vec4 at = plane_under(floor(position) + within);
         if (at.w > 0.0 && is_in_picture(at) && (perspective > 0.5 ? at.w * t > 1.0 : at.w < t)) {
             ivec2 source = clamp(ivec2(at.xy / at.z * vec2(last + 1)), ivec2(0), last);
@@ -46,5 +45,5 @@ void main() {
     if (covered == 0.0) {
         discard;
     }
-    color = vec4(picture_light * shown / covered, opacity * covered / float(TAPS * TAPS));
+    color = vec4(picture_light * shown / covered, opacity * covered / float(taps * taps));
 }

@@ -172,6 +172,7 @@ class Overlay:
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
         cloud: CloudPicture | None = None,
+        taps: int = 4,
     ) -> moderngl.Texture:
         """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
@@ -179,7 +180,8 @@ class Overlay:
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
-        if unknown. cloud: of this size, by the same camera; below the layers.
+        if unknown. cloud: of this size, by the same camera; below the layers. taps: points of the
+        placed picture for each pixel, along a side.
         """
         gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)
@@ -206,7 +208,7 @@ class Overlay:
                 if plane is not None and picture is not None:
                     picture.use(2)
                     light = 1.0 if plane.is_front else BACK_LIGHT
-                    values = {"opacity": opacity, "picture_light": light}
+                    values = {"opacity": opacity, "picture_light": light, "taps": taps}
                     set_uniforms(self._place.program, **shared, picture=2, **values)
                     gl.blend_func = BLENDING
                     self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
