@@ -1,7 +1,7 @@
 """The user's options apart from scene and camera, as far as all instruments share them.
 
 Small immutable values with their bounds (bounds.py): panels, sessions and lectures take these from
-the fields. Each instrument's own are in its room; all_options.py puts them together.
+the fields. Each instrument's own are in a module next to this one; Options has them all.
 """
 
 from __future__ import annotations
