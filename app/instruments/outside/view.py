@@ -65,7 +65,7 @@ TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
-TAPS, MOVING_TAPS = 4, 2  # points of the picture on the image plane for each pixel, along a side
+TAPS, MOVING_TAPS = 4, 1  # points of the picture on the image plane for each pixel, along a side
 
 
 class OutsideView(DockedView):
