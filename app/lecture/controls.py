@@ -1,4 +1,4 @@
-"""What appears while the mouse moves, and a step's number that is typed."""
+"""The controls that appear while the mouse moves, and the typed number of a step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an instrument gives the window: its views, its actions, words for both.
+"""The contribution of an instrument to the window: its views, its actions, words for both.
 
 An instrument's instrument.py has one such value, INSTRUMENT; app/window/instruments.py lists them.
 """

@@ -1,1 +1,1 @@
-"""What everything stands on: errors, atomic writing, child processes, memos."""
+"""The lowest layer: errors, atomic writing, child processes, memos."""

@@ -157,7 +157,8 @@ class PosesView(DockedView):
         options = state.options.poses
         chosen = self.chosen(state)
         wish, changed = panel.head(poses, options, host.fonts)
-        host.apply(state.with_options(changed))
+        if changed != options:
+            host.apply(state.with_options(changed))
         shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
         panel.found(poses)

@@ -7,7 +7,7 @@ Each field has its bounds (app/state/bounds.py). Session and lecture files name 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, is_dataclass, replace
 from typing import Any
 
 from app.state.options.compare import CompareOptions
@@ -80,4 +80,4 @@ class Options(SharedOptions):
         return options
 
 
-_NAMES = {type(getattr(Options(), entry.name)): entry.name for entry in fields(Options)}
+_NAMES = {type(part): name for name, part in vars(Options()).items() if is_dataclass(part)}
