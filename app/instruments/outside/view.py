@@ -305,10 +305,11 @@ class OutsideView(DockedView):
         content = self.content(host, screen)
         if options.half_line and self._over:
             content = replace(content, pointed=_pointed(content, scope))
+        moves = self._scopes.moves or ground.factor > 1
         key = (
             content, ground, screen.near, units_px(scope.extent),
             live and live.number, state.images, theme.used(), extensions.items,
-            extensions.cloud, extensions.picture, self._scopes.moves,
+            extensions.cloud, extensions.picture, moves,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return self._made
@@ -323,7 +324,7 @@ class OutsideView(DockedView):
         texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
             exposure_ev, options.image_opacity, screen.unit_px, ground.mean, CASING, ground,
-            self.tools.layer.picture(extensions.cloud, screen, _ground(state)), self._scopes.moves,
+            self.tools.layer.picture(extensions.cloud, screen, _ground(state)), moves=moves,
         )  # fmt: skip
         return MadePicture(key, texture, primitives, labels)
 
