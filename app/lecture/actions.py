@@ -9,18 +9,19 @@ from imgui_bundle import imgui
 
 from app.lecture.reading import BUILTINS, load_lecture
 from app.lecture.view import LectureView
-from app.ui.action import Action, Key, Window
+from app.ui.action import Action, Key
+from app.ui.host import Host
 
 
-def _given(window: Window) -> bool:
+def _given(window: Host) -> bool:
     return window.view(LectureView).is_given
 
 
-def _restorable(window: Window) -> bool:
+def _restorable(window: Host) -> bool:
     return _given(window) and not imgui.get_io().want_text_input
 
 
-def _begin(path: Path, window: Window) -> None:
+def _begin(path: Path, window: Host) -> None:
     window.view(LectureView).give(load_lecture(path), path)
 
 

@@ -11,8 +11,9 @@ from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options.shared import Notation, Preferences, Theme
 from app.ui import layout
-from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import ALT, CTRL, SHIFT, Action, Key, changing
 from app.ui.explaining import symbols
+from app.ui.host import Host
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
@@ -92,7 +93,7 @@ PICTURES = (
 def _picture(name: str, view: bool, copy: bool | None, keys: str, modifiers: int) -> Action:
     """Return the action. copy: to the clipboard; None: into a file that the user names."""
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         if copy is None:
             window.shell.picture_as(view)
         else:
@@ -157,7 +158,7 @@ LOOK = (
     Action(
         "View",
         "Maximise the view",
-        lambda w: w.shell.stage.maximise(),
+        lambda w: w.shell.maximise(),
         "Ctrl+M",
         (CTRL | int(Key.m),),
     ),
@@ -202,7 +203,7 @@ LOOK = (
     Action(
         "View",
         "Next view",
-        lambda w: w.shell.stage.focus_next(1),
+        lambda w: w.shell.focus_next(1),
         "F3",
         (int(Key.f3),),
         separated=True,
@@ -210,7 +211,7 @@ LOOK = (
     Action(
         "View",
         "Previous view",
-        lambda w: w.shell.stage.focus_next(-1),
+        lambda w: w.shell.focus_next(-1),
         "Shift+F3",
         (SHIFT | int(Key.f3),),
     ),
@@ -237,6 +238,6 @@ HELP = (
         lambda w: w.retry(),
         "F4",
         (int(Key.f4),),
-        can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failed.errors),
+        can=lambda w: w.renderers.failure is not None or w.shell.has_failed,
     ),
 )

@@ -12,7 +12,7 @@ from typing import Literal
 
 from app.instruments.objects.editing import with_scene
 from app.state.app_state import AppState
-from app.ui.view import Host
+from app.ui.host import Host
 from app.window.opening import Opened
 from renderer.editing.objects import add, model_table
 from renderer.files import SCENE_NAMES

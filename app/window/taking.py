@@ -14,7 +14,7 @@ from app.images.photograph.model import with_photograph
 from app.instruments.poses.model import PoseSet
 from app.instruments.poses.view import PosesView
 from app.lecture.view import LectureView
-from app.ui.action import Window
+from app.ui.host import Host
 from app.window import dropping
 from app.window.opening import Opened
 from renderer.editing.documents import are_versions, is_unsaved
@@ -25,7 +25,7 @@ from renderer.system.errors import one_line
 READ_AGAIN = "Read it again"
 
 
-class Taker(Window, Protocol):
+class Taker(Host, Protocol):
     """The window as it takes what was opened."""
 
     def open_code(self, path: str) -> None: ...

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from option_changes import with_options
 
 from app.lecture import schema
 from app.state.app_state import AppState
@@ -101,10 +100,11 @@ def test_the_words_of_other_programs_find_what_is_meant(query, wanted):
 
 def test_pages_are_options_of_their_instruments():
     state = AppState.for_scene(load_scene("still-life"))
-    for room, instrument in INSTRUMENTS.items():
-        for name, options in instrument.pages.items():
-            changed = getattr(with_options(state, **{room: options}).options, room)
-            assert options.items() <= vars(changed).items(), name
+    for instrument in INSTRUMENTS:
+        for name, changes in instrument.pages.items():
+            changed = state.options.with_changes(changes)
+            for part, options in changes.items():
+                assert options.items() <= vars(getattr(changed, part)).items(), name
 
 
 def test_whole_words_stand_before_letters_that_lie_apart():

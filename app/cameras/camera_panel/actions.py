@@ -19,7 +19,7 @@ from app.cameras.reader import read_copied
 from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from app.state.app_state import AppState, is_orthonormal
 from app.ui.action import CTRL, SHIFT, Action, Key, changing
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Camera, Size
 from renderer.camera.navigation import switched_projection
 from renderer.scene.model import View

@@ -7,19 +7,20 @@ from collections.abc import Callable
 from app.images.compare import comparing
 from app.state.app_state import AppState
 from app.state.options.compare import CompareMode
-from app.ui.action import SHIFT, Action, Key, Window, changing
+from app.ui.action import SHIFT, Action, Key, changing
+from app.ui.host import Host
 from renderer.compare.raster_and_ray import Comparison
 
 MENU, STEP = "View/Compare", comparing.DIVIDER_STEP
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
 
 
-def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
+def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Host], None]:
     """Return a change that depends on where the images differ; it does nothing until that is
     known.
     """
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         verdict = window.renderers.verdict(window.state)
         if verdict is not None:
             window.change(change(window.state, verdict.comparison))
@@ -27,17 +28,17 @@ def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[
     return run
 
 
-def _differ(window: Window) -> bool:
+def _differ(window: Host) -> bool:
     verdict = window.renderers.verdict(window.state)
     return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
 
 
-def _shown(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+def _shown(change: Callable[[AppState], AppState]) -> Callable[[Host], None]:
     """Return a change that also brings the view to the front."""
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         window.change(change(window.state))
-        window.shell.stage.show("Compare")
+        window.show("Compare")
 
     return run
 
@@ -69,20 +70,20 @@ def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Ac
 
 def _keyed(
     name: str,
-    run: Callable[[Window], None],
+    run: Callable[[Host], None],
     shown: str,
     key: Key,
-    can: Callable[[Window], bool] | None = None,
+    can: Callable[[Host], bool] | None = None,
 ) -> Action:
     keys = int(key) | (SHIFT if shown.startswith("Shift+") else 0)
     return Action(MENU, name, run, shown, (keys,), can=can)
 
 
-def _gain(factor: float) -> Callable[[Window], None]:
+def _gain(factor: float) -> Callable[[Host], None]:
     return changing(lambda state: comparing.with_gain(state, state.options.compare.gain * factor))
 
 
-def _divider(step: float) -> Callable[[Window], None]:
+def _divider(step: float) -> Callable[[Host], None]:
     return changing(
         lambda state: comparing.with_divider(state, state.options.compare.divider + step)
     )

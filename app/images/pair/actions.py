@@ -13,14 +13,15 @@ from app.images.pair import choices
 from app.images.pair.choices import Choice, alt, has, toggling
 from app.images.placement import step_from
 from app.state.app_state import AppState
-from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import ALT, CTRL, SHIFT, Action, Key, changing
+from app.ui.host import Host
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
 COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"
 
 
-def _step(steps: int) -> Callable[[Window], None]:
-    def run(window: Window) -> None:
+def _step(steps: int) -> Callable[[Host], None]:
+    def run(window: Host) -> None:
         state = window.state
         placement = window.renderers.placement(state)
         if placement is not None:
@@ -57,7 +58,7 @@ def _lens(choice: Choice) -> Action:
     return replace(choice.action(LENS), can=has_lens)
 
 
-def has_lens(window: Window) -> bool:
+def has_lens(window: Host) -> bool:
     return window.state.camera.lens is not None
 
 

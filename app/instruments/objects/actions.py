@@ -7,7 +7,8 @@ from collections.abc import Callable
 from app.instruments.objects import editing
 from app.instruments.objects.choosing import chosen, everything, walked
 from app.state.app_state import AppState
-from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import CTRL, SHIFT, Action, Key, changing
+from app.ui.host import Host
 from renderer.editing import objects
 from renderer.scene.focus import Focus
 from renderer.system.errors import LucidaError
@@ -38,10 +39,10 @@ def _toggle(
     return Action(menu, name, changing(toggled), keys, chords, is_on=is_on, separated=separated)
 
 
-def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window], None]:
+def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Host], None]:
     """Return a function that runs an edit as an undo step, or reports why it is impossible."""
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         try:
             window.change(change(window.state, window.focus))
         except LucidaError as error:
@@ -50,11 +51,11 @@ def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window]
     return run
 
 
-def _has_chosen(window: Window) -> bool:
+def _has_chosen(window: Host) -> bool:
     return bool(chosen(window.state))
 
 
-def _walking(step: int) -> Callable[[Window], None]:
+def _walking(step: int) -> Callable[[Host], None]:
     return lambda window: window.amend(walked(window.state, step))
 
 

@@ -22,7 +22,8 @@ from app.instruments.outside.switches import (
 from app.instruments.outside.view import OutsideView
 from app.state.app_state import AppState
 from app.state.options.outside import OutsideOptions
-from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import CTRL, SHIFT, Action, Key, changing
+from app.ui.host import Host
 from renderer.camera.camera import Camera
 from renderer.camera.navigation import switched_projection
 from renderer.system.errors import LucidaError
@@ -41,7 +42,7 @@ def _keys(name: str) -> tuple[str, tuple[int, ...]]:
     return shown, () if key is None else (int(key),)
 
 
-def _looking(window: Window) -> Camera:
+def _looking(window: Host) -> Camera:
     """Return the outside camera."""
     state, scope = window.state, window.view(OutsideView).scope
     if scope is not None:
@@ -52,7 +53,7 @@ def _looking(window: Window) -> Camera:
     return state.options.outside.camera or outside_camera(points, home, ASPECT)
 
 
-def _look(window: Window, camera: Camera | None) -> None:
+def _look(window: Host, camera: Camera | None) -> None:
     """Look through a camera; None: through one that sees everything."""
     window.travel(window.state.with_options(replace(window.state.options.outside, camera=camera)))
 
@@ -61,13 +62,13 @@ def _sees_all(state: AppState) -> bool:
     return state.options.outside.camera is None
 
 
-def _along(window: Window, axis: str) -> None:
+def _along(window: Host, axis: str) -> None:
     state = window.state
     points = around(window.focus.framed, window.renderers.camera(state))
     _look(window, framed(points, way_of(axis), ASPECT, _looking(window).projection))
 
 
-def _switch_projection(window: Window) -> None:
+def _switch_projection(window: Host) -> None:
     try:
         _look(window, switched_projection(_looking(window), window.focus.center))
     except LucidaError:  # beyond the numbers: the camera stays
