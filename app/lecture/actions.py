@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 
 from app.lecture.reading import BUILTINS, load_lecture
 from app.lecture.view import LectureView
-from app.ui.action import Action, Key
+from app.ui.action import Action
 from app.ui.host import Host
 
 
@@ -36,7 +36,6 @@ LECTURE = (
         "Next step",
         lambda w: w.view(LectureView).advance(w, 1),
         "Page Down",
-        (int(Key.page_down),),
         can=_given,
         separated=True,
     ),
@@ -45,7 +44,6 @@ LECTURE = (
         "Previous step",
         lambda w: w.view(LectureView).advance(w, -1),
         "Page Up",
-        (int(Key.page_up),),
         can=_given,
     ),
     Action(
@@ -53,7 +51,6 @@ LECTURE = (
         "Play again",
         lambda w: w.view(LectureView).play(w),
         "R",
-        (int(Key.r),),
         can=_restorable,
     ),
     Action(
@@ -61,7 +58,6 @@ LECTURE = (
         "Reset step",
         lambda w: w.view(LectureView).restore(w),
         "Backspace",
-        (int(Key.backspace),),
         can=_restorable,
     ),
     Action(
@@ -69,7 +65,6 @@ LECTURE = (
         "Continue where it was left",
         lambda w: w.view(LectureView).go_on(w),
         "End",
-        (int(Key.end),),
         can=lambda w: w.view(LectureView).was_left,
     ),
     Action("Lecture", "End the lecture", lambda w: w.view(LectureView).leave(w), can=_given),

@@ -12,7 +12,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from app.lecture.instrument import LectureInstrument
-from app.ui.action import CTRL, SHIFT, Action, Key, changing
+from app.ui.action import Action, changing, chords_of
 from app.ui.host import Host
 from app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
 from app.window.instruments import INSTRUMENTS
@@ -25,7 +25,6 @@ UNDO = (
         "Undo",
         lambda w: w.undo(),
         "Ctrl+Z",
-        (CTRL | int(Key.z),),
         can=lambda w: w.can_undo(),
     ),
     Action(
@@ -33,7 +32,7 @@ UNDO = (
         "Redo",
         lambda w: w.redo(),
         "Ctrl+Shift+Z",
-        (CTRL | SHIFT | int(Key.z), CTRL | int(Key.y)),
+        "Ctrl+Y",
         can=lambda w: w.can_redo(),
     ),
 )
@@ -114,7 +113,7 @@ MOUSE = (
 
 CHORDS = [(chord, action) for action in ACTIONS for chord in action.chords]
 # While a text is typed they are its field's, whether that does something by them or not.
-OF_TEXT = {int(Key.delete), *(CTRL | int(key) for key in (Key.a, Key.c, Key.d))}
+OF_TEXT = chords_of("Delete, Ctrl+A, Ctrl+C, Ctrl+D")
 
 
 def run_shortcuts(window: Host) -> None:

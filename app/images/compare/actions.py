@@ -7,7 +7,7 @@ from collections.abc import Callable
 from app.images.compare import comparing
 from app.state.app_state import AppState
 from app.state.options.compare import CompareMode
-from app.ui.action import SHIFT, Action, Key, changing
+from app.ui.action import Action, Key, changing
 from app.ui.host import Host
 from renderer.compare.raster_and_ray import Comparison
 
@@ -49,12 +49,11 @@ def _comparing(number: int, mode: CompareMode, name: str) -> Action:
         name,
         _shown(lambda state: comparing.with_mode(state, mode)),
         f"F{5 + number}",
-        (int(Key.f5) + number,),
         is_on=lambda state: state.options.compare.mode == mode,
     )
 
 
-def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Action:
+def _switch(name: str, field: str, keys: str, binds: bool = True) -> Action:
     """Return an action that toggles an option."""
 
     def is_on(state: AppState) -> bool:
@@ -65,18 +64,7 @@ def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Ac
             state.options.with_changes({"compare": {field: not is_on(state)}})
         )
 
-    return Action(MENU, name, changing(toggled), shown, keys, is_on=is_on)
-
-
-def _keyed(
-    name: str,
-    run: Callable[[Host], None],
-    shown: str,
-    key: Key,
-    can: Callable[[Host], bool] | None = None,
-) -> Action:
-    keys = int(key) | (SHIFT if shown.startswith("Shift+") else 0)
-    return Action(MENU, name, run, shown, (keys,), can=can)
+    return Action(MENU, name, changing(toggled), keys, binds=binds, is_on=is_on)
 
 
 def _gain(factor: float) -> Callable[[Host], None]:
@@ -95,13 +83,13 @@ def _previous(state: AppState, comparison: Comparison) -> AppState:
 
 COMPARING = (
     *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
-    _switch("The other image (hold the key)", "flipped", "X"),
-    _switch("Mark the causes", "causes", "K", (int(Key.k),)),
-    _keyed("More gain", _gain(2.0), "]", Key.right_bracket),
-    _keyed("Less gain", _gain(0.5), "[", Key.left_bracket),
-    _keyed("Divider to the right", _divider(STEP), "Shift+]", Key.right_bracket),
-    _keyed("Divider to the left", _divider(-STEP), "Shift+[", Key.left_bracket),
-    _keyed("Next differing pixel", _differing(comparing.stepped), "N", Key.n, _differ),
-    _keyed("Previous differing pixel", _differing(_previous), "Shift+N", Key.n, _differ),
-    _keyed("Worst pixel", _differing(comparing.at_worst), "Shift+M", Key.m, _differ),
+    _switch("The other image (hold the key)", "flipped", "X", binds=False),
+    _switch("Mark the causes", "causes", "K"),
+    Action(MENU, "More gain", _gain(2.0), "]"),
+    Action(MENU, "Less gain", _gain(0.5), "["),
+    Action(MENU, "Divider to the right", _divider(STEP), "Shift+]"),
+    Action(MENU, "Divider to the left", _divider(-STEP), "Shift+["),
+    Action(MENU, "Next differing pixel", _differing(comparing.stepped), "N", can=_differ),
+    Action(MENU, "Previous differing pixel", _differing(_previous), "Shift+N", can=_differ),
+    Action(MENU, "Worst pixel", _differing(comparing.at_worst), "Shift+M", can=_differ),
 )

@@ -11,7 +11,7 @@ from app.images.photograph.model import can_undistort, closed, undistorting
 from app.images.photograph.panel import UNDISTORT
 from app.state.app_state import AppState
 from app.state.options.photograph import Lay
-from app.ui.action import ALT, Action, Key, changing
+from app.ui.action import Action, changing
 from app.ui.host import Host
 
 MENU = "Image/Photograph"
@@ -61,7 +61,6 @@ PHOTOGRAPH = (
         "Photograph on the images",
         changing(_switched),
         "Alt+P",
-        (ALT | int(Key.p),),
         is_on=lambda state: state.options.photograph.shown,
         can=is_open,
     ),

@@ -9,7 +9,7 @@ from app.instruments.mistakes import question
 from app.instruments.mistakes.panel import Wish
 from app.instruments.mistakes.view import MISTAKES, MistakesView
 from app.state.options.mistakes import Mode
-from app.ui.action import SHIFT, Action, Key
+from app.ui.action import Action
 from app.ui.host import Host
 
 MENU = "Lecture/Mistakes"
@@ -40,13 +40,12 @@ def _mode(mode: Mode, name: str) -> Action:
     )
 
 
-def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Action:
+def _asking(name: str, wish: Wish, keys: str, separated: bool) -> Action:
     return Action(
         MENU,
         f"Mistakes: {name}",
         lambda window: window.view(MistakesView).ask(wish),
         keys,
-        (chord,),
         can=_is_quiz_shown,
         separated=separated,
     )
@@ -54,6 +53,6 @@ def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Ac
 
 WRONG_LINES = (
     *(_mode(mode, name) for mode, name in MODES.items()),
-    _asking("reveal the answer", "reveal", "U", int(Key.u), True),
-    _asking("next question", "next", "Shift+U", SHIFT | int(Key.u), False),
+    _asking("reveal the answer", "reveal", "U", True),
+    _asking("next question", "next", "Shift+U", False),
 )

@@ -17,6 +17,7 @@ def _stepping(step: Step) -> Action:
         f"Stepper: {step.told}",
         lambda window: window.view(StepperView).ask(step.wish),
         step.shown,
+        binds=False,
         can=lambda window: window.is_visible(STEPPER),
         separated=step is STEPS[0],
     )
