@@ -7,7 +7,8 @@ from typing import Protocol, TypeVar
 
 from app.images.renderers import Renderers
 from app.state.app_state import AppState
-from app.state.options import Options, Part
+from app.state.bounds import OptionPart
+from app.state.options import Options
 from app.state.options.shared import Pixel
 from app.ui.recent import RecentFiles
 from app.ui.theme import Fonts
@@ -124,7 +125,7 @@ class Host(Protocol):
         those with an equal gesture that is not None.
         """
 
-    def edit(self, part: Options | Part) -> None:
+    def edit(self, part: Options | OptionPart) -> None:
         """Replace a part of the options, as apply() does: `edit(replace(options.probe, ...))`."""
 
     def change(self, state: AppState) -> None:

@@ -25,7 +25,8 @@ from app.instruments.outside.view import OutsideView
 from app.lecture.movement import Movement
 from app.lecture.view import LECTURE, LectureView
 from app.state.app_state import AppState, History
-from app.state.options import Options, Part
+from app.state.bounds import OptionPart
+from app.state.options import Options
 from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.background import Background
@@ -158,7 +159,7 @@ class MainWindow:
             gesture = ("drag", self._gesture if self._was_active else self._gesture + 1)
         self.history = self.history.change(state, gesture)
 
-    def edit(self, part: Options | Part) -> None:
+    def edit(self, part: Options | OptionPart) -> None:
         self.apply(self.state.with_options(part))
 
     def change(self, state: AppState) -> None:
