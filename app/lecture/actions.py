@@ -9,18 +9,19 @@ from imgui_bundle import imgui
 
 from app.lecture.reading import BUILTINS, load_lecture
 from app.lecture.view import LectureView
-from app.ui.action import Action, Key, Window
+from app.ui.action import Action
+from app.ui.host import Host
 
 
-def _given(window: Window) -> bool:
+def _given(window: Host) -> bool:
     return window.view(LectureView).is_given
 
 
-def _restorable(window: Window) -> bool:
+def _restorable(window: Host) -> bool:
     return _given(window) and not imgui.get_io().want_text_input
 
 
-def _begin(path: Path, window: Window) -> None:
+def _begin(path: Path, window: Host) -> None:
     window.view(LectureView).give(load_lecture(path), path)
 
 
@@ -35,7 +36,6 @@ LECTURE = (
         "Next step",
         lambda w: w.view(LectureView).advance(w, 1),
         "Page Down",
-        (int(Key.page_down),),
         can=_given,
         separated=True,
     ),
@@ -44,7 +44,6 @@ LECTURE = (
         "Previous step",
         lambda w: w.view(LectureView).advance(w, -1),
         "Page Up",
-        (int(Key.page_up),),
         can=_given,
     ),
     Action(
@@ -52,7 +51,6 @@ LECTURE = (
         "Play again",
         lambda w: w.view(LectureView).play(w),
         "R",
-        (int(Key.r),),
         can=_restorable,
     ),
     Action(
@@ -60,7 +58,6 @@ LECTURE = (
         "Reset step",
         lambda w: w.view(LectureView).restore(w),
         "Backspace",
-        (int(Key.backspace),),
         can=_restorable,
     ),
     Action(
@@ -68,7 +65,6 @@ LECTURE = (
         "Continue where it was left",
         lambda w: w.view(LectureView).go_on(w),
         "End",
-        (int(Key.end),),
         can=lambda w: w.view(LectureView).was_left,
     ),
     Action("Lecture", "End the lecture", lambda w: w.view(LectureView).leave(w), can=_given),

@@ -21,9 +21,9 @@ from app.lecture.slide import TITLE, Slides
 from app.lecture.watching_hidden import HiddenWatch
 from app.state.kept_lecture import Answers
 from app.ui import layout, theme
+from app.ui.host import Host
 from app.ui.lettering import lettering
 from app.ui.messages import wrapped
-from app.ui.view import Host
 from renderer.system.errors import LucidaError
 
 CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer

@@ -9,7 +9,7 @@ from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.view import OutsideView
 from app.lecture.ghosts import ghosts
 from app.lecture.session import LectureSession
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.system.memo import Memo
 
 SOURCE = "Lecture"  # of the drawing, in the outside view

@@ -8,8 +8,8 @@ from imgui_bundle import imgui
 
 from app.lecture.reading import BUILTINS
 from app.ui import theme
+from app.ui.host import Host
 from app.ui.messages import wrapped
-from app.ui.view import Host
 
 
 def invitation(host: Host) -> Path | None:

@@ -30,14 +30,15 @@ from app.state.kept_lecture import KeptLecture
 from app.state.session import source_of
 from app.ui import layout
 from app.ui.background import Background
-from app.ui.view import DockedView, Host, view_of
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 
 LECTURE = "Lecture"
 # Of a text over a picture: its part of the window's width, and the opacity of its ground.
 OVER, GROUND = 0.68, 0.85
 
 
-class LectureView(DockedView):
+class LectureView(Instrument):
     """The view "Lecture". views: all views; the steps of a lecture show the others.
 
     log: keeps what is answered, if the user asked for it.
@@ -47,7 +48,7 @@ class LectureView(DockedView):
     title = "Lecture"
     padding = ImVec2(18, 14)
 
-    def __init__(self, views: Sequence[DockedView]) -> None:
+    def __init__(self, views: Sequence[Instrument]) -> None:
         self._views = views
         self.session: LectureSession | None = None
         self._reading: Background[LectureReread] | None = None
@@ -74,7 +75,7 @@ class LectureView(DockedView):
         return self._controls.shown
 
     @property
-    def _others(self) -> list[DockedView]:
+    def _others(self) -> list[Instrument]:
         return [view for view in self._views if view is not self]
 
     # What actions and buttons ask for.

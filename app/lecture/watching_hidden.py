@@ -12,7 +12,7 @@ from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.state.kept_lecture import Judgement
 from app.ui.background import Background
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Camera
 
 Counted = tuple[HideExercise, Camera, tuple[int, int]]  # for which image pixels were counted

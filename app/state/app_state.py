@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 
-from app.state.bounds import clamped
-from app.state.options import Options, Part
+from app.state.bounds import OptionPart, clamped
+from app.state.options import Options
 from app.state.options.shared import ImageOptions, Pixel, Preferences
 from renderer.camera.camera import Camera
 from renderer.scene.model import Scene, View
@@ -62,7 +62,7 @@ class AppState:
         """True if the ray image shows what only rays find."""
         return self.options.shadows or self.options.mirrors
 
-    def with_options(self, *parts: Options | Part) -> AppState:
+    def with_options(self, *parts: Options | OptionPart) -> AppState:
         """Return the state with other parts of its options, each within its bounds.
 
         A part comes from replace(), as in with_options(replace(state.images, exposure_ev=1.0)).

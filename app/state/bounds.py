@@ -17,6 +17,11 @@ from renderer.system.errors import LucidaError
 
 T = TypeVar("T")
 
+
+class OptionPart:
+    """A part of the options, such as an instrument's: the base of a frozen dataclass."""
+
+
 # A mark has problem(value): what is wrong and the remedy, or None; and clamped(value, default): the
 # nearest good value, or the default where none is near.
 

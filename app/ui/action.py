@@ -1,63 +1,28 @@
-"""Actions: what a menu, a key or the command palette does, and what an action may ask of the
-window.
-"""
+"""Actions: what a menu, a key or the command palette does."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 from imgui_bundle import imgui
 
 from app.state.app_state import AppState
-from app.ui.stage import Stage
-from app.ui.toasts import Toasts
-from app.ui.view import AView, Host
+from app.ui.host import Host
 
 Key = imgui.Key
-CTRL, SHIFT, ALT = int(Key.mod_ctrl), int(Key.mod_shift), int(Key.mod_alt)
-
-
-class Around(Protocol):
-    """The parts of the window around the views, for actions."""
-
-    @property
-    def stage(self) -> Stage: ...
-    @property
-    def toasts(self) -> Toasts: ...
-    def toggle_palette(self) -> None: ...
-    def toggle_help(self) -> None: ...
-    def toggle_full_screen(self) -> None: ...
-    def picture(self, view: bool = False, copy: bool = False) -> None: ...
-    def picture_as(self, view: bool = False) -> None: ...
-    def export_as(self, host: Host) -> None: ...
-
-
-class Window(Host, Protocol):
-    """The window for actions, which may ask more than views. shell: the parts around the views."""
-
-    @property
-    def present(self) -> AppState:
-        """The current state, without a movement to it."""
-
-    def focus_object(self) -> None: ...
-    def undo(self) -> None: ...
-    def redo(self) -> None: ...
-    def can_undo(self) -> bool: ...
-    def can_redo(self) -> bool: ...
-    @property
-    def shell(self) -> Around: ...
-    def view(self, kind: type[AView]) -> AView:
-        """Return the window's view of a class."""
-
-    def ask_pixel(self) -> None: ...
-    def close_boxes(self) -> bool: ...
-    def retry(self) -> None: ...
-    def quit(self) -> None: ...
-    def save_scene(self) -> None: ...
-    def save_scene_as(self) -> None: ...
-    def save_scene_with_view(self) -> None: ...
+# The keys of a sign. Plus is typed with Shift on many keyboards.
+_KEYS = {
+    "+": (Key.equal, int(Key.mod_shift) | int(Key.equal), Key.keypad_add),
+    "-": (Key.minus, Key.keypad_subtract),
+    "0": (Key._0, Key.keypad0),
+    ",": (Key.comma,),
+    ".": (Key.period,),
+    "/": (Key.slash,),
+    "[": (Key.left_bracket,),
+    "]": (Key.right_bracket,),
+}
 
 
 @dataclass(frozen=True)
@@ -65,7 +30,9 @@ class Action:
     """An action.
 
     menu: its menu, such as "View" or, for a submenu, "View/Pixels".
-    keys, chords: alternative shortcuts, as displayed and in ImGui's form.
+    keys: its shortcuts, as displayed: "Ctrl+S", or "Home, H" for two.
+    more_keys: further ones, which are not displayed.
+    binds: False if the keys are only displayed, and its view reads them.
     is_on: for switches, the state.
     can: True if it is possible now.
     separated: draw a line above it.
@@ -73,14 +40,36 @@ class Action:
 
     menu: str
     name: str
-    run: Callable[[Window], None]
+    run: Callable[[Host], None]
     keys: str = ""
-    chords: tuple[int, ...] = ()
+    more_keys: str = ""
+    binds: bool = True
     is_on: Callable[[AppState], bool] | None = None
-    can: Callable[[Window], bool] | None = None
+    can: Callable[[Host], bool] | None = None
     separated: bool = False
 
+    @property
+    def chords(self) -> tuple[int, ...]:
+        """Its shortcuts in ImGui's form."""
+        return chords_of(self.keys) + chords_of(self.more_keys) if self.binds else ()
 
-def changing(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+
+def chords_of(keys: str) -> tuple[int, ...]:
+    """Return the chords of shortcuts as displayed, in ImGui's form."""
+    chords: list[int] = []
+    for shortcut in keys.split(", ") if keys else ():
+        *modifiers, name = re.split(r"(?<=\w)\+", shortcut)
+        held = sum(int(getattr(Key, f"mod_{modifier.lower()}")) for modifier in modifiers)
+        chords += (held | int(key) for key in _KEYS.get(name) or (getattr(Key, _name(name)),))
+    return tuple(chords)
+
+
+def _name(name: str) -> str:
+    """Return ImGui's name of a key: page_down, keypad7, _1."""
+    name = name.lower().replace("keypad ", "keypad").replace(" ", "_")
+    return f"_{name}" if name.isdigit() else name
+
+
+def changing(change: Callable[[AppState], AppState]) -> Callable[[Host], None]:
     """Return a function that applies a change to the state, as a separate undo step."""
     return lambda window: window.change(change(window.state))

@@ -10,8 +10,9 @@ import moderngl
 from imgui_bundle import imgui
 
 from app.images.textures import FAILURES
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from app.ui.messages import failure_note
-from app.ui.view import DockedView, Host
 
 
 class FailedViews:
@@ -21,7 +22,7 @@ class FailedViews:
         self.errors: dict[str, Exception] = {}
         self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
 
-    def begin(self, view: DockedView, host: Host, context: moderngl.Context) -> None:
+    def begin(self, view: Instrument, host: Host, context: moderngl.Context) -> None:
         """Prepare a view, which fails if a driver rejects its shader, for instance. Call once for
         each, when there is a context.
         """
@@ -41,7 +42,7 @@ class FailedViews:
         if begin := self._to_begin.pop(name, None):
             begin()
 
-    def draw(self, view: DockedView, host: Host) -> None:
+    def draw(self, view: Instrument, host: Host) -> None:
         """Draw a view's content, or its error."""
         failure = self.errors.get(view.name)
         if failure is not None:

@@ -1,13 +1,14 @@
 """Flying through a 3D view with the keys W, A, S, D, Q and E, while the mouse is over it.
 
-navigation.py computes the motion. The view selects the camera that flies (DockedView.flown).
+navigation.py computes the motion. The view selects the camera that flies (Instrument.flown).
 """
 
 from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.ui.view import DockedView, Host
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from renderer.camera.navigation import flown
 from renderer.system.errors import LucidaError
 
@@ -56,14 +57,14 @@ class Fly:
     """
 
     def __init__(self) -> None:
-        self._view: DockedView | None = None
+        self._view: Instrument | None = None
         self._number = 0
 
     @property
     def under_way(self) -> bool:
         return self._view is not None
 
-    def frame(self, host: Host, over: DockedView | None) -> None:
+    def frame(self, host: Host, over: Instrument | None) -> None:
         """Advance the flight. Call once a frame. over: the view under the mouse."""
         right, up, forward = held()
         if not (right or up or forward):

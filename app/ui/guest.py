@@ -14,7 +14,7 @@ from app.state.app_state import AppState
 from renderer.camera.camera import Camera
 
 if TYPE_CHECKING:
-    from app.ui.view import Host
+    from app.ui.host import Host
 
 
 @dataclass(frozen=True)

@@ -1,34 +1,130 @@
-"""The contribution of an instrument to the window: its views, its actions, words for both.
+"""An instrument: one class with a view that can be docked, shown and hidden, and its actions.
 
-An instrument's instrument.py has one such value, INSTRUMENT; app/window/instruments.py lists them.
+app/window/instruments.py lists the classes. A large one may inherit its parts: its view's class in
+view.py, its actions in actions.py, and both joined in instrument.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from typing import ClassVar, TypeVar
 
+import moderngl
+from imgui_bundle import ImVec2
+
+from app.state.app_state import AppState
 from app.ui.action import Action
-from app.ui.view import DockedView
+from app.ui.host import Host
+from renderer.camera.camera import Camera
+
+AnInstrument = TypeVar("AnInstrument", bound="Instrument")
 
 
-@dataclass(frozen=True)
 class Instrument:
-    """An instrument.
+    """A view in a dockable window, with what menus, keys and the palette do with it.
 
-    make: makes its views, given those of the instruments before it; the list grows later.
+    Methods are called on the window's thread, with its OpenGL context current.
+
+    name: unique; the window's id in ImGui.
+    title: on its tab.
+    padding, flags: of the ImGui window; None and 0 for the style's.
+    space: where it is docked in layouts that do not place it and have that space; "": where the
+    largest view is.
     actions: for menus, keys and the palette, in the order of the menus.
     synonyms: other names that people use, by the names of actions, pages and views.
-    pages: what the palette finds in its view, by name: the options that show it.
-    mouse, keyboard: further rows for the shortcut sheet, on its views.
+    pages: what the palette finds in the view, by name: the options that show it, as in
+    {"laboratory": {"page": "array"}}.
+    mouse, keyboard: further rows for the shortcut sheet.
     heading: of its actions' keys on the sheet, if they work in its view only; if empty, they are
     listed with the others of their menus.
     """
 
-    make: Callable[[Sequence[DockedView]], Sequence[DockedView]]
-    actions: tuple[Action, ...] = ()
-    mouse: tuple[tuple[str, str], ...] = ()
-    keyboard: tuple[tuple[str, str], ...] = ()
-    heading: str = ""
-    synonyms: Mapping[str, str] = field(default_factory=dict)
-    pages: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    name: ClassVar[str]
+    title: ClassVar[str]
+    padding: ClassVar[ImVec2 | None] = None
+    flags: ClassVar[int] = 0
+    space: ClassVar[str] = ""
+    actions: ClassVar[tuple[Action, ...]] = ()
+    synonyms: ClassVar[Mapping[str, str]] = {}
+    pages: ClassVar[Mapping[str, Mapping[str, Mapping[str, object]]]] = {}
+    mouse: ClassVar[tuple[tuple[str, str], ...]] = ()
+    keyboard: ClassVar[tuple[tuple[str, str], ...]] = ()
+    heading: ClassVar[str] = ""
+
+    def __init__(self, views: Sequence[Instrument] = ()) -> None:
+        """Make the instrument.
+
+        views: those before it in the window's list; one that draws into another finds it there.
+        """
+
+    @property
+    def label(self) -> str:
+        return f"{self.title}###{self.name}"
+
+    @property
+    def settled(self) -> bool:
+        """True if nothing in the view will change by itself."""
+        return True
+
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        """Prepare the view. Called once, when there is a context."""
+
+    def placed(self, host: Host) -> int:
+        """Place the ImGui window of this frame if it lies over the others. Return its flags; 0 if
+        it is docked.
+        """
+        return 0
+
+    def draw(self, host: Host) -> None:
+        """Draw the view inside its ImGui window. Called in each frame in which it is visible."""
+
+    def unseen(self, host: Host) -> None:
+        """Called in each frame in which the view is hidden, or behind another tab."""
+
+    def flown(self, host: Host) -> Camera | None:
+        """Return the camera that the keys move while the mouse is over the view; None if there is
+        none.
+        """
+        return None
+
+    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+        """Return the state with that camera moved."""
+        return state
+
+    def object_under(self, host: Host) -> int | None:
+        """Return the index of the scene's object under the mouse; None for the background, or if
+        unknown.
+        """
+        return None
+
+    @property
+    def sections(self) -> tuple[str, ...] | None:
+        """The parts of the view that are unfolded; None if they follow the space, or if it has
+        none.
+        """
+        return None
+
+    def open_sections(self, names: tuple[str, ...]) -> None:
+        """Unfold these parts, and fold the others. Unknown names come from other versions."""
+
+    def cancel(self) -> None:
+        """End the current drag: something else has changed the state."""
+
+    @property
+    def has_pending(self) -> bool:
+        """True if an entry is not in the state because it is invalid."""
+        return False
+
+    def drop_pending(self) -> None:
+        """Discard that entry."""
+
+    def begin_anew(self) -> None:
+        """Reset what the view keeps outside the state, because a lecture moved by a step."""
+
+    def end(self) -> None:
+        """Release resources. Called once, before the context is destroyed."""
+
+
+def view_of(views: Iterable[Instrument], kind: type[AnInstrument]) -> AnInstrument:
+    """Return the instrument of a class among all."""
+    return next(view for view in views if isinstance(view, kind))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import hello_imgui, imgui
 
-from app.ui.view import DockedView
+from app.ui.instrument import Instrument
 
 MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"
@@ -134,8 +134,8 @@ CHOICES = LAYOUTS[:-1]  # a lecture chooses the last one
 
 
 def docking(
-    views: Sequence[DockedView],
-    draw: Callable[[DockedView], Callable[[], None]],
+    views: Sequence[Instrument],
+    draw: Callable[[Instrument], Callable[[], None]],
     window_px: tuple[float, float],
     em_px: float,
 ) -> list[hello_imgui.DockingParams]:
@@ -171,7 +171,7 @@ def window_px() -> tuple[float, float]:
     return size.x, size.y
 
 
-def largest(views: Iterable[DockedView]) -> int:
+def largest(views: Iterable[Instrument]) -> int:
     """Return ImGui's id of the largest dock of these views; 0 if none is docked."""
     sizes = {}
     for view in views:
@@ -207,7 +207,7 @@ def reset() -> None:
     hello_imgui.get_runner_params().docking_params.layout_reset = True
 
 
-def window_of(view: DockedView) -> hello_imgui.DockableWindow:
+def window_of(view: Instrument) -> hello_imgui.DockableWindow:
     """Return HelloImGui's record of a view in the current layout, which has its visibility."""
     params = hello_imgui.get_runner_params().docking_params
     window = params.dockable_window_of_name(view.label)
@@ -215,7 +215,7 @@ def window_of(view: DockedView) -> hello_imgui.DockableWindow:
     return window
 
 
-def is_placed(view: DockedView) -> bool:
+def is_placed(view: Instrument) -> bool:
     """Return True if ImGui draws a view's window in this frame, or a window that covers it as a
     tab.
 
@@ -232,7 +232,7 @@ def is_to_be_made() -> bool:
     return bool(hello_imgui.get_runner_params().docking_params.layout_reset)
 
 
-def arrange(views: Iterable[DockedView], places: dict[str, str]) -> None:
+def arrange(views: Iterable[Instrument], places: dict[str, str]) -> None:
     """Show some of these views in other spaces of the present layout, and hide the rest.
 
     places: view to space. Takes effect in the next frame; views that the user moved return to the
@@ -261,8 +261,8 @@ def whole() -> tuple[tuple[float, float], tuple[float, float]] | None:
 
 def _docking(
     layout: Layout,
-    views: Sequence[DockedView],
-    draw: Callable[[DockedView], Callable[[], None]],
+    views: Sequence[Instrument],
+    draw: Callable[[Instrument], Callable[[], None]],
     splits: list[hello_imgui.DockingSplit],
 ) -> hello_imgui.DockingParams:
     params = hello_imgui.DockingParams()

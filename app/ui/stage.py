@@ -11,7 +11,8 @@ from imgui_bundle import imgui
 from app.state.session import Arrangement
 from app.ui import docks, layout, theme
 from app.ui.failing import FailedViews
-from app.ui.view import DockedView, Host
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
 NARROW = ("Camera", "Lecture")  # whose columns no other view is opened in
@@ -26,7 +27,7 @@ class Stage:
     rects: the content rectangles of the views drawn in this frame or the last one.
     """
 
-    def __init__(self, views: list[DockedView]) -> None:
+    def __init__(self, views: list[Instrument]) -> None:
         self.views = {view.name: view for view in views}
         self.maximised = ""
         self.focused = ""
@@ -37,7 +38,7 @@ class Stage:
         self._is_lost = False  # whether the control that had the keyboard is gone
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
-        self._hovered: DockedView | None = None
+        self._hovered: Instrument | None = None
         self._restoring: Arrangement | None = None
         self._keyboard_for: str | None = None  # who gets it once all have their places
         self._frames = 0
@@ -69,7 +70,7 @@ class Stage:
     # What actions ask for.
 
     @property
-    def shown(self) -> list[DockedView]:
+    def shown(self) -> list[Instrument]:
         """The views that are visible, or tabs behind others."""
         return [view for view in self.views.values() if layout.window_of(view).is_visible]
 
@@ -185,7 +186,7 @@ class Stage:
         elif self.is_shown(name):
             self._next_focus = name
 
-    def take_hovered(self) -> DockedView | None:
+    def take_hovered(self) -> Instrument | None:
         """Return the view that the mouse was over in the last frame. Call once a frame."""
         hovered, self._hovered = self._hovered, None
         self._keyboard, self._next_keyboard = self._next_keyboard, ""
@@ -253,7 +254,7 @@ class Stage:
             if not layout.window_of(view).is_visible:
                 self._leave_out(view, host)
 
-    def draw(self, view: DockedView, host: Host) -> None:
+    def draw(self, view: Instrument, host: Host) -> None:
         """Draw a view's ImGui window, if it is visible."""
         window = layout.window_of(view)
         large = self.maximised == view.name
@@ -283,7 +284,7 @@ class Stage:
         if large:
             self._draw_large(view, host)
 
-    def _draw_large(self, view: DockedView, host: Host) -> None:
+    def _draw_large(self, view: Instrument, host: Host) -> None:
         """Draw the view over all the others, with another id so that its dock stays unchanged."""
         place = layout.whole()
         if place is None:
@@ -316,7 +317,7 @@ class Stage:
         if not still_open:
             self.maximise()
 
-    def _draw_content(self, view: DockedView, host: Host) -> None:
+    def _draw_content(self, view: Instrument, host: Host) -> None:
         corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         if imgui.is_window_hovered(imgui.HoveredFlags_.root_and_child_windows):
             self._hovered = view
@@ -326,7 +327,7 @@ class Stage:
         if self._next_keyboard == view.name and context.nav_cursor_visible:
             self._is_lost = bool(context.nav_id) and not context.nav_id_is_alive
 
-    def _leave_out(self, view: DockedView, host: Host) -> None:
+    def _leave_out(self, view: Instrument, host: Host) -> None:
         """Tell a view that it is not visible in this frame, so that no image is fitted to it any
         more.
         """
@@ -334,12 +335,12 @@ class Stage:
         host.renderers.forget_pane(view.name)
         view.unseen(host)
 
-    def _note_focus(self, view: DockedView) -> None:
+    def _note_focus(self, view: Instrument) -> None:
         if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
             self.focused = self._next_keyboard = view.name
             if self.maximised and self.maximised != view.name:
                 self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
 
 
-def _large_label(view: DockedView) -> str:
+def _large_label(view: Instrument) -> str:
     return f"{view.title}###{view.name} maximised"

@@ -6,11 +6,14 @@ from the window's own and the instruments'; knows nothing of how menus are drawn
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.lecture.instrument import LectureInstrument
+from app.ui.action import Action, changing, chords_of
+from app.ui.host import Host
 from app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
 from app.window.instruments import INSTRUMENTS
 
@@ -22,7 +25,6 @@ UNDO = (
         "Undo",
         lambda w: w.undo(),
         "Ctrl+Z",
-        (CTRL | int(Key.z),),
         can=lambda w: w.can_undo(),
     ),
     Action(
@@ -30,7 +32,7 @@ UNDO = (
         "Redo",
         lambda w: w.redo(),
         "Ctrl+Shift+Z",
-        (CTRL | SHIFT | int(Key.z), CTRL | int(Key.y)),
+        "Ctrl+Y",
         can=lambda w: w.can_redo(),
     ),
 )
@@ -59,19 +61,20 @@ EFFECTS = (
     ),
 )
 
-_left = [(name, action) for name, one in INSTRUMENTS.items() for action in one.actions]
+_left = [action for one in INSTRUMENTS for action in one.actions]
 
 
-def _take(menu: str, room: str = "") -> list[Action]:
-    """The instruments' actions in a menu and its submenus, or those of one room alone, in the order
-    of the rooms; each is given once."""
+def _take(menu: str, actions: Sequence[Action] = ()) -> list[Action]:
+    """Return the instruments' actions in a menu and its submenus, or those among `actions` alone.
+    Each is returned once.
+    """
     found = [
-        (name, action)
-        for name, action in _left
-        if f"{action.menu}/".startswith(f"{menu}/") and room in ("", name)
+        action
+        for action in _left
+        if f"{action.menu}/".startswith(f"{menu}/") and (not actions or action in actions)
     ]
-    _left[:] = [entry for entry in _left if entry not in found]
-    return [action for _, action in found]
+    _left[:] = [action for action in _left if action not in found]
+    return found
 
 
 # In the order of the menus, and within them; what an instrument adds to a menu comes last in it,
@@ -90,16 +93,16 @@ ACTIONS = (
     *_take("View/Outside view"),
     *EFFECTS,
     *_take("View"),
-    *_take("Lecture", "lecture"),
+    *_take("Lecture", LectureInstrument.actions),
     *_take("Lecture/Loop stepper"),
     *_take("Lecture"),
     *HELP,
     *_take("Help"),
 )
-assert not _left, f"there is no menu {_left[0][1].menu!r}; the menus: {', '.join(MENUS)}"
+assert not _left, f"there is no menu {_left[0].menu!r}; the menus: {', '.join(MENUS)}"
 
 MOUSE = (
-    *(row for instrument in INSTRUMENTS.values() for row in instrument.mouse),
+    *(row for instrument in INSTRUMENTS for row in instrument.mouse),
     ("W, A, S, D, Q, E over a 3D view", "fly: forward, left, back, right, down, up; Shift: faster"),
     ("Alt+drag, or drag while flying", "look around: the eye stays"),
     ("right-click a number", "reset it, copy it, paste one"),
@@ -110,10 +113,10 @@ MOUSE = (
 
 CHORDS = [(chord, action) for action in ACTIONS for chord in action.chords]
 # While a text is typed they are its field's, whether that does something by them or not.
-OF_TEXT = {int(Key.delete), *(CTRL | int(key) for key in (Key.a, Key.c, Key.d))}
+OF_TEXT = chords_of("Delete, Ctrl+A, Ctrl+C, Ctrl+D")
 
 
-def run_shortcuts(window: Window) -> None:
+def run_shortcuts(window: Host) -> None:
     """Runs the actions whose keys were pressed; call once a frame, in any window."""
     flags = int(imgui.InputFlags_.route_global)
     kept = OF_TEXT if imgui.get_io().want_text_input else ()

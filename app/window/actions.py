@@ -11,8 +11,9 @@ from app.state.app_state import AppState
 from app.state.bounds import range_of
 from app.state.options.shared import Notation, Preferences, Theme
 from app.ui import layout
-from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import Action, changing
 from app.ui.explaining import symbols
+from app.ui.host import Host
 from app.window import bookmarks
 from app.window.camera_files import CAMERA_FILES
 
@@ -61,7 +62,6 @@ def _layout(number: int, one: layout.Layout) -> Action:
         one.name,
         lambda window: layout.switch(one.name),
         f"Ctrl+F{number + 1}",
-        (CTRL | (int(Key.f1) + number),),
     )
 
 
@@ -72,45 +72,42 @@ def _bookmark(number: int, stores: bool) -> Action:
         f"Keep this view as bookmark {number}" if stores else f"Go to bookmark {number}",
         lambda window: does(window, number),
         f"Ctrl+{number}" if stores else str(number),
-        (int(Key._0) + number | (CTRL if stores else 0),),
         can=lambda window: stores or window.state.step is None,  # digits are a lecture's steps
         separated=stores and number == 1,
     )
 
 
-# Words, view, copy, keys, chord.
+# Words, view, copy, keys.
 PICTURES = (
-    ("Save a picture of the window", False, False, "F12", 0),
-    ("Save a picture of the view in use", True, False, "Shift+F12", SHIFT),
-    ("Save a picture of the window as...", False, None, "", 0),
-    ("Save a picture of the view in use as...", True, None, "", 0),
-    ("Copy a picture of the window", False, True, "Ctrl+F12", CTRL),
-    ("Copy a picture of the view in use", True, True, "Ctrl+Shift+F12", CTRL | SHIFT),
+    ("Save a picture of the window", False, False, "F12"),
+    ("Save a picture of the view in use", True, False, "Shift+F12"),
+    ("Save a picture of the window as...", False, None, ""),
+    ("Save a picture of the view in use as...", True, None, ""),
+    ("Copy a picture of the window", False, True, "Ctrl+F12"),
+    ("Copy a picture of the view in use", True, True, "Ctrl+Shift+F12"),
 )
 
 
-def _picture(name: str, view: bool, copy: bool | None, keys: str, modifiers: int) -> Action:
+def _picture(name: str, view: bool, copy: bool | None, keys: str) -> Action:
     """Return the action. copy: to the clipboard; None: into a file that the user names."""
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         if copy is None:
             window.shell.picture_as(view)
         else:
             window.shell.picture(view, copy)
 
-    chords = (modifiers | int(Key.f12),) if keys else ()
-    return Action("File/Picture", name, run, keys, chords, separated=keys == "Ctrl+F12")
+    return Action("File/Picture", name, run, keys, separated=keys == "Ctrl+F12")
 
 
 FILE = (
-    Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O", (CTRL | int(Key.o),)),
+    Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O"),
     Action("File", "Open photograph...", lambda w: w.files.open_photograph_dialog()),
     Action(
         "File",
         "Save scene",
         lambda w: w.save_scene(),
         "Ctrl+S",
-        (CTRL | int(Key.s),),
         separated=True,
     ),
     Action(
@@ -118,7 +115,6 @@ FILE = (
         "Save scene as...",
         lambda w: w.save_scene_as(),
         "Ctrl+Shift+S",
-        (CTRL | SHIFT | int(Key.s),),
     ),
     Action("File", "Save scene with this view", lambda w: w.save_scene_with_view()),
     Action(
@@ -126,7 +122,6 @@ FILE = (
         "Save view...",
         lambda w: w.files.save_view_dialog(w.state.view),
         "Ctrl+Alt+S",
-        (CTRL | ALT | int(Key.s),),
         separated=True,
     ),
     Action(
@@ -136,11 +131,11 @@ FILE = (
         can=lambda w: len(w.state.options.bookmarks) > 1,
     ),
     *CAMERA_FILES,
-    Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E", (CTRL | int(Key.e),)),
+    Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E"),
     *(_picture(*entry) for entry in PICTURES),
 )
 
-QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", (CTRL | int(Key.q),), separated=True),)
+QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", separated=True),)
 
 BOOKMARKS = (
     *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
@@ -157,17 +152,15 @@ LOOK = (
     Action(
         "View",
         "Maximise the view",
-        lambda w: w.shell.stage.maximise(),
+        lambda w: w.shell.maximise(),
         "Ctrl+M",
-        (CTRL | int(Key.m),),
     ),
-    Action("View", "Full screen", lambda w: w.shell.toggle_full_screen(), "F11", (int(Key.f11),)),
+    Action("View", "Full screen", lambda w: w.shell.toggle_full_screen(), "F11"),
     Action(
         "View",
         "Presentation",
         changing(_presentation),
         "F9",
-        (int(Key.f9),),
         is_on=lambda state: state.preferences.presentation,
     ),
     _theme("dark", "Dark theme"),
@@ -178,7 +171,6 @@ LOOK = (
         "Larger type",
         changing(lambda state: scaled(state, 1)),
         "Ctrl++",
-        (CTRL | int(Key.equal), CTRL | SHIFT | int(Key.equal), CTRL | int(Key.keypad_add)),
         separated=True,
     ),
     Action(
@@ -186,14 +178,12 @@ LOOK = (
         "Smaller type",
         changing(lambda state: scaled(state, -1)),
         "Ctrl+-",
-        (CTRL | int(Key.minus), CTRL | int(Key.keypad_subtract)),
     ),
     Action(
         "View/Theme",
         "Type at 100 %",
         changing(lambda state: scaled(state, 0)),
         "Ctrl+0",
-        (CTRL | int(Key._0), CTRL | int(Key.keypad0)),
     ),
     _notation("book"),
     _notation("code"),
@@ -202,17 +192,15 @@ LOOK = (
     Action(
         "View",
         "Next view",
-        lambda w: w.shell.stage.focus_next(1),
+        lambda w: w.shell.focus_next(1),
         "F3",
-        (int(Key.f3),),
         separated=True,
     ),
     Action(
         "View",
         "Previous view",
-        lambda w: w.shell.stage.focus_next(-1),
+        lambda w: w.shell.focus_next(-1),
         "Shift+F3",
-        (SHIFT | int(Key.f3),),
     ),
 )
 
@@ -222,21 +210,19 @@ HELP = (
         "Find a command",
         lambda w: w.shell.toggle_palette(),
         "Ctrl+Shift+P",
-        (CTRL | SHIFT | int(Key.p),),
     ),
     Action(
         "Help",
         "Mouse and keys",
         lambda w: w.shell.toggle_help(),
         "F1",
-        (int(Key.f1), SHIFT | int(Key.slash)),
+        "Shift+/",
     ),
     Action(
         "Help",
         "Retry",
         lambda w: w.retry(),
         "F4",
-        (int(Key.f4),),
-        can=lambda w: w.renderers.failure is not None or bool(w.shell.stage.failed.errors),
+        can=lambda w: w.renderers.failure is not None or w.shell.has_failed,
     ),
 )

@@ -12,7 +12,7 @@ from app.cameras.films.paths import Key
 from app.cameras.lens_choices import KINDS
 from app.state.app_state import AppState
 from app.state.options.shared import MOST_BOOKMARKS, Bookmark
-from app.ui.action import Window
+from app.ui.host import Host
 from renderer.scene import View
 from renderer.system.atomic import atomic_write
 from renderer.system.errors import one_line
@@ -51,13 +51,13 @@ def renamed(state: AppState, number: int, name: str) -> AppState:
     return state.with_options(replace(state.options, bookmarks=tuple(marks)))
 
 
-def store(window: Window, number: int) -> None:
+def store(window: Host, number: int) -> None:
     """Keeps the view of now, and says so."""
     window.change(with_bookmark(window.state, number))
     window.shell.toasts.add(f"This view is bookmark {number}: key {number} comes back to it.")
 
 
-def recall(window: Window, number: int) -> None:
+def recall(window: Host, number: int) -> None:
     """Goes to a bookmark's view; says how to make one where there is none."""
     mark = of(window.state, number)
     if mark is None:
@@ -66,7 +66,7 @@ def recall(window: Window, number: int) -> None:
     window.travel(window.state.with_view(mark.view))
 
 
-def save_for_film(window: Window) -> None:
+def save_for_film(window: Host) -> None:
     """Ask where to save the bookmarks' views as the key cameras of a film."""
     keys = [Key(mark.view) for mark in window.state.options.bookmarks]
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from app.cameras.camera_panel.actions import image_size
 from app.cameras.text import CALLED
-from app.ui.action import Action, Window
+from app.ui.action import Action
+from app.ui.host import Host
 from renderer.files.cameras import FORMATS, Options, PosedCamera, written
 from renderer.files.cameras.formats import Format
 from renderer.files.cameras.saving import save_files
@@ -29,11 +30,11 @@ def _kinds(entry: Format) -> str:
     return ", ".join(entry.endings) if entry.endings[0] else "a folder"
 
 
-def _saving(entry: Format) -> Callable[[Window], None]:
+def _saving(entry: Format) -> Callable[[Host], None]:
     return lambda window: _save_dialog(window, entry)
 
 
-def _save_dialog(window: Window, entry: Format) -> None:
+def _save_dialog(window: Host, entry: Format) -> None:
     """Ask where to save the camera. First report what the format cannot hold."""
     state = window.state
     posed = PosedCamera(window.renderers.camera(state), image_size(window))

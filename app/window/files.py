@@ -24,10 +24,12 @@ from app.ui.watching import SceneWatch
 from app.window.code_files import CODE_ENDING, TASKS_ENDING
 from app.window.opening import (
     Opened,
+    OpenedLecture,
+    OpenedScene,
+    OpenedView,
     open_lecture,
     open_sources,
     open_tasks,
-    open_to_add,
     reread,
 )
 from renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
@@ -162,7 +164,7 @@ class Files:
 
     def add_model_dialog(self) -> None:
         def add(paths: list[str]) -> None:
-            self._load(paths[0], lambda agreed: open_to_add(paths[0], agreed))
+            self._load(paths[0], lambda agreed: open_sources(paths, True, agreed, "add"))
 
         self.ask_open("Add a model to the scene", "Models", MODEL_ENDINGS, add)
 
@@ -306,20 +308,20 @@ class Files:
         self.ask(text, {OPEN: lambda: again(frozenset(error.files))})
 
     def _note(self, opened: Opened) -> None:
-        if opened.scene is not None and opened.scene.origin is not None:
-            source = opened.scene.origin.source
-            self._watch.know(opened.scene.origin.files)
+        scene, view = opened.find(OpenedScene), opened.find(OpenedView)
+        if scene is not None and scene.scene.origin is not None:
+            source = scene.scene.origin.source
+            self._watch.know(scene.scene.origin.files)
             self._guarded.pop(source, None)
-            if opened.agreed is not None:
-                self._guarded[source] = opened.agreed
+            if scene.agreed is not None:
+                self._guarded[source] = scene.agreed
         for source in reversed(opened.sources):
             if source not in SCENE_NAMES:
                 self.recent.add(str(Path(source).absolute()))
-        if opened.taken is not None:
-            self.say(opened.taken.said)
-        scene_notes = () if opened.scene is None else opened.scene.notes
-        lecture_notes = () if opened.lecture is None else opened.lecture[0].notes
-        self.message = "\n".join((*opened.problems, *scene_notes, *lecture_notes))
+        if view is not None and view.said:
+            self.say(view.said)
+        read = [found for found in (scene, opened.find(OpenedLecture)) if found is not None]
+        self.message = "\n".join((*opened.problems, *(note for one in read for note in one.notes)))
 
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]

@@ -21,15 +21,18 @@ from app.checking.your_code.view import YourCodeView
 from app.images.pair.boxes import asking_pixel, asking_size
 from app.images.pair.view import RASTER
 from app.images.renderers import Renderers
-from app.instruments.outside.view import OUTSIDE, OutsideView
+from app.instruments.outside.view import OutsideView
 from app.lecture.movement import Movement
 from app.lecture.view import LECTURE, LectureView
 from app.state.app_state import AppState, History
+from app.state.bounds import OptionPart
+from app.state.options import Options
 from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.background import Background
 from app.ui.fly import Fly
-from app.ui.view import AView, DockedView
+from app.ui.host import T
+from app.ui.instrument import Instrument
 from app.window.action_table import run_shortcuts
 from app.window.entry_boxes import EntryBoxes
 from app.window.files import Files
@@ -86,21 +89,23 @@ class MainWindow:
         self.for_print = False
         self._fly = Fly()
         self.menu_keys = MenuKeys()
-        self._over: DockedView | None = None
+        self._over: Instrument | None = None
         self.saving = SceneSaving(self.files, self._quit)
         self._closes = False
 
     # What actions and views ask for.
 
-    def view(self, kind: type[AView]) -> AView:
-        view = self.views[kind.name]
-        assert isinstance(view, kind)
-        return view
+    def view(self, kind: type[T]) -> T:
+        return next(view for view in self.views.values() if isinstance(view, kind))
 
     @property
     def state(self) -> AppState:
         """The present state, or the one that a movement shows on its way there."""
         return self._playing.shown or self.history.present
+
+    @property
+    def options(self) -> Options:
+        return self.state.options
 
     @property
     def present(self) -> AppState:
@@ -154,6 +159,9 @@ class MainWindow:
             gesture = ("drag", self._gesture if self._was_active else self._gesture + 1)
         self.history = self.history.change(state, gesture)
 
+    def edit(self, part: Options | OptionPart) -> None:
+        self.apply(self.state.with_options(part))
+
     def change(self, state: AppState) -> None:
         if state != self.state and not self._was_moving():
             self.history = self.history.change(state)
@@ -189,6 +197,12 @@ class MainWindow:
         if view not in self.shell.stage.rects:
             self.shell.stage.show(view)
 
+    def show_in(self, view: str, layout: str) -> None:
+        self.shell.stage.show_in(view, layout)
+
+    def is_visible(self, view: str) -> bool:
+        return view in self.shell.stage.rects
+
     def unclick(self) -> None:
         self.history = self.history.unclicked(("drag", self._gesture))
 
@@ -205,9 +219,7 @@ class MainWindow:
         return self.boxes.close()
 
     def travel(self, state: AppState) -> None:
-        outside = self.views[OUTSIDE]
-        assert isinstance(outside, OutsideView)
-        ends = outside.ends(self, state)
+        ends = self.view(OutsideView).ends(self, state)
         shown = self.transition.begin(self.state, state, self.focus, self.renderers.size, ends)
         if shown is state:
             self.change(state)
@@ -320,7 +332,7 @@ class MainWindow:
     def menus(self) -> None:
         self.menu_keys.frame()
         is_hall = self.state.preferences.presentation
-        menu_bar(self, self.history, self.status if is_hall else None)
+        menu_bar(self, self.history, self.shell.stage, self.status if is_hall else None)
 
     def _bars(self) -> None:
         """Show the bars that there is room for: none on the stage, one in presentation mode."""
@@ -328,7 +340,7 @@ class MainWindow:
         shown.show_menu_bar = not self.on_stage
         shown.show_status_bar = not self.state.preferences.presentation
         if self.on_stage and self.lecture.shows_controls:
-            menu_button(self, self.history, self.shell.stage.rects.get(LECTURE))
+            menu_button(self, self.history, self.shell.stage)
 
     def frame(self) -> None:
         """The beginning of each frame: what has come from the threads, and the keys."""
@@ -375,7 +387,7 @@ class MainWindow:
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 
-    def draw_view(self, view: DockedView) -> None:
+    def draw_view(self, view: Instrument) -> None:
         """A view's ImGui window, where it is shown."""
         self.shell.stage.draw(view, self)
 

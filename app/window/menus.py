@@ -12,10 +12,13 @@ from dataclasses import replace
 from imgui_bundle import ImVec2, imgui
 
 from app.cameras.camera_panel.actions import SCENE_VIEW, go_to_view
+from app.lecture.view import LECTURE
 from app.state.app_state import History
 from app.state.changes import change
 from app.ui import layout, theme
-from app.ui.action import Action, Window
+from app.ui.action import Action
+from app.ui.host import Host
+from app.ui.stage import Stage
 from app.window import bookmarks
 from app.window.action_table import ACTIONS, MENUS
 from renderer.files import SCENE_NAMES
@@ -28,7 +31,7 @@ USES = {one.name: one.use for one in layout.CHOICES}
 
 
 def menu_bar(
-    window: Window, history: History, status: Callable[[float], None] | None = None
+    window: Host, history: History, stage: Stage, status: Callable[[float], None] | None = None
 ) -> None:
     """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one.
 
@@ -37,9 +40,9 @@ def menu_bar(
     gap = 2 * imgui.get_style().item_spacing.x
     needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
     if needed <= imgui.get_window_width():
-        _menus(window, history)
+        _menus(window, history, stage)
     elif imgui.begin_menu("Menu"):
-        _menus(window, history)
+        _menus(window, history, stage)
         imgui.end_menu()
     name, style = layout.current().name, imgui.get_style()
     width = imgui.calc_text_size(name).x + imgui.get_font_size()  # with the arrow
@@ -53,10 +56,9 @@ def menu_bar(
         _layouts(window, name)
 
 
-def menu_button(
-    window: Window, history: History, column: tuple[float, float, float, float] | None
-) -> None:
+def menu_button(window: Host, history: History, stage: Stage) -> None:
     """Draw a button with all menus into the upper right corner of a lecture's column."""
+    column = stage.rects.get(LECTURE)
     if column is None:
         return
     imgui.set_next_window_pos((column[2], column[1]), pivot=(1, 0))
@@ -69,21 +71,21 @@ def menu_button(
     if imgui.button("Menu"):
         imgui.open_popup("menus")
     if imgui.begin_popup("menus"):
-        _menus(window, history)
+        _menus(window, history, stage)
         imgui.end_popup()
     imgui.end()
 
 
-def _menus(window: Window, history: History) -> None:
+def _menus(window: Host, history: History, stage: Stage) -> None:
     for menu in MENUS:
         if imgui.begin_menu(menu):
             if menu == "View":
-                _views(window)
+                _views(stage)
             _actions(menu, window, history)
             imgui.end_menu()
 
 
-def _actions(menu: str, window: Window, history: History) -> None:
+def _actions(menu: str, window: Host, history: History) -> None:
     """Return the actions of a menu; those of a submenu where the first of them is."""
     drawn: set[str] = set()
     for action in ACTIONS:
@@ -113,7 +115,7 @@ def _actions(menu: str, window: Window, history: History) -> None:
             imgui.end_menu()
 
 
-def _item(action: Action, window: Window, first: bool = False) -> None:
+def _item(action: Action, window: Host, first: bool = False) -> None:
     if action.separated and not first:
         imgui.separator()
     on = action.is_on(window.state) if action.is_on else False
@@ -126,7 +128,7 @@ def _item(action: Action, window: Window, first: bool = False) -> None:
         imgui.set_item_tooltip(USES[action.name])
 
 
-def _scenes(window: Window) -> None:
+def _scenes(window: Host) -> None:
     if imgui.begin_menu("Built-in scenes"):
         for name in SCENE_NAMES:
             if imgui.menu_item(name, "", False)[0]:
@@ -134,7 +136,7 @@ def _scenes(window: Window) -> None:
         imgui.end_menu()
 
 
-def _recent(window: Window) -> None:
+def _recent(window: Host) -> None:
     recent = window.files.recent
     entries = recent.entries
     if not imgui.begin_menu("Recent files", bool(entries)):
@@ -152,7 +154,7 @@ def _recent(window: Window) -> None:
     imgui.end_menu()
 
 
-def _file_views(window: Window) -> None:
+def _file_views(window: Host) -> None:
     """Return the cameras of the scene's file other than the initial view."""
     views = window.state.scene.views
     if imgui.begin_menu("From the file", bool(views)):
@@ -167,7 +169,7 @@ def _short(text: str, most: int = 40) -> str:
     return text if len(text) <= most else "..." + text[3 - most :]
 
 
-def _history(window: Window, history: History) -> None:
+def _history(window: Host, history: History) -> None:
     """The last steps, the newest on top; a click goes back, or forward, to after a step."""
     if not imgui.begin_menu("History", bool(history.past or history.future)):
         return
@@ -183,7 +185,7 @@ def _history(window: Window, history: History) -> None:
     imgui.end_menu()
 
 
-def _bookmarks(window: Window) -> None:
+def _bookmarks(window: Host) -> None:
     marks = window.state.options.bookmarks
     if not marks:
         imgui.text_colored(theme.DIM, "Ctrl+1 to Ctrl+9 keep the view; 1 to 9 come back to it")
@@ -219,8 +221,7 @@ def _bookmarks(window: Window) -> None:
         imgui.end_menu()
 
 
-def _views(window: Window) -> None:
-    stage = window.shell.stage
+def _views(stage: Stage) -> None:
     if imgui.begin_menu("Views"):
         for name, view in stage.views.items():
             shown = stage.is_shown(name)
@@ -231,7 +232,7 @@ def _views(window: Window) -> None:
     imgui.separator()
 
 
-def _layouts(window: Window, name: str) -> None:
+def _layouts(window: Host, name: str) -> None:
     """The layout's name at the right end of the bar; a menu to choose another."""
     arrow, style = 0.5 * imgui.get_font_size(), imgui.get_style()
     corner = imgui.get_cursor_screen_pos()

@@ -6,12 +6,11 @@ Nothing here waits for a window: it runs on the threads that load.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Literal, TypeVar
 
-from app.cameras.taken import TakenCamera
 from app.checking.task_file import load_tasks
 from app.images.photograph.reading import found_photograph, is_photograph
 from app.instruments.poses.model import PoseSet
@@ -30,145 +29,212 @@ from renderer.system.cancelling import check_cancelled
 from renderer.system.errors import LucidaError, describe
 
 SNIFFED_BYTES = 1 << 20
+T = TypeVar("T")
+Use = Literal["open", "first", "newer", "add"]
+
+
+@dataclass(frozen=True)
+class OpenedScene:
+    """A scene, or a model as one.
+
+    prepared: for the rasterizer, so that no frame has to prepare it; None if that fails, which
+    drawing reports. agreed: the files outside its folder that a scene which came by itself may
+    read; None if the user named it.
+    use: "open" it in place of the present one; as the "first" scene of the window, without an undo
+    step; "newer": as a version of the present one, if that is still a version of `replaces`; "add"
+    its model to the present one.
+    """
+
+    scene: Scene
+    prepared: Prepared | None = None
+    agreed: frozenset[Path] | None = None
+    use: Use = "open"
+    replaces: Scene | None = None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self.scene.notes
+
+
+@dataclass(frozen=True)
+class OpenedView:
+    """A view. said: what a camera of another format was taken for."""
+
+    view: View
+    said: str = ""
+
+
+@dataclass(frozen=True)
+class OpenedLecture:
+    """A lecture, and its file."""
+
+    lecture: Lecture
+    path: Path
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self.lecture.notes
+
+
+@dataclass(frozen=True)
+class OpenedPoses:
+    """A set of cameras."""
+
+    poses: PoseSet
+
+
+@dataclass(frozen=True)
+class OpenedCode:
+    """The absolute path of an existing Python file."""
+
+    path: str
+
+
+@dataclass(frozen=True)
+class OpenedTasks:
+    """The absolute path of a course's tasks, which can be read."""
+
+    path: str
+
+
+@dataclass(frozen=True)
+class OpenedPhotograph:
+    """The absolute path of a photograph, which can be read."""
+
+    path: str
+
+
+Thing = (
+    OpenedScene
+    | OpenedView
+    | OpenedLecture
+    | OpenedPoses
+    | OpenedCode
+    | OpenedTasks
+    | OpenedPhotograph
+)
 
 
 @dataclass(frozen=True)
 class Opened:
-    """The contents of the sources: a scene, a view, or both. sources: those that could be read.
+    """The contents of sources, at most one thing of each kind.
 
-    problems: one line for each of the others. lecture: and its file. prepared: the scene for the
-    rasterizer, so that no frame has to prepare it; None if that fails, which drawing reports.
-    is_first: replaces what the window began with, without an undo step. replaces: the scene of
-    which this is a newer version; None for another one. agreed: the files outside its folder that a
-    scene which came by itself may read; None if the user named it. code: the absolute path of an
-    existing Python file. poses: a set of cameras. tasks: the path of a course's tasks, which can be
-    read. photograph: the absolute path of one, which can be read. taken: the camera of another
-    format, which becomes the view. adds: add a model
-    to the open scene.
+    sources: those that could be read. problems: one line for each of the others.
     """
 
+    things: tuple[Thing, ...] = ()
     sources: tuple[str, ...] = ()
-    scene: Scene | None = None
-    view: View | None = None
     problems: tuple[str, ...] = ()
-    lecture: tuple[Lecture, Path] | None = None
-    prepared: Prepared | None = None
-    is_first: bool = False
-    replaces: Scene | None = None
-    agreed: frozenset[Path] | None = None
-    code: str = ""
-    poses: PoseSet | None = None
-    tasks: str = ""
-    photograph: str = ""
-    taken: TakenCamera | None = None
-    adds: bool = False
+
+    def find(self, kind: type[T]) -> T | None:
+        """Return the thing of a kind; None if there is none."""
+        return next((thing for thing in self.things if isinstance(thing, kind)), None)
 
 
 def open_sources(
-    sources: Sequence[str], dropped: bool = False, agreed: frozenset[Path] = frozenset()
+    sources: Sequence[str],
+    dropped: bool = False,
+    agreed: frozenset[Path] = frozenset(),
+    use: Use = "open",
 ) -> Opened:
-    """Load the first scene and the first view among sources; and the first lecture, the first
-    Python file, the first set of cameras, the first file of tasks and the first photograph. A file
-    with one camera is a view, whatever its format.
+    """Load the first thing of each kind among sources. A file with one camera is a view, whatever
+    its format.
 
-    dropped: scenes must not name files outside of their folder but those that are agreed to;
-    lectures never. Raises LucidaError where there is but one and it cannot be read, OutsideError
-    in any case.
+    dropped: scenes must not name files outside their folder, except those that are agreed to;
+    lectures never may. Raises LucidaError if there is only one source and it cannot be read, and
+    OutsideError in any case.
     """
-    found: dict[str, Any] = {}  # Opened's fields
+    found: dict[type, Thing] = {}
     good: list[str] = []
     problems: list[str] = []
     for source in sources:
-        if "scene" in found and _kind(source) == "scene":
+        read = _reader(source)
+        if read is None and OpenedScene in found:
             continue  # one scene at a time
         try:
-            found = _held(source, dropped, agreed) | found
-            good.append(source)
+            if read is not None:
+                thing = read(source, agreed)
+            else:
+                thing = _open_scene(source, agreed if dropped else None, use)
         except LucidaError as error:
             if len(sources) == 1 or isinstance(error, OutsideError):
                 raise
             problems.append(describe(error))
-    taken = found.get("taken")
-    if taken is not None:
-        found.setdefault("view", taken.view)
-    found |= {"prepared": _prepared(found.get("scene")), "agreed": agreed if dropped else None}
-    return Opened(tuple(good), problems=tuple(problems), **found)
+        else:
+            found.setdefault(type(thing), thing)
+            good.append(source)
+    return Opened(tuple(found.values()), tuple(good), tuple(problems))
 
 
-def _kind(source: str) -> str:
-    """Return what a source looks like, by its name and its first lines."""
+Reader = Callable[[str, frozenset[Path]], Thing]
+
+
+def _reader(source: str) -> Reader | None:
+    """Return what reads a source, by its name and its first lines; None for scenes and models."""
     if source in SCENE_NAMES:
-        return "scene"
-    kinds = {
-        "tasks": is_tasks,
-        "photograph": is_photograph,
-        "view": _is_view,
-        "lecture": is_lecture,
-        "cameras": is_cameras,
-        "code": is_code,
-    }
-    return next((kind for kind, is_it in kinds.items() if is_it(source)), "scene")
+        return None
+    readers: tuple[tuple[Callable[[str], bool], Reader], ...] = (
+        (is_tasks, lambda source, _: _open_tasks(source)),
+        (is_photograph, lambda source, _: OpenedPhotograph(found_photograph(source))),
+        (_is_view, lambda source, _: OpenedView(load_view(source))),
+        (is_lecture, _open_lecture),
+        (is_cameras, lambda source, _: _open_cameras(source)),
+        (is_code, lambda source, _: OpenedCode(found_code(source))),
+    )
+    return next((read for is_it, read in readers if is_it(source)), None)
 
 
-def _held(source: str, dropped: bool, agreed: frozenset[Path]) -> dict[str, Any]:
-    """Return the contents of a source, as a field of Opened. Raises LucidaError."""
-    kind = _kind(source)
-    if kind == "tasks":
-        return {"tasks": open_tasks(source).tasks}
-    if kind == "photograph":
-        return {"photograph": found_photograph(source)}
-    if kind == "view":
-        return {"view": load_view(source)}
-    if kind == "lecture":
-        return {"lecture": (load_lecture(source, agreed), Path(source).absolute())}
-    if kind == "cameras":
-        cameras = open_cameras(source)
-        return {"poses" if isinstance(cameras, PoseSet) else "taken": cameras}
-    if kind == "code":
-        return {"code": found_code(source)}
-    return {"scene": _load_scene(source, agreed if dropped else None)}
-
-
-def _load_scene(source: str, agreed: frozenset[Path] | None) -> Scene:
+def _open_scene(source: str, agreed: frozenset[Path] | None, use: Use = "open") -> OpenedScene:
     with kept_inside(Path(source), agreed):
-        return load_scene(source)
+        scene = load_scene(source)
+    return OpenedScene(scene, _prepared(scene), agreed, use)
+
+
+def _open_lecture(source: str, agreed: frozenset[Path]) -> OpenedLecture:
+    return OpenedLecture(load_lecture(source, agreed), Path(source).absolute())
+
+
+def _open_tasks(source: str) -> OpenedTasks:
+    load_tasks(source)
+    return OpenedTasks(str(Path(source).absolute()))
+
+
+def _open_cameras(source: str) -> OpenedPoses | OpenedView:
+    cameras = open_cameras(source)
+    if isinstance(cameras, PoseSet):
+        return OpenedPoses(cameras)
+    return OpenedView(cameras.view, cameras.said)
 
 
 def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
-    """A newer version of a scene, whose files have changed. agreed: as in Opened."""
+    """Return a newer version of a scene whose files have changed. agreed: as in OpenedScene."""
     with read_by(ModelReader().read):
-        newer = _load_scene(source, agreed)
-    return Opened(scene=newer, prepared=_prepared(newer), replaces=scene, agreed=agreed)
+        newer = _open_scene(source, agreed, "newer")
+    return Opened((replace(newer, replaces=scene),))
 
 
-def opened_scene(source: str, scene: Scene, view: View) -> Opened:
+def opened_scene(source: str, scene: Scene, view: View, use: Use) -> Opened:
     """Return a source's scene, seen by a view."""
-    return Opened((source,), scene, view, prepared=_prepared(scene))
-
-
-def _prepared(scene: Scene | None) -> Prepared | None:
-    if scene is not None:
-        check_cancelled()
-        with contextlib.suppress(LucidaError):
-            return prepare(scene)
-    return None
-
-
-def open_to_add(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
-    """Read a model to add to the open scene. Raises LucidaError."""
-    return replace(open_sources([source], True, agreed), adds=True)
+    return Opened((OpenedScene(scene, _prepared(scene), use=use), OpenedView(view)), (source,))
 
 
 def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
-    """Loads a file as a lecture, whatever it looks like. agreed: files outside of its folder that
-    it may read. Raises LucidaError."""
-    return Opened((source,), lecture=(load_lecture(source, agreed), Path(source).absolute()))
+    """Load a file as a lecture, whatever it looks like. agreed: files outside its folder that it
+    may read. Raises LucidaError.
+    """
+    return Opened((_open_lecture(source, agreed),), (source,))
 
 
 def open_tasks(source: str) -> Opened:
-    """Reads a file as a course's tasks. Raises LucidaError."""
-    load_tasks(source)
-    return Opened((source,), tasks=str(Path(source).absolute()))
+    """Read a file as a course's tasks, whatever it looks like. Raises LucidaError."""
+    return Opened((_open_tasks(source),), (source,))
+
+
+def _prepared(scene: Scene) -> Prepared | None:
+    check_cancelled()
+    with contextlib.suppress(LucidaError):
+        return prepare(scene)
+    return None
 
 
 def _is_view(source: str) -> bool:

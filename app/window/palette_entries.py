@@ -10,7 +10,9 @@ from functools import partial
 
 from app.cameras.camera_panel.actions import go_to_view
 from app.lecture.view import LectureView
-from app.ui.action import Action, Window
+from app.ui.action import Action
+from app.ui.host import Host
+from app.ui.stage import Stage
 from app.window.action_table import ACTIONS
 from app.window.bookmarks import recall
 from app.window.instruments import INSTRUMENTS
@@ -45,12 +47,12 @@ OWN = {
     "Mirrors (ray image only)": "reflection reflections",
 }
 
-SYNONYMS = OWN | {name: also for one in INSTRUMENTS.values() for name, also in one.synonyms.items()}
+SYNONYMS = OWN | {name: also for one in INSTRUMENTS for name, also in one.synonyms.items()}
 
 
-def entries(window: Window) -> list[Entry]:
+def entries(window: Host, stage: Stage) -> list[Entry]:
     """Return all entries, in the order of the menus."""
-    stage, state, files = window.shell.stage, window.state, window.files
+    state, files = window.state, window.files
     found = [_of_action(action, window) for action in ACTIONS]
     for name, view in stage.views.items():
         title, menu = " ".join(view.title.split()), "View > Views"
@@ -84,27 +86,27 @@ def entries(window: Window) -> list[Entry]:
     return found
 
 
-def pages(window: Window) -> list[Entry]:
+def pages(window: Host) -> list[Entry]:
     """Return the entries of the instruments' pages."""
     return [
         Entry(
             page,
             "View > Views",
-            partial(_show_page, window, name, options),
+            partial(_show_page, window, instrument.name, options),
             also=SYNONYMS.get(page, ""),
         )
-        for name, instrument in INSTRUMENTS.items()
+        for instrument in INSTRUMENTS
         for page, options in instrument.pages.items()
     ]
 
 
-def _show_page(window: Window, name: str, options: Mapping[str, object]) -> None:
-    window.shell.stage.show(name.capitalize())
-    changed = window.state.options.with_changes({name: options})
+def _show_page(window: Host, name: str, options: Mapping[str, Mapping[str, object]]) -> None:
+    window.show(name)
+    changed = window.state.options.with_changes(options)
     window.change(window.state.with_options(changed))
 
 
-def _of_action(action: Action, window: Window) -> Entry:
+def _of_action(action: Action, window: Host) -> Entry:
     return Entry(
         action.name,
         action.menu.replace("/", " > "),

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from app.state.app_state import AppState
 from app.ui.background import Background
-from app.ui.view import Host
+from app.ui.host import Host
 from app.window.files import Files
 from renderer.editing.documents import ChangedOnDiskError, file_of, is_unsaved, save, suggested_file
 from renderer.files.outside import outside_files

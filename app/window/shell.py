@@ -18,13 +18,13 @@ from app.instruments.objects.choosing import choose, chosen
 from app.lecture.view import LectureView
 from app.state.app_state import AppState
 from app.state.session import Session, session_of
-from app.ui.action import Window
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from app.ui.messages import listing_box, loading_box, message_box
 from app.ui.stage import Stage
 from app.ui.surface import Target
 from app.ui.theme import Fonts
 from app.ui.toasts import Toasts
-from app.ui.view import DockedView, Host
 from app.web import ENDINGS as PAGES
 from app.window.capture import Captures, Rect
 from app.window.exporting import Exports
@@ -50,7 +50,7 @@ class Shell:
 
     def __init__(
         self,
-        views: list[DockedView],
+        views: list[Instrument],
         files: Files,
         fonts: Fonts,
         wake: Callable[[], None],
@@ -77,6 +77,16 @@ class Shell:
         return self.captures.busy or self.exports.busy
 
     # What actions ask for.
+
+    @property
+    def has_failed(self) -> bool:
+        return bool(self.stage.failed.errors)
+
+    def maximise(self) -> None:
+        self.stage.maximise()
+
+    def focus_next(self, step: int) -> None:
+        self.stage.focus_next(step)
 
     def toggle_palette(self) -> None:
         self.palette.toggle()
@@ -118,7 +128,7 @@ class Shell:
             lambda path: self.exports.begin(path, state.scene, camera, size),
         )
 
-    def escape(self, window: Window) -> None:
+    def escape(self, window: Host) -> None:
         """Handle Escape: close what lies on top, end what takes long, clear the selection or the
         mark, make small what is large; one of these at a time."""
         if self.palette.open:
@@ -158,7 +168,7 @@ class Shell:
 
     # The frame.
 
-    def frame(self, window: Window) -> None:
+    def frame(self, window: Host) -> None:
         """Update the parts. Call once a frame, before the views."""
         self.stage.follow()
         self.stage.leave_out_hidden(window)
@@ -176,7 +186,7 @@ class Shell:
             else:
                 self.files.message = text
 
-    def draw(self, window: Window, typing: bool = False, in_menus: bool = False) -> None:
+    def draw(self, window: Host, typing: bool = False, in_menus: bool = False) -> None:
         """Draw what lies over the views. typing: a box has the keyboard, and handles Escape, as the
         menus do."""
         # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
@@ -189,7 +199,7 @@ class Shell:
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)
-        self.palette.draw(lambda: entries(window))
+        self.palette.draw(lambda: entries(window, self.stage))
         self.toasts.draw()
         self._hide_cursor(typing or self.palette.open or self.files.dialog.is_open)
 
@@ -225,7 +235,7 @@ class Shell:
         """Once a frame, when all is drawn, before it is shown."""
         self.captures.after_drawing(target)
 
-    def end(self, window: Window, keeps_edits: bool = True) -> None:
+    def end(self, window: Host, keeps_edits: bool = True) -> None:
         """Once, at the end. keeps_edits: whether the session has what is not saved of the scene."""
         self.captures.close()
         self.exports.close()
@@ -235,7 +245,7 @@ class Shell:
                 session = replace(session, edited=None)
             self._keeper.close(session)
 
-    def _session(self, window: Window) -> Session | None:
+    def _session(self, window: Host) -> Session | None:
         """Return what to keep; None until the window's first scene is there."""
         if self.files.awaits_first:
             return None
@@ -243,7 +253,7 @@ class Shell:
         arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
         return session_of(state, arrangement, window.view(LectureView).kept(state))
 
-    def _messages(self, window: Window) -> None:
+    def _messages(self, window: Host) -> None:
         """One message at a time: what was asked for first, then what failed by itself."""
         if self._keeper is not None and self._keeper.message:
             self.toasts.add(self._keeper.message, good=False)
@@ -283,7 +293,7 @@ class Shell:
         # A failure in each frame is a new exception each time: compare the words.
         return failure if failure is not None and describe(failure) != self._answered else None
 
-    def _keep(self, window: Window) -> None:
+    def _keep(self, window: Host) -> None:
         keeper = self._keeper
         if keeper is None:
             return

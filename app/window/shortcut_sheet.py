@@ -29,7 +29,7 @@ MOVING: tuple[Row, ...] = (
     ("Ctrl+Tab", "from view to view"),
     ("Tab, arrows", "from control to control; Space uses it"),
     ("arrows in the outside view", "turn it; Shift: faster"),
-    *(row for instrument in INSTRUMENTS.values() for row in instrument.keyboard),
+    *(row for instrument in INSTRUMENTS for row in instrument.keyboard),
     ("Alt, F10", "into the menus and back"),
     ESCAPE,
 )
@@ -37,7 +37,7 @@ MOVING: tuple[Row, ...] = (
 
 def sections() -> list[Part]:
     """Return the sheet's parts in their order."""
-    headings = {a: one.heading for one in INSTRUMENTS.values() if one.heading for a in one.actions}
+    headings = {a: one.heading for one in INSTRUMENTS if one.heading for a in one.actions}
     parts: dict[str, list[Row]] = {"Mouse": list(MOUSE)}
     for action in sorted(ACTIONS, key=lambda a: MENUS.index(a.menu.split("/")[0])):
         if action.keys:

@@ -21,7 +21,7 @@ from app.state.app_state import AppState
 from app.state.kept_lecture import KeptLecture
 from app.state.options import Options
 from app.state.session import Session
-from app.window.opening import Opened, opened_scene
+from app.window.opening import Opened, Use, opened_scene
 from app.window.session_store import Keeper, SessionFile, take_place
 from renderer.files import BUILTIN_SCENES, load_scene
 from renderer.files.models.models import ModelFile, read_by, read_model
@@ -45,14 +45,13 @@ class Later:
     view: ChangeView
     load: Callable[[], Scene] | None = None
     rescued: Callable[[], str] = str
-    is_first: bool = True
+    use: Use = "first"
 
     def open(self) -> Opened:
         """Read the scene. Errors are reported, and the window keeps the scene it began with."""
         try:
             scene = load_scene(self.source) if self.load is None else self.load()
-            opened = opened_scene(self.source, scene, self.view(scene.view))
-            return replace(opened, is_first=self.is_first)
+            return opened_scene(self.source, scene, self.view(scene.view), self.use)
         except LucidaError as error:
             return Opened(problems=(describe(error) + self.rescued(),))
 
@@ -177,7 +176,7 @@ def _in_place(start: Start, folder: Path | None) -> tuple[Options, Start]:
         if path := _rescued(session, place):
             told += f" They are kept in {path}."
         view = session.view
-        edited = Later(session.source, lambda _: view, session.load_scene, is_first=False)
+        edited = Later(session.source, lambda _: view, session.load_scene, use="open")
         start = replace(start, unsaved=Unsaved(told, edited))
     return session.options, start
 

@@ -7,25 +7,39 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Protocol
+from functools import partial
+from typing import Literal, Protocol
 
 from app.checking.your_code.view import YourCodeView
 from app.images.photograph.model import with_photograph
+from app.instruments.objects.editing import with_scene
 from app.instruments.poses.model import PoseSet
 from app.instruments.poses.view import PosesView
 from app.lecture.view import LectureView
-from app.ui.action import Window
-from app.window import dropping
-from app.window.opening import Opened
+from app.state.app_state import AppState
+from app.ui.host import Host
+from app.window.opening import (
+    Opened,
+    OpenedCode,
+    OpenedLecture,
+    OpenedPhotograph,
+    OpenedPoses,
+    OpenedScene,
+    OpenedTasks,
+    OpenedView,
+)
 from renderer.editing.documents import are_versions, is_unsaved
-from renderer.files import EMPTY_SCENE, load_scene
-from renderer.scene import Scene
-from renderer.system.errors import one_line
+from renderer.editing.objects import add, model_table
+from renderer.files import EMPTY_SCENE, SCENE_NAMES, load_scene
+from renderer.files.models.models import ModelFile, read_by
+from renderer.scene import Scene, View
+from renderer.system.errors import LucidaError, one_line
 
 READ_AGAIN = "Read it again"
+ADD, OPEN = "Add it to the scene", "Open it instead"
 
 
-class Taker(Window, Protocol):
+class Taker(Host, Protocol):
     """The window as it takes what was opened."""
 
     def open_code(self, path: str) -> None: ...
@@ -34,41 +48,48 @@ class Taker(Window, Protocol):
 
 
 def take_opened(window: Taker, opened: Opened) -> None:
-    """All that sources held, each in its place."""
-    if opened.code:
-        window.open_code(opened.code)
-    if opened.poses is not None:
-        _take_poses(window, opened, opened.poses)
-    if opened.tasks:
-        window.view(YourCodeView).open_tasks(window, opened.tasks)
-    if opened.photograph:
-        window.change(with_photograph(window.state, opened.photograph, shown=True, follows=False))
-        window.files.say("The photograph is laid over the images: Image > Photograph.")
-    if opened.lecture is not None:  # whose steps have scenes of their own
-        lecture = opened.lecture
-        window.leave_scene(lambda: window.view(LectureView).give(*lecture))
-    elif opened.scene is not None:
-        _take_scene(window, opened, opened.scene)
-    elif opened.view is not None:
-        window.change(window.state.with_view(opened.view))
+    """Take all that was opened, each thing in its place. A view is the scene's, or the set's."""
+    scene, lecture = opened.find(OpenedScene), opened.find(OpenedLecture)
+    view = opened.find(OpenedView)
+    for thing in opened.things:
+        match thing:
+            case OpenedCode(path):
+                window.open_code(path)
+            case OpenedTasks(path):
+                window.view(YourCodeView).open_tasks(window, path)
+            case OpenedPhotograph(path):
+                window.change(with_photograph(window.state, path, shown=True, follows=False))
+                window.files.say("The photograph is laid over the images: Image > Photograph.")
+            case OpenedPoses(poses):
+                _take_poses(window, poses, alone=scene is None and view is None and lecture is None)
+    if lecture is not None:  # its steps have scenes of their own
+        window.leave_scene(lambda: window.view(LectureView).give(lecture.lecture, lecture.path))
+    elif scene is not None:
+        _take_scene(window, scene, None if view is None else view.view)
+    elif view is not None:
+        window.change(window.state.with_view(view.view))
 
 
-def _take_poses(window: Taker, opened: Opened, poses: PoseSet) -> None:
-    """Show a set in an empty scene, unless a scene or a view was opened with it."""
+def _take_poses(window: Taker, poses: PoseSet, alone: bool) -> None:
+    """Show a set; in an empty scene if it was opened alone."""
     view = window.view(PosesView)
-    if opened.scene is not None or opened.view is not None or opened.lecture is not None:
-        view.open(window, poses, None)
-    else:
+    if alone:
         window.leave_scene(lambda: view.open(window, poses, load_scene(EMPTY_SCENE)))
+    else:
+        view.open(window, poses, None)
 
 
-def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:
-    state, textures = window.state, window.renderers.textures
+def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
+    state, textures, scene = window.state, window.renderers.textures, opened.scene
     if opened.replaces is not None and not are_versions(opened.replaces, state.scene):
         return  # another one is shown meanwhile
     if opened.prepared is not None and textures is not None:
         textures.rasterizer.prepare(scene, opened.prepared)
-    if opened.replaces is not None:
+    if opened.use == "first":
+        first = state.with_scene(scene, view)
+        kept = state.keep_orthonormal and first.keep_orthonormal
+        window.amend(replace(first, keep_orthonormal=kept))
+    elif opened.use == "newer":
         old = state.scene  # which may have been edited while its file was read
         if is_unsaved(old):
             window.files.ask(
@@ -77,19 +98,14 @@ def _take_scene(window: Taker, opened: Opened, scene: Scene) -> None:
             )
         else:
             take_newer(window, old, scene)
-        return
-
-    def open_() -> None:
-        window.change(window.state.with_scene(scene, opened.view))
-
-    if opened.is_first:
-        first = state.with_scene(scene, opened.view)
-        kept = state.keep_orthonormal and first.keep_orthonormal
-        window.amend(replace(first, keep_orthonormal=kept))
-    elif dropping.is_for_the_scene(state, opened):
-        dropping.settle(window, opened, lambda: window.leave_scene(open_))
     else:
-        window.leave_scene(open_)
+        open_ = partial(
+            window.leave_scene, lambda: window.change(window.state.with_scene(scene, view))
+        )
+        if _is_for_the_scene(state, opened):
+            _add_or_open(window, opened, open_)
+        else:
+            open_()
 
 
 def take_newer(window: Taker, old: Scene, new: Scene) -> None:
@@ -99,3 +115,55 @@ def take_newer(window: Taker, old: Scene, new: Scene) -> None:
     state = replace(window.state, scene=new)
     window.change(state.with_view(new.view) if untouched else state)
     window.files.say(f"{new.name} was read again: its file was saved.")
+
+
+def _is_for_the_scene(state: AppState, opened: OpenedScene) -> bool:
+    """Return True if the scene could be added: only models, dropped on a scene of the user's."""
+    origin = opened.scene.origin
+    if origin is None or opened.agreed is None or state.step is not None:
+        return False
+    return origin.tables is None and origin.source not in SCENE_NAMES
+
+
+def _add_or_open(window: Taker, opened: OpenedScene, open_: Callable[[], None]) -> None:
+    """Add such a model, or open it. Ask which the first time; the answer is an option, which the
+    menu Scene changes.
+    """
+    model, objects = opened.scene, window.options.objects
+    wanted = "add" if opened.use == "add" else objects.dropped
+
+    def answered(answer: Literal["add", "open"], do: Callable[[], None]) -> None:
+        window.amend(window.state.with_options(replace(objects, dropped=answer)))
+        do()
+
+    if wanted == "open":
+        open_()
+    elif wanted == "add":
+        _add(window, model)
+    else:
+        window.files.ask(
+            one_line(f"{model.name}: add the model to the scene? Later ones go the same way."),
+            {
+                ADD: lambda: answered("add", lambda: _add(window, model)),
+                OPEN: lambda: answered("open", open_),
+            },
+        )
+
+
+def _add(window: Taker, model: Scene) -> None:
+    try:
+        window.change(with_model(window.state, model))
+    except LucidaError as error:
+        window.files.message = f"Nothing was added. {error}"
+        return
+    window.files.say(one_line(f"{model.name} is in the scene. Shift+F frames all of it."))
+
+
+def with_model(state: AppState, model: Scene) -> AppState:
+    """The state with a model, as it was read, as one more object of its scene, which is chosen.
+    Raises LucidaError for a scene that cannot be changed."""
+    assert model.origin is not None
+    read = ModelFile(model.objects, model.views, model.notes)
+    with read_by(lambda _: read):  # it is not read again
+        scene, items = add(state.scene, model_table(state.scene, model.origin.source))
+    return with_scene(state, scene, items)

@@ -22,8 +22,8 @@ from app.state.settings import kept_whole, settings_file
 from app.ui import layout, theme
 from app.ui.focus_frame import FocusFrame
 from app.ui.focusing import Focusing
+from app.ui.instrument import Instrument
 from app.ui.surface import Target
-from app.ui.view import DockedView
 from app.window.canvas import WindowCanvas
 from app.window.clicks import ClickTime
 from app.window.keys import KeyFrames
@@ -204,7 +204,7 @@ class WindowRun:
         callbacks.before_exit = self.guarded(self.window.end)
         return params
 
-    def _draw(self, view: DockedView) -> Callable[[], None]:
+    def _draw(self, view: Instrument) -> Callable[[], None]:
         return self.guarded(lambda: self.window.draw_view(view))
 
     def guarded(self, function: Callable[[], Any]) -> Callable[[], None]:

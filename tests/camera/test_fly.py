@@ -12,7 +12,7 @@ from imgui_bundle import imgui
 
 from app.state.app_state import AppState
 from app.ui.fly import Fly
-from app.ui.view import DockedView
+from app.ui.instrument import Instrument
 from renderer.camera.camera import Camera
 from renderer.camera.checks import LARGEST
 from renderer.scene.focus import Focus
@@ -39,7 +39,7 @@ class Host:
         self.animated += 1
 
 
-class Images(DockedView):
+class Images(Instrument):
     """A view of the images' camera."""
 
     def flown(self, host: Any) -> Camera | None:
@@ -72,7 +72,7 @@ def frame(fly: Fly, host: Host) -> Iterator[Frame]:
     io.backend_flags |= imgui.BackendFlags_.renderer_has_textures.value
     down: set[Key] = set()
 
-    def run(*keys: Key, over: DockedView | None, before: Callable[[], object] = bool) -> np.ndarray:
+    def run(*keys: Key, over: Instrument | None, before: Callable[[], object] = bool) -> np.ndarray:
         for key in down | set(keys):
             io.add_key_event(key, key in keys)
         down.clear()
@@ -118,10 +118,10 @@ def test_a_flight_stays_in_its_view_and_is_one_step_of_undo(
 ) -> None:
     assert frame(Key.w, over=None) == pytest.approx(0)  # the mouse is over no view
     assert not fly.under_way and not host.gestures
-    assert frame(Key.w, over=DockedView()) == pytest.approx(0)  # nor over one that has no camera
+    assert frame(Key.w, over=Instrument()) == pytest.approx(0)  # nor over one that has no camera
     assert not fly.under_way and not host.gestures
     frame(over=IMAGES)
-    for over in (IMAGES, None, DockedView()):
+    for over in (IMAGES, None, Instrument()):
         assert frame(Key.w, over=over)[2] == pytest.approx(WAY)
         assert fly.under_way
     frame(over=IMAGES)

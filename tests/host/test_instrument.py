@@ -9,7 +9,7 @@ from app.window.shortcut_sheet import sections
 def test_the_sheet_holds_what_mouse_and_keyboard_do_in_each_instrument() -> None:
     parts = dict(sections())
     rows = [row for part in parts.values() for row in part]
-    for instrument in INSTRUMENTS.values():
+    for instrument in INSTRUMENTS:
         assert set(rows) >= {*instrument.mouse, *instrument.keyboard}
         if instrument.heading:  # keys that hold in its view only are nowhere else
             own = [action.keys for action in instrument.actions if action.keys]

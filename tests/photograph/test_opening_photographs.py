@@ -10,7 +10,7 @@ from app.images.photograph.model import with_photograph
 from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
-from app.window.opening import open_sources
+from app.window.opening import OpenedPhotograph, OpenedScene, open_sources
 from renderer.files import load_scene
 from renderer.system.errors import LucidaError
 
@@ -27,13 +27,14 @@ def photo(tmp_path):
 def test_a_picture_is_opened_as_a_photograph(photo):
     for dropped in (False, True):
         opened = open_sources([str(photo)], dropped)
-        assert opened.photograph == str(photo) and opened.sources == (str(photo),)
-        assert opened.scene is None and opened.view is None
+        assert opened.things == (OpenedPhotograph(str(photo)),)
+        assert opened.sources == (str(photo),)
 
 
 def test_a_scene_and_a_photograph_are_opened_together(photo):
     opened = open_sources(["still-life", str(photo)], dropped=True)
-    assert opened.scene is not None and opened.photograph == str(photo)
+    assert opened.find(OpenedScene) is not None
+    assert opened.find(OpenedPhotograph) == OpenedPhotograph(str(photo))
 
 
 def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
@@ -42,7 +43,8 @@ def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
     with pytest.raises(LucidaError, match="is no picture that can be read"):
         open_sources([str(bad)])
     opened = open_sources([str(bad), str(photo)])
-    assert opened.photograph == str(photo) and "bad.jpg" in opened.problems[0]
+    assert opened.things == (OpenedPhotograph(str(photo)),)
+    assert "bad.jpg" in opened.problems[0]
 
 
 def test_a_lecture_names_one_beside_itself(photo):

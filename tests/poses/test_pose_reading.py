@@ -23,7 +23,7 @@ from app.state.app_state import AppState
 from app.state.options.poses import PosesOptions
 from app.state.paths import stored
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
-from app.window.opening import open_sources
+from app.window.opening import OpenedPoses, OpenedScene, OpenedView, open_sources
 from renderer.camera.lenses import Lens
 from renderer.files import load_scene
 from renderer.files.cameras import written
@@ -76,16 +76,16 @@ def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, file: str) 
     assert view.fit
     assert np.allclose(view.camera.eye, camera.camera.eye)
     opened = open_sources(["spheres", str(path)])
-    assert opened.view == view and opened.poses is None
-    assert opened.scene is not None
+    assert opened.things[1] == OpenedView(view, found.said)
+    assert opened.find(OpenedScene) is not None
 
 
 def test_the_window_opens_a_set_over_the_scene(tmp_path: Path) -> None:
     first = transforms(tmp_path / "transforms.json")
     second = colmap(tmp_path / "sparse" / "0")
     opened = open_sources([str(first), str(second)], dropped=True)
-    assert opened.poses is not None and opened.poses.path == first
-    assert opened.scene is None and opened.view is None
+    [set_] = opened.things
+    assert isinstance(set_, OpenedPoses) and set_.poses.path == first
     assert opened.sources == (str(first), str(second))
 
 

@@ -24,7 +24,6 @@ FOUND = {
     "run": "the same",
     "explore": "called in notebooks",
     "main": "run by `python -m`, or in a child process",
-    "INSTRUMENT": "app/window/instruments.py lists them",
     "__all__": "read by `import *` and by tools",
     "__getattr__": "called by Python for what a module lacks",
     "__dir__": "called by dir()",

@@ -213,7 +213,7 @@ def test_contexts_come_and_go(gl_backend):
 
 def test_a_table_that_does_not_fit_is_one_line():
     class Small:
-        info = {"GL_MAX_TEXTURE_SIZE": 4096}  # noqa: RUF012
+        info = {"GL_MAX_TEXTURE_SIZE": 4096}
 
     longest = np.broadcast_to(np.float32(0), (4096 * 4096 + 1, 1))
     with pytest.raises(LucidaError, match="16777217 texels of faces do not fit"):

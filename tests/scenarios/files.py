@@ -78,14 +78,18 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
     window.undo()
     d.settle()
     assert window.state == opened
-    (entry,) = (entry for entry in entries(window) if entry.name == "Camera: camera")
+    (entry,) = (
+        entry for entry in entries(window, window.shell.stage) if entry.name == "Camera: camera"
+    )
     entry.run()
     d.until(lambda: window.state.view == named.view)
     window.undo()
     window.undo()
     d.settle()
     assert window.state == start
-    assert not [entry for entry in entries(window) if entry.name.startswith("Camera: ")]
+    assert not [
+        entry for entry in entries(window, window.shell.stage) if entry.name.startswith("Camera: ")
+    ]
 
 
 def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:

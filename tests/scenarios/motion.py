@@ -16,8 +16,8 @@ from app.images.compare.view import CompareView
 from app.images.live_raster import LiveRaster
 from app.images.pair.view import RASTER, RAY
 from app.images.request import ImageRequest
+from app.ui.instrument import Instrument
 from app.ui.surface import Target
-from app.ui.view import DockedView
 from renderer.camera.navigation import moved
 from renderer.images.coarseness import Coarseness
 
@@ -131,7 +131,7 @@ def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) ->
             events.append("request")
         request(what, factor)
 
-    def drawing(view: DockedView) -> None:
+    def drawing(view: Instrument) -> None:
         events.append(view.name)
         drawn(view)
 

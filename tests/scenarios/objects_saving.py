@@ -14,7 +14,7 @@ from window_driver import Driver, Key
 
 from app.instruments.objects.choosing import chosen
 from app.instruments.objects.editing import with_scene
-from app.window import dropping
+from app.window import taking
 from app.window.scene_saving import title
 from renderer.editing.changing import set_field
 from renderer.editing.documents import is_unsaved
@@ -151,7 +151,7 @@ def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
     d.drop([str(path)])
     d.until(lambda: window.files.question is not None)
     d.ctx.yield_(2)
-    d.ctx.item_click(f"//##message/{dropping.ADD}")
+    d.ctx.item_click(f"//##message/{taking.ADD}")
     d.until(lambda: len(window.state.scene.objects) == before + 1)
     assert chosen(window.state)
     d.drop([str(path)])  # not asked again

@@ -115,7 +115,7 @@ def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
 def drive_the_palette_and_the_keys_step(d: Driver) -> None:
     enter(d, steps=(5, 5), canvas=(16, 12), order="both")
     assert not d.window.renderers.is_tracing  # so that no verdict on both images is announced
-    offered = {entry.name: entry for entry in entries(d.window)}
+    offered = {entry.name: entry for entry in entries(d.window, d.window.shell.stage)}
     rows = dict(sections())["Loop stepper, once it is clicked"]
     for name, keys, key, steps in (
         ("Stepper: one line on", "Right", "right_arrow", (6, 6)),

@@ -19,7 +19,7 @@ from app.checking.your_code.view import YOUR_CODE, YourCodeView
 from app.instruments.outside.view import OutsideView
 from app.state.paths import stored
 from app.ui import layout
-from app.ui.view import view_of
+from app.ui.instrument import view_of
 
 WINDOW = f"//###{YOUR_CODE}"
 RIGHT = """\

@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from opened_things import found
 
 from app.window.files import Files
-from app.window.opening import Opened
+from app.window.opening import Opened, OpenedScene
 from renderer.files import load_scene
 from renderer.files.models import subprocess_reader as apart
 from renderer.files.models.models import read_by, read_model
@@ -239,7 +240,7 @@ def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path: Path, ch
     came: list[Opened] = []
     wait_for(lambda: (opened := files.poll()) and (came.append(opened) or True))
     wait_for(lambda: not files.busy)
-    assert [opened.scene.name for opened in came if opened.scene] == ["last"]
+    assert [found(opened, OpenedScene).scene.name for opened in came] == ["last"]
     assert files.poll() is None
     assert files.message == ""
     assert files.poll_said() == [f"Loading {name} was cancelled." for name in names[:-1]]

@@ -11,6 +11,7 @@ import threading
 
 import numpy as np
 import pytest
+from opened_things import found
 from PIL import Image
 from waiting import wait_for
 
@@ -20,7 +21,7 @@ from app.ui.surface import Target
 from app.window import capture, clipboard
 from app.window.capture import Captures, cut, free_path
 from app.window.files import Files
-from app.window.opening import open_sources
+from app.window.opening import OpenedScene, OpenedView, open_sources
 from renderer.files import load_scene, save_view, scene_parts
 from renderer.files.scene_parts import BoxTable
 from renderer.scene import shapes
@@ -186,9 +187,8 @@ def test_of_several_files_the_first_scene_and_the_first_view_are_taken(tmp_path)
     (tmp_path / "broken.obj").write_text("nothing")
     view, broken = str(tmp_path / "view.toml"), str(tmp_path / "broken.obj")
     opened = open_sources([view, broken, "spheres", "columns"])
-    assert opened.scene is not None
-    assert opened.scene.name == "spheres"
-    assert opened.view == load_scene("canonical").view
+    assert found(opened, OpenedScene).scene.name == "spheres"
+    assert found(opened, OpenedView).view == load_scene("canonical").view
     assert opened.sources == (view, "spheres")
     assert len(opened.problems) == 1
     assert "broken.obj" in opened.problems[0]

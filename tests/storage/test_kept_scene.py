@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from opened_things import found
 from random_edits import SCENE, TENT
 
 from app.lecture.reading import BUILTIN, load_lecture
@@ -10,6 +11,7 @@ from app.state.app_state import AppState
 from app.state.kept_scene import KeptScene
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from app.window import start
+from app.window.opening import OpenedScene
 from app.window.session_store import take_place
 from renderer.editing import changing, documents, objects
 from renderer.editing.outline import outline
@@ -118,12 +120,12 @@ def test_what_takes_the_session_s_place_loses_no_edit(edited, tmp_path, begin, m
     assert str(folder / "unsaved-1.toml") in begun.unsaved.told
     if model == "gone":
         (tmp_path / "tent.obj").unlink()
-        assert begun.unsaved.edited.open().scene is None
+        assert begun.unsaved.edited.open().things == ()
         return
     assert len(load_scene(folder / "unsaved-1.toml").objects) == len(edited.objects)
-    found = begun.unsaved.edited.open()
-    assert found.scene.origin.tables == edited.origin.tables
-    assert documents.file_of(found.scene) == tmp_path / "scene.toml"
+    restored = found(begun.unsaved.edited.open(), OpenedScene).scene
+    assert restored.origin.tables == edited.origin.tables
+    assert documents.file_of(restored) == tmp_path / "scene.toml"
 
 
 def test_an_edit_that_cannot_be_written_is_set_aside_with_its_session(

@@ -24,7 +24,7 @@ from app.ui.recent import RecentFiles
 from app.ui.toasts import Toasts
 from app.window import process
 from app.window.files import Files
-from app.window.opening import open_sources
+from app.window.opening import OpenedScene, open_sources
 from renderer.files import load_scene, save_scene
 from renderer.system.errors import LucidaError, describe, one_line
 
@@ -98,7 +98,7 @@ def test_files_loads_it_and_tells_it(model: str, monkeypatch) -> None:
     monkeypatch.setattr(Background, "busy", True)
     assert is_shown(files.loading)
     monkeypatch.undo()
-    assert open_sources([model]).scene is not None
+    assert open_sources([model]).find(OpenedScene) is not None
     os.unlink(model)
     with pytest.raises(LucidaError) as caught:
         open_sources([model])

@@ -8,12 +8,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from opened_things import found
 from waiting import wait_for
 
 from app.cli import main
 from app.lecture.reading import load_lecture
 from app.window.files import Files, outside_question
-from app.window.opening import open_sources
+from app.window.opening import OpenedScene, open_sources
 from app.window.scene_saving import title
 from renderer.files import load_scene
 from renderer.files.outside import OutsideError, kept_inside, outside, outside_files
@@ -46,7 +47,7 @@ def scene_file(folder: Path, *names: str) -> Path:
 @pytest.mark.parametrize("name", INSIDE)
 def test_what_is_inside_is_read_without_a_word(name: str, folder: Path) -> None:
     path = scene_file(folder, name)
-    scene = open_sources([str(path)], dropped=True).scene
+    scene = found(open_sources([str(path)], dropped=True), OpenedScene).scene
     assert scene is not None
     assert outside_files(scene) == ()
     assert title(scene) == "Lucida: scene"
@@ -57,7 +58,7 @@ def test_what_is_outside_is_told_and_not_read_for_a_dropped_scene(
     name: str, folder: Path, monkeypatch
 ) -> None:
     path = scene_file(folder, "m.obj", name)
-    scene = open_sources([str(path)]).scene  # the user has named it
+    scene = found(open_sources([str(path)]), OpenedScene).scene  # the user has named it
     assert scene is not None
     (file,) = outside_files(scene)
     assert os.path.realpath(file) == str(folder.parent.resolve() / "m.obj")
@@ -72,8 +73,7 @@ def test_what_is_outside_is_told_and_not_read_for_a_dropped_scene(
         "agree to that, or copy them into its folder"
     )
     opened = open_sources([str(path)], dropped=True, agreed=frozenset([file]))
-    assert opened.scene is not None
-    assert opened.agreed == frozenset([file])
+    assert found(opened, OpenedScene).agreed == frozenset([file])
     with pytest.raises(OutsideError, match="outside of its folder"):
         open_sources([str(path), "spheres"], dropped=True)  # among others, too
 
@@ -92,7 +92,7 @@ def test_a_folder_that_is_reached_by_a_link_is_the_same_folder(folder: Path) -> 
     scene_file(folder, "{top}/mine/m.obj", "m.obj")
     (folder.parent / "other").symlink_to(folder)
     other = folder.parent / "other" / "scene.toml"
-    assert open_sources([str(other)], dropped=True).scene is not None
+    assert open_sources([str(other)], dropped=True).find(OpenedScene) is not None
 
 
 def test_loops_of_links_and_names_that_are_none_are_told_by_reading(folder: Path) -> None:
@@ -121,7 +121,7 @@ def test_the_window_asks_and_opens_what_was_agreed_to(folder: Path) -> None:
     opened = None
     while opened is None:
         opened = files.poll()
-    assert opened.scene is not None
+    assert opened.find(OpenedScene) is not None
     files.close()
 
 

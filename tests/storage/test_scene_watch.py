@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from opened_things import found
 from waiting import wait_for
 
 from app.state.app_state import AppState, History
@@ -17,7 +18,7 @@ from app.ui import watching
 from app.ui.watching import LOOK_S, REST_S, SceneWatch
 from app.window import opening
 from app.window.files import Files, outside_question
-from app.window.opening import Opened
+from app.window.opening import Opened, OpenedScene
 from app.window.taking import take_newer, take_opened
 from renderer.editing.changing import set_scene_field
 from renderer.editing.documents import save
@@ -69,8 +70,10 @@ def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
 def newer(files: Files, scene: Scene) -> Scene:
     """The scene that is read again."""
     opened = follow(files, scene)
-    assert opened is not None and opened.scene is not None and opened.replaces is scene
-    return opened.scene
+    assert opened is not None
+    read = found(opened, OpenedScene)
+    assert read.replaces is scene and read.use == "newer"
+    return read.scene
 
 
 def loaded(files: Files) -> Opened:
@@ -195,7 +198,7 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
 ) -> None:
     (path.parent.parent / "out.obj").write_text(TRIANGLE)
     files.open_all([str(path)], dropped=True)
-    scene = loaded(files).scene
+    scene = found(loaded(files), OpenedScene).scene
     assert scene is not None
     follow(files, scene)
     path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
@@ -206,8 +209,7 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
     (yes,) = files.question.answers.values()
     yes()
     opened = loaded(files)
-    assert opened.scene is not None
-    assert opened.agreed == frozenset([path.parent.parent / "out.obj"])
+    assert found(opened, OpenedScene).agreed == frozenset([path.parent.parent / "out.obj"])
 
 
 def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
@@ -218,7 +220,7 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
     other = path.with_name("other.toml")
     other.write_text(MODEL.replace("m.obj", "../out.obj"))
     files.open_all([str(path)], dropped=True)
-    shown = loaded(files).scene
+    shown = found(loaded(files), OpenedScene).scene
     assert shown is not None
     files.follow(shown)
     gate, load = threading.Event(), opening.load_scene
@@ -296,10 +298,11 @@ def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path: Path
     assert window.state.scene is edited
     assert len(window.asked) == 1 and "not saved" in window.asked[0]
     window.then()
-    assert window.state.scene is newer.scene
+    assert window.state.scene is found(newer, OpenedScene).scene
     window.change(replace(window.state, scene=load_scene("spheres")))
     take_opened(window, newer)
-    assert window.state.scene is not newer.scene and len(window.asked) == 1
+    assert window.state.scene is not found(newer, OpenedScene).scene
+    assert len(window.asked) == 1
 
 
 def test_a_mistake_in_a_scene_that_is_not_shown_any_more_is_not_told(

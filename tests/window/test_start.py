@@ -6,12 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from opened_things import found
 from option_changes import with_options
 
 from app.cli import main
 from app.state.options import Options
 from app.state.session import Arrangement, session_of
 from app.window import start
+from app.window.opening import OpenedScene, OpenedView
 from app.window.session_store import Keeper, take_place
 from app.window.start import UNKEPT, begin_scene, begin_session, kept
 from renderer.files import load_scene
@@ -46,12 +48,12 @@ def test_a_large_model_comes_later_with_the_view_that_was_asked_for(model):
     assert begun.state.scene.name == load_scene("still-life").name
     assert begun.later is not None
     opened = begun.later.open()
-    assert opened.scene is not None
-    assert opened.scene.name == "model"
-    assert opened.view == replace(asked, fit=not asked.fit)
+    read = found(opened, OpenedScene)
+    assert read.scene.name == "model"
+    assert found(opened, OpenedView).view == replace(asked, fit=not asked.fit)
     assert opened.sources == (str(model),)
-    assert opened.is_first
-    assert opened.prepared is not None
+    assert read.use == "first"
+    assert read.prepared is not None
 
 
 def test_a_scene_with_a_large_model_comes_later_too(tmp_path, model):
@@ -62,7 +64,7 @@ def test_a_scene_with_a_large_model_comes_later_too(tmp_path, model):
     assert begin_scene(str(scene), wait=True).state.scene.name == "scene"
     model.write_text("nothing")
     opened = begun.later.open()
-    assert opened.scene is None
+    assert opened.things == ()
     assert "model.obj" in opened.problems[0]
 
 
@@ -85,9 +87,8 @@ def test_a_session_of_a_large_model_goes_on_once_that_is_read(tmp_path, model):
     assert begun.later is not None
     assert begun.state.options.shadows
     opened = begun.later.open()
-    assert opened.scene is not None
-    assert opened.scene.name == scene.name
-    assert opened.view == view
+    assert found(opened, OpenedScene).scene.name == scene.name
+    assert found(opened, OpenedView).view == view
     assert begun.keeper is not None
     begun.keeper.close(session_of(kept, Arrangement()))
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from opened_things import found
 from option_changes import with_options
 
 from app.checking.your_code.view import source_text
@@ -15,7 +16,7 @@ from app.lecture.reading import load_lecture
 from app.state.app_state import AppState
 from app.state.paths import restored, stored
 from app.state.session import Arrangement, from_bytes, session_of, to_bytes
-from app.window.opening import open_sources
+from app.window.opening import OpenedCode, OpenedScene, OpenedTasks, open_sources
 from renderer.files import load_scene
 from renderer.files.outside import OutsideError
 from renderer.system.errors import LucidaError
@@ -75,12 +76,11 @@ def test_a_python_file_is_never_read_as_a_scene(tmp_path: Path):
     file = tmp_path / "Rays.PY"
     file.write_text("objects = []")
     opened = open_sources([str(file)], dropped=True)
-    assert opened.code == str(file)
-    assert opened.scene is None
+    assert opened.things == (OpenedCode(str(file)),)
     assert opened.sources == (str(file),)
     both = open_sources(["spheres", str(file), str(tmp_path / "other.py")])
-    assert both.scene is not None
-    assert both.code == str(file)
+    assert both.find(OpenedScene) is not None
+    assert found(both, OpenedCode).path == str(file)
     for name, problem in (("away.py", "does not exist"), ("folder.py", "is a folder")):
         (tmp_path / "folder.py").mkdir(exist_ok=True)
         with pytest.raises(LucidaError, match=problem):
@@ -115,13 +115,13 @@ def tasks_in(folder: Path, text: str = 'lucida = 1\n[[tasks]]\nkind = "basis"\n'
 def test_a_file_of_tasks_is_known_by_what_is_in_it(tmp_path: Path):
     file = tasks_in(tmp_path)
     opened = open_sources([str(file)], dropped=True)
-    assert opened.tasks == str(file) and opened.scene is None and not opened.code
+    assert opened.things == (OpenedTasks(str(file)),)
     with pytest.raises(LucidaError, match=r"hw2\.toml:3: .*kind"):
         open_sources([str(tasks_in(tmp_path, 'lucida = 1\n[[ tasks ]]\nkind = "no"\n'))])
     code = tmp_path / "rays.py"
     code.write_text("")
     both = open_sources([str(code), str(tasks_in(tmp_path))], dropped=True)
-    assert (both.code, both.tasks) == (str(code), str(file))
+    assert both.things == (OpenedCode(str(code)), OpenedTasks(str(file)))
 
 
 def test_tasks_stand_in_a_session_and_in_a_lecture(tmp_path: Path):

@@ -18,8 +18,8 @@ from app.cameras.presets import PRESETS, Preset, framed, preset_view
 from app.cameras.reader import read_copied
 from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from app.state.app_state import AppState, is_orthonormal
-from app.ui.action import CTRL, SHIFT, Action, Key, changing
-from app.ui.view import Host
+from app.ui.action import Action, changing
+from app.ui.host import Host
 from renderer.camera.camera import Camera, Size
 from renderer.camera.navigation import switched_projection
 from renderer.scene.model import View
@@ -174,21 +174,15 @@ def _copying_as(form: Form) -> Action:
 
 def _to_preset(preset: Preset) -> Action:
     """Return the action of a preset, with its usual key in other programs of the field."""
-    number = {
-        "Front": (1, 0), "Back": (1, CTRL), "Right": (3, 0), "Left": (3, CTRL),
-        "Top": (7, 0), "Bottom": (7, CTRL), "Isometric": (9, 0),
-    }.get(preset.name)  # fmt: skip
-    keys, chords = "", tuple[int, ...]()
-    if number is not None:
-        digit, modifier = number
-        keys = f"{'Ctrl+' if modifier else ''}Keypad {digit}"
-        chords = (modifier | (int(Key.keypad0) + digit),)
+    keys = {
+        "Front": "Keypad 1", "Back": "Ctrl+Keypad 1", "Right": "Keypad 3", "Left": "Ctrl+Keypad 3",
+        "Top": "Keypad 7", "Bottom": "Ctrl+Keypad 7", "Isometric": "Keypad 9",
+    }.get(preset.name, "")  # fmt: skip
     return Action(
         "Camera/Presets",
         preset.name,
         partial(go_to_preset, preset=preset),
         keys,
-        chords,
         separated=preset.name in ("Isometric", "Cavalier"),
     )
 
@@ -204,7 +198,6 @@ CAMERA = (
         "Parallel projection",
         switch_projection,
         "P",
-        (int(Key.p),),
         is_on=lambda state: state.camera.is_parallel,
     ),
     Action(
@@ -212,7 +205,6 @@ CAMERA = (
         "Keep orthonormal",
         changing(lambda state: state.with_keep_orthonormal(not state.keep_orthonormal)),
         "O",
-        (int(Key.o),),
         is_on=lambda state: state.keep_orthonormal,
     ),
     Action(
@@ -226,7 +218,6 @@ CAMERA = (
         SCENE_VIEW,
         go_home,
         "Home, H",
-        (int(Key.home), int(Key.h)),
         separated=True,
     ),
     Action("Camera", "Canonical camera", go_to_canonical),
@@ -235,9 +226,8 @@ CAMERA = (
         "Aim at the object under the mouse",
         lambda window: window.focus_object(),
         "F",
-        (int(Key.f),),
     ),
-    Action("Camera", "Frame the scene", frame_scene, "Shift+F", (SHIFT | int(Key.f),)),
+    Action("Camera", "Frame the scene", frame_scene, "Shift+F"),
     *(_to_preset(preset) for preset in PRESETS),
     Action(
         "Camera/Presets",
@@ -280,9 +270,8 @@ EDIT = (
         "Copy camera",
         partial(copy, form=FORMS[0]),
         "Ctrl+Shift+C",
-        (CTRL | SHIFT | int(Key.c),),
         separated=True,
     ),
     *(_copying_as(form) for form in FORMS),
-    Action("Edit", "Paste camera", paste, "Ctrl+V", (CTRL | int(Key.v),)),
+    Action("Edit", "Paste camera", paste, "Ctrl+V"),
 )

@@ -22,7 +22,7 @@ from app.ui import pending, rows, theme
 from app.ui.checks import checkbox, radio_button
 from app.ui.explaining.symbols import vector
 from app.ui.fields import Scale
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Size, Vector
 from renderer.camera.intrinsics import PixelOrigin
 from renderer.system.errors import LucidaError

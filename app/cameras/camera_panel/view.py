@@ -6,25 +6,28 @@ Keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.cameras.camera_panel.actions import image_size
+from app.cameras.camera_panel.actions import CAMERA as ACTIONS
+from app.cameras.camera_panel.actions import EDIT, image_size
 from app.cameras.camera_panel.panel import PanelOutcome, camera_panel
 from app.cameras.camera_panel.projection import PanelContext
 from app.cameras.camera_panel.sections import Sections
 from app.cameras.editing import Draft
 from app.images.picking import is_quick, nearest_hit
 from app.state.app_state import AppState
-from app.ui.view import DockedView, Host
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from renderer.camera.camera import Vector
 from renderer.scene.model import Scene
 
 CAMERA = "Camera"
 
 
-class CameraView(DockedView):
+class CameraView(Instrument):
     """The camera's panel.
 
     draft: numbers that make no valid camera yet.
@@ -34,8 +37,29 @@ class CameraView(DockedView):
 
     name = CAMERA
     title = "Camera"
+    actions = (*EDIT, *ACTIONS)
+    synonyms = {
+        "Copy camera": "matrix clipboard",
+        "Paste camera": "matrix clipboard",
+        "Parallel projection": "ortho orthographic orthogonal perspective",
+        "Keep orthonormal": "orthogonal basis skew free",
+        "Fit to the image's aspect ratio": "stretch distort viewport",
+        "Scene's view": "home reset camera default",
+        "Canonical camera": "reset default identity",
+        "Aim at the object under the mouse": "focus center centre target look",
+        "Frame the scene": "all extents fit view",
+        "Barrel": "lens distortion brown",
+        "Pincushion": "lens distortion brown",
+        "Phone": "lens distortion brown",
+        "Action cam": "lens action camera gopro fisheye wide angle distortion",
+        "190 degrees": "lens fisheye circular wide angle",
+        "360 degrees": "lens panorama equirectangular spherical",
+        "No lens": "pinhole undistort",
+        "Jump without transition": "animation reduced motion transition",
+        "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
+    }
 
-    def __init__(self) -> None:
+    def __init__(self, views: Sequence[Instrument] = ()) -> None:
         self.draft: Draft | None = None
         self.entered = Sections()
         self.dolly_point: Vector | None = None

@@ -5,17 +5,18 @@ from __future__ import annotations
 from app.checking.your_code.panel import CodeWish
 from app.checking.your_code.view import YOUR_CODE, YourCodeView
 from app.ui import layout
-from app.ui.action import Action, Window
+from app.ui.action import Action
+from app.ui.host import Host
 
 MENU = "File/Your code"
 
 
-def _ask(wish: CodeWish, window: Window) -> None:
-    window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+def _ask(wish: CodeWish, window: Host) -> None:
+    window.show_in(YOUR_CODE, layout.LOOPS)
     window.view(YourCodeView).ask(wish)
 
 
-def _has_file(window: Window) -> bool:
+def _has_file(window: Host) -> bool:
     return bool(window.state.options.your_code.file)
 
 

@@ -21,9 +21,9 @@ from app.images.ray_pictures import RayPainter, RayPictures
 from app.instruments.outside.paint import role_color
 from app.state.options.shared import Pixel
 from app.ui import theme
+from app.ui.host import Host
 from app.ui.picture_grid import GridPicture, picture_grid
 from app.ui.uploads import Uploads
-from app.ui.view import Host
 from renderer.camera.camera import Camera
 from renderer.system.errors import LucidaError, describe
 from renderer.system.memo import Memo

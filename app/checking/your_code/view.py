@@ -6,6 +6,7 @@ for the questions, panel.py for the layout, code_pictures.py for the pictures.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -30,8 +31,8 @@ from app.instruments.outside.view import OutsideView
 from app.state.options.shared import Notation, Pixel
 from app.state.paths import restored, stored
 from app.ui import layout, theme
-from app.ui.action import Window
-from app.ui.view import DockedView, Host
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from renderer.files.reading import first_bytes
 from renderer.system.atomic import atomic_write
 from renderer.system.errors import LucidaError, one_line
@@ -42,14 +43,14 @@ STARTER = "rays.py"
 READ_BYTES = 100_000  # to show of a file that is not run
 
 
-class YourCodeView(DockedView):
+class YourCodeView(Instrument):
     """The view "Your code". runs: None before there is a context."""
 
     name = YOUR_CODE
     title = "Your code"
 
-    def __init__(self, outside: OutsideView) -> None:
-        self._outside = outside
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        self._outside = view_of(views, OutsideView)
         self.runs: CodeRuns | None = None
         self._follower: FileFollower | None = None
         self._pictures: PicturesShown | None = None
@@ -74,7 +75,7 @@ class YourCodeView(DockedView):
         """The pictures on screen; None for none."""
         return self._pictures.pictures if self._pictures is not None else None
 
-    def open(self, window: Window, path: str) -> None:
+    def open(self, window: Host, path: str) -> None:
         """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
         self._source.forget()
@@ -83,14 +84,14 @@ class YourCodeView(DockedView):
             window.change(window.state.with_options(options))
         elif self._follower is not None:
             self._follower.again()
-        window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+        window.show_in(YOUR_CODE, layout.LOOPS)
 
-    def open_tasks(self, window: Window, path: str) -> None:
+    def open_tasks(self, window: Host, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
         options = window.state.options
         asked = replace(options.your_code, tasks=stored(path), task="")
         window.change(window.state.with_options(replace(options, **_notation_of(path)), asked))
-        window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+        window.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:
         """Ask for what a button would do, in the next frame."""

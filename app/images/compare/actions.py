@@ -7,19 +7,20 @@ from collections.abc import Callable
 from app.images.compare import comparing
 from app.state.app_state import AppState
 from app.state.options.compare import CompareMode
-from app.ui.action import SHIFT, Action, Key, Window, changing
+from app.ui.action import Action, Key, changing
+from app.ui.host import Host
 from renderer.compare.raster_and_ray import Comparison
 
 MENU, STEP = "View/Compare", comparing.DIVIDER_STEP
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view
 
 
-def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Window], None]:
+def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[Host], None]:
     """Return a change that depends on where the images differ; it does nothing until that is
     known.
     """
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         verdict = window.renderers.verdict(window.state)
         if verdict is not None:
             window.change(change(window.state, verdict.comparison))
@@ -27,17 +28,17 @@ def _differing(change: Callable[[AppState, Comparison], AppState]) -> Callable[[
     return run
 
 
-def _differ(window: Window) -> bool:
+def _differ(window: Host) -> bool:
     verdict = window.renderers.verdict(window.state)
     return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
 
 
-def _shown(change: Callable[[AppState], AppState]) -> Callable[[Window], None]:
+def _shown(change: Callable[[AppState], AppState]) -> Callable[[Host], None]:
     """Return a change that also brings the view to the front."""
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         window.change(change(window.state))
-        window.shell.stage.show("Compare")
+        window.show("Compare")
 
     return run
 
@@ -48,12 +49,11 @@ def _comparing(number: int, mode: CompareMode, name: str) -> Action:
         name,
         _shown(lambda state: comparing.with_mode(state, mode)),
         f"F{5 + number}",
-        (int(Key.f5) + number,),
         is_on=lambda state: state.options.compare.mode == mode,
     )
 
 
-def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Action:
+def _switch(name: str, field: str, keys: str, binds: bool = True) -> Action:
     """Return an action that toggles an option."""
 
     def is_on(state: AppState) -> bool:
@@ -64,25 +64,14 @@ def _switch(name: str, field: str, shown: str, keys: tuple[int, ...] = ()) -> Ac
             state.options.with_changes({"compare": {field: not is_on(state)}})
         )
 
-    return Action(MENU, name, changing(toggled), shown, keys, is_on=is_on)
+    return Action(MENU, name, changing(toggled), keys, binds=binds, is_on=is_on)
 
 
-def _keyed(
-    name: str,
-    run: Callable[[Window], None],
-    shown: str,
-    key: Key,
-    can: Callable[[Window], bool] | None = None,
-) -> Action:
-    keys = int(key) | (SHIFT if shown.startswith("Shift+") else 0)
-    return Action(MENU, name, run, shown, (keys,), can=can)
-
-
-def _gain(factor: float) -> Callable[[Window], None]:
+def _gain(factor: float) -> Callable[[Host], None]:
     return changing(lambda state: comparing.with_gain(state, state.options.compare.gain * factor))
 
 
-def _divider(step: float) -> Callable[[Window], None]:
+def _divider(step: float) -> Callable[[Host], None]:
     return changing(
         lambda state: comparing.with_divider(state, state.options.compare.divider + step)
     )
@@ -94,13 +83,13 @@ def _previous(state: AppState, comparison: Comparison) -> AppState:
 
 COMPARING = (
     *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
-    _switch("The other image (hold the key)", "flipped", "X"),
-    _switch("Mark the causes", "causes", "K", (int(Key.k),)),
-    _keyed("More gain", _gain(2.0), "]", Key.right_bracket),
-    _keyed("Less gain", _gain(0.5), "[", Key.left_bracket),
-    _keyed("Divider to the right", _divider(STEP), "Shift+]", Key.right_bracket),
-    _keyed("Divider to the left", _divider(-STEP), "Shift+[", Key.left_bracket),
-    _keyed("Next differing pixel", _differing(comparing.stepped), "N", Key.n, _differ),
-    _keyed("Previous differing pixel", _differing(_previous), "Shift+N", Key.n, _differ),
-    _keyed("Worst pixel", _differing(comparing.at_worst), "Shift+M", Key.m, _differ),
+    _switch("The other image (hold the key)", "flipped", "X", binds=False),
+    _switch("Mark the causes", "causes", "K"),
+    Action(MENU, "More gain", _gain(2.0), "]"),
+    Action(MENU, "Less gain", _gain(0.5), "["),
+    Action(MENU, "Divider to the right", _divider(STEP), "Shift+]"),
+    Action(MENU, "Divider to the left", _divider(-STEP), "Shift+["),
+    Action(MENU, "Next differing pixel", _differing(comparing.stepped), "N", can=_differ),
+    Action(MENU, "Previous differing pixel", _differing(_previous), "Shift+N", can=_differ),
+    Action(MENU, "Worst pixel", _differing(comparing.at_worst), "Shift+M", can=_differ),
 )

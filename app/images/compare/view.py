@@ -7,16 +7,18 @@ numbers; composed.py makes the pictures. Over the image, the mouse does the same
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
 
 from app.images.compare import comparing, panel
-from app.images.compare.actions import FLIP_KEY
+from app.images.compare.actions import COMPARING, FLIP_KEY
 from app.images.compare.composed import SIDES, Composed, Mapping
 from app.images.compare.differences import draw_differences
-from app.images.pair.view import ImageView, Linked
+from app.images.pair.view import ImageView, RasterView
 from app.images.placement import Placement
 from app.images.renderers import Renderers, look_of
 from app.images.screen import Screen
@@ -24,8 +26,9 @@ from app.images.shown import Held, Picture, ShownImage, whole
 from app.state.app_state import AppState
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from app.ui.lettering import lettering
-from app.ui.view import Host
 from renderer.compare.raster_and_ray import Comparison
 from renderer.raster import Look
 from renderer.raster.targets import Region
@@ -44,11 +47,16 @@ AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the dis
 class CompareView(ImageView):
     name = NAME
     title = "Compare  raster and ray"
+    actions = COMPARING
+    synonyms = {
+        "Worst pixel": "error difference",
+        "Compare raster and ray": "difference diff error flip",
+    }
     padding = ImVec2(8, 6)
     flags = int(imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
 
-    def __init__(self, linked: Linked) -> None:
-        super().__init__(linked)
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        super().__init__(view_of(views, RasterView).linked)
         self._composed: Composed | None = None
         self._shown: dict[str, ShownImage] = {}  # by SIDES
         self._show = {side: Memo(_show) for side in SIDES}

@@ -10,17 +10,18 @@ from dataclasses import replace
 
 from app.images.imaging import with_magnification
 from app.images.pair import choices
-from app.images.pair.choices import Choice, alt, has, toggling
+from app.images.pair.choices import Choice, has, toggling
 from app.images.placement import step_from
 from app.state.app_state import AppState
-from app.ui.action import ALT, CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import Action, changing
+from app.ui.host import Host
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
 COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"
 
 
-def _step(steps: int) -> Callable[[Window], None]:
-    def run(window: Window) -> None:
+def _step(steps: int) -> Callable[[Host], None]:
+    def run(window: Host) -> None:
         state = window.state
         placement = window.renderers.placement(state)
         if placement is not None:
@@ -57,7 +58,7 @@ def _lens(choice: Choice) -> Action:
     return replace(choice.action(LENS), can=has_lens)
 
 
-def has_lens(window: Window) -> bool:
+def has_lens(window: Host) -> bool:
     return window.state.camera.lens is not None
 
 
@@ -67,7 +68,7 @@ IMAGE = (
     choices.TINT.action(CHANNEL),
     *(choice.action(RESOLUTION) for choice in choices.PIXEL_SIZE),
     *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.RESOLUTION)),
-    Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), *alt("S"), separated=True),
+    Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), "Alt+S", separated=True),
     *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.SAMPLE)),
     *map(_lens, choices.LENS),
     choices.FIT.action(MAGNIFY),
@@ -76,14 +77,12 @@ IMAGE = (
         "Magnify",
         _step(1),
         "Alt++",
-        (ALT | int(Key.equal), ALT | SHIFT | int(Key.equal), ALT | int(Key.keypad_add)),
     ),
     Action(
         MAGNIFY,
         "Reduce",
         _step(-1),
         "Alt+-",
-        (ALT | int(Key.minus), ALT | int(Key.keypad_subtract)),
     ),
     *(choice.action(MAGNIFY, k == 0) for k, choice in enumerate(choices.MAGNIFICATION)),
     choices.GRID.action(MAGNIFY, separated=True),
@@ -93,7 +92,6 @@ IMAGE = (
         "Brighter",
         changing(_exposure(0.5)),
         "+",
-        (int(Key.equal), SHIFT | int(Key.equal), int(Key.keypad_add)),
         separated=True,
     ),
     Action(
@@ -101,14 +99,13 @@ IMAGE = (
         "Darker",
         changing(_exposure(-0.5)),
         "-",
-        (int(Key.minus), int(Key.keypad_subtract)),
     ),
-    Action("Image", "Exposure 0", changing(_exposure(0.0)), "0", (int(Key._0),)),
+    Action("Image", "Exposure 0", changing(_exposure(0.0)), "0"),
     Action(
         "Image",
         "Linear light without sRGB's curve",
         changing(toggling("transfer", ("srgb", "linear"))),
-        *alt("L"),
+        "Alt+L",
         is_on=has("transfer", "linear"),
     ),
     Action(
@@ -123,7 +120,6 @@ IMAGE = (
         "Go to pixel...",
         lambda w: w.ask_pixel(),
         "Ctrl+G",
-        (CTRL | int(Key.g),),
         separated=True,
     ),
     _counting("Pixels from 1 (lecture)", one_based=True),
@@ -132,7 +128,8 @@ IMAGE = (
         "Image",
         "Clear mark",
         changing(lambda state: state.with_options(replace(state.options, marked=None))),
-        "Esc",  # which ends other things first: the shell's
+        "Esc",
+        binds=False,  # the shell handles Escape, which ends other things first
         can=lambda w: w.state.marked is not None,
     ),
 )

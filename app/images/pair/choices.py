@@ -19,7 +19,7 @@ from app.images.imaging import (
 from app.images.placement import magnification_text
 from app.state.app_state import AppState
 from app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
-from app.ui.action import ALT, Action, Key, changing
+from app.ui.action import Action, changing
 from renderer.camera.pixels import ENLARGEMENTS
 
 Change = Callable[[AppState], AppState]
@@ -35,7 +35,6 @@ class Choice(NamedTuple):
     change: Change
     is_on: Callable[[AppState], bool]
     keys: str = ""
-    chords: tuple[int, ...] = ()
     tip: str = ""
     label: str = ""
 
@@ -45,7 +44,6 @@ class Choice(NamedTuple):
             self.name,
             changing(self.change),
             self.keys,
-            self.chords,
             is_on=self.is_on,
             separated=separated,
         )
@@ -69,37 +67,32 @@ def toggling(field: str, values: tuple[object, object] = (False, True)) -> Chang
     return change
 
 
-def alt(letter: str) -> tuple[str, tuple[int, ...]]:
-    """Return Alt and a letter, as displayed and in ImGui's form."""
-    return f"Alt+{letter}", (ALT | int(getattr(Key, letter.lower())),)
-
-
 def _pixel_size(size: int) -> Choice:
     name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
-    keys = alt("W") if size == 1 else ("", ())
+    keys = "Alt+W" if size == 1 else ""
 
     def is_on(state: AppState) -> bool:
         return state.images.resolution is None and state.images.pixel_size == size
 
-    return Choice(name, partial(with_pixel_size, pixel_size=size), is_on, *keys)
+    return Choice(name, partial(with_pixel_size, pixel_size=size), is_on, keys)
 
 
 CHANNEL = tuple(
     Choice(
         name, setting("channel", channel), has("channel", channel), f"Alt+{number}",
-        (ALT | (int(Key._0) + number),), tip,
+        tip,
     )
     for number, (channel, (name, tip)) in enumerate(CHANNELS.items(), 1)
 )  # fmt: skip
 RGB, *COMPONENT = (
     Choice(
         f"{name} only", partial(with_component, component=component), has("component", component),
-        *(("", ()) if component == "rgb" else alt(name[0])), tip, name,
+        "" if component == "rgb" else f"Alt+{name[0]}", tip, name,
     )
     for component, (name, tip) in COMPONENTS.items()
 )  # fmt: skip
 TINT = Choice(
-    "Tint single channels", toggling("tinted"), has("tinted", True), *alt("T"),
+    "Tint single channels", toggling("tinted"), has("tinted", True), "Alt+T",
     "A single channel, not as gray.", "In its own colour",
 )  # fmt: skip
 PIXEL_SIZE = tuple(map(_pixel_size, PIXEL_SIZES))
@@ -125,21 +118,21 @@ LENS = tuple(
 )  # fmt: skip
 FIT = Choice(
     "Fit", partial(with_magnification, magnification=None), has("magnification", None), "Alt+0",
-    (ALT | int(Key._0), ALT | int(Key.keypad0)), "All of the image in its window.",
+    "All of the image in its window.",
 )  # fmt: skip
 MAGNIFICATION = tuple(
     Choice(
         magnification_text(factor), partial(with_magnification, magnification=factor),
-        has("magnification", factor), *(alt("A") if factor == 1 else ("", ())),
+        has("magnification", factor), "Alt+A" if factor == 1 else "",
         "Ctrl+wheel magnifies at the pointer, Ctrl+drag moves the image.",
     )
     for factor in MAGNIFICATIONS
 )  # fmt: skip
 GRID = Choice(
-    "Pixel grid and values", toggling("grid"), has("grid", True), *alt("X"),
+    "Pixel grid and values", toggling("grid"), has("grid", True), "Alt+X",
     "Lines from 8x on, numbers from 32x on.", "Pixel grid",
 )  # fmt: skip
 VALUES = Choice(
     "Values as linear light", toggling("values", ("bytes", "floats")), has("values", "floats"),
-    *alt("V"), "A pixel's numbers: 0 to 255, or light.",
+    "Alt+V", "A pixel's numbers: 0 to 255, or light.",
 )  # fmt: skip

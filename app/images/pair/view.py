@@ -13,6 +13,7 @@ from imgui_bundle import ImVec2, imgui
 
 from app.cameras.remedies import helped, remedy_for
 from app.images.marking import Anchor, followed
+from app.images.pair.actions import IMAGE, MOUSE
 from app.images.pair.dark_note import DarkNote, note_button
 from app.images.pair.footprint import draw_footprint, footprint
 from app.images.pair.image_mouse import Seen
@@ -24,6 +25,7 @@ from app.images.pair.rulers import ruler_sizes
 from app.images.pair.straight_lines import draw_grid
 from app.images.pair.toolbar import Strip, image_strip
 from app.images.pair.vanishing import draw_parallels
+from app.images.photograph.actions import PHOTOGRAPH
 from app.images.photograph.layer import PhotographLayer
 from app.images.photograph.model import path_of
 from app.images.placement import Placement, shown_pixel
@@ -32,7 +34,8 @@ from app.images.shown import Picture
 from app.state.app_state import AppState
 from app.state.options.shared import Pixel
 from app.ui.guest import Click, Guest, ShownIn
-from app.ui.view import DockedView, Host
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from renderer.camera.camera import Camera
 from renderer.system.errors import LucidaError, describe
 from renderer.system.memo import Memo
@@ -65,7 +68,7 @@ class Linked:
     guest: Guest | None = None
 
 
-class ImageView(DockedView):
+class ImageView(Instrument):
     """One of the two images."""
 
     padding = ImVec2(1, 1)
@@ -352,7 +355,37 @@ def _contains(size: tuple[int, int], pixel: Pixel) -> bool:
 class RasterView(PhotographedView):
     name = RASTER
     title = "Raster  object order"
+    actions = (*PHOTOGRAPH, *IMAGE)
+    mouse = MOUSE
+    synonyms = {
+        "Magnify": "zoom in enlarge",
+        "Reduce": "zoom out",
+        "Fit": "zoom",
+        "Pixel grid and values": "raster lines numbers",
+        "Values as linear light": "bytes floats",
+        "Brighter": "exposure ev",
+        "Darker": "exposure ev",
+        "Exposure 0": "reset ev brightness",
+        "Linear light without sRGB's curve": "gamma transfer",
+        "Straight lines": "lens distortion grid bend curve",
+        "Clear mark": "deselect unmark pixel",
+        "Custom size...": "resolution width height",
+        "Pixels from 1 (lecture)": "count indices index one-based",
+        "Pixels from 0 (arrays)": "count indices index zero-based",
+        "Raster object order": "opengl rasterizer rasterization gpu",
+        "Ray image order": "tracer tracing raytracer cpu",
+        "Photograph on the images": "overlay background hide show toggle",
+        "Photograph over the images": "overlay blend",
+        "Photograph where nothing is hit": "background backdrop behind",
+        "Photograph more opaque": "opacity alpha blend",
+        "Photograph less opaque": "opacity alpha transparent blend",
+        "Undistort the photograph": "lens distortion rectify pinhole straighten",
+        "Close the photograph": "remove background overlay",
+    }
     is_ray = False
+
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        super().__init__(Linked())
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self.linked.photograph.begin(context)
@@ -370,6 +403,9 @@ class RayView(PhotographedView):
     name = RAY
     title = "Ray  image order"
     is_ray = True
+
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        super().__init__(view_of(views, RasterView).linked)
 
     def draw(self, host: Host) -> None:
         both, image = host.renderers, host.renderers.ray_image

@@ -11,13 +11,14 @@ from app.images.photograph.model import can_undistort, closed, undistorting
 from app.images.photograph.panel import UNDISTORT
 from app.state.app_state import AppState
 from app.state.options.photograph import Lay
-from app.ui.action import ALT, Action, Key, Window, changing
+from app.ui.action import Action, changing
+from app.ui.host import Host
 
 MENU = "Image/Photograph"
 STEP = 0.1
 
 
-def is_open(window: Window) -> bool:
+def is_open(window: Host) -> bool:
     """Return True if there is a photograph for the images."""
     return bool(window.state.options.photograph.file)
 
@@ -39,7 +40,7 @@ def _stronger(step: float) -> Callable[[AppState], AppState]:
     return change
 
 
-def _undistort(window: Window) -> None:
+def _undistort(window: Host) -> None:
     window.change(undistorting(window.state, window.renderers.size))
 
 
@@ -60,7 +61,6 @@ PHOTOGRAPH = (
         "Photograph on the images",
         changing(_switched),
         "Alt+P",
-        (ALT | int(Key.p),),
         is_on=lambda state: state.options.photograph.shown,
         can=is_open,
     ),

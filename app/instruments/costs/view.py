@@ -11,15 +11,18 @@ from app.instruments.costs import plots
 from app.instruments.costs.recorded import COSTS, GROWTH
 from app.ui import theme
 from app.ui.checks import radio_button
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from app.ui.rows import follow
-from app.ui.view import DockedView, Host
 
 COSTS_VIEW = "Costs"
 
 
-class CostsView(DockedView):
+class CostsView(Instrument):
     name = COSTS_VIEW
     title = "Costs"
+    pages = {f"Costs against {unit}": {"costs": {"against": unit}} for unit in COSTS}
+    synonyms = {"Costs": "performance complexity time plot"}
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         if implot.get_current_context() is None:

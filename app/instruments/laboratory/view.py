@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import moderngl
@@ -22,12 +23,13 @@ from app.state.bounds import range_of
 from app.state.options.laboratory import LaboratoryOptions
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from app.ui.messages import wrapped
 from app.ui.rows import follow
 from app.ui.sliders import slider_float
 from app.ui.theme import framebuffer_scale
 from app.ui.uploads import Uploads
-from app.ui.view import DockedView, Host
 from renderer.camera.camera import Size
 from renderer.system.errors import LucidaError, describe
 from renderer.system.memo import Memo
@@ -38,11 +40,30 @@ NO_IMAGE = np.zeros((1, 1, 3), np.float32)
 KEY_STEP = 0.02  # of the image's width and height
 
 
-class LaboratoryView(DockedView):
+class LaboratoryView(Instrument):
     name = LABORATORY
     title = "Image laboratory"
+    pages = {
+        f"Image laboratory: {kind.title}": {"laboratory": {"page": page}}
+        for page, kind in PAGES.items()
+    }
+    synonyms = {
+        "Image laboratory": "representations storage formats",
+        "Image laboratory: Function": "spectrum radiant energy light position",
+        "Image laboratory: Pixels and shapes": "raster vector svg zoom",
+        "Image laboratory: Projectors": "light adds additive mixing discs red green blue",
+        "Image laboratory: Displays": "light screen phase cycle tube dlp lcd led oled subpixel",
+        "Image laboratory: Raster": "resolution pixels count",
+        "Image laboratory: Kinds": "bitmap grayscale colour float bits",
+        "Image laboratory: Exposure": "float clipped high dynamic range hdr",
+        "Image laboratory: Storage": "bytes megapixel size",
+        "Image laboratory: Array": "memory row-major column-major canvas bytes numpy julia",
+        "Image laboratory: How images are made": "pencil brush eye camera",
+        "Image laboratory: From 3D to 2D": "conundrum dimension projection",
+        "Image laboratory: From pixel to (u, v)": "ruler half pixel",
+    }
 
-    def __init__(self) -> None:
+    def __init__(self, views: Sequence[Instrument] = ()) -> None:
         self._uploads: Uploads | None = None
         self._image = Memo(_drawn_image)
         self._page = Memo(Page)

@@ -9,7 +9,8 @@ from app.instruments.mistakes import question
 from app.instruments.mistakes.panel import Wish
 from app.instruments.mistakes.view import MISTAKES, MistakesView
 from app.state.options.mistakes import Mode
-from app.ui.action import SHIFT, Action, Key, Window
+from app.ui.action import Action
+from app.ui.host import Host
 
 MENU = "Lecture/Mistakes"
 MODES: dict[Mode, str] = {
@@ -19,15 +20,15 @@ MODES: dict[Mode, str] = {
 }
 
 
-def _show(window: Window, mode: Mode) -> None:
-    window.shell.stage.show(MISTAKES)
+def _show(window: Host, mode: Mode) -> None:
+    window.show(MISTAKES)
     options = question.switched_to(window.state.options.mistakes, mode)
     window.change(window.state.with_options(options))
 
 
-def _is_quiz_shown(window: Window) -> bool:
+def _is_quiz_shown(window: Host) -> bool:
     is_quiz = window.state.options.mistakes.mode != "laboratory"
-    return is_quiz and MISTAKES in window.shell.stage.rects
+    return is_quiz and window.is_visible(MISTAKES)
 
 
 def _mode(mode: Mode, name: str) -> Action:
@@ -39,13 +40,12 @@ def _mode(mode: Mode, name: str) -> Action:
     )
 
 
-def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Action:
+def _asking(name: str, wish: Wish, keys: str, separated: bool) -> Action:
     return Action(
         MENU,
         f"Mistakes: {name}",
         lambda window: window.view(MistakesView).ask(wish),
         keys,
-        (chord,),
         can=_is_quiz_shown,
         separated=separated,
     )
@@ -53,6 +53,6 @@ def _asking(name: str, wish: Wish, keys: str, chord: int, separated: bool) -> Ac
 
 WRONG_LINES = (
     *(_mode(mode, name) for mode, name in MODES.items()),
-    _asking("reveal the answer", "reveal", "U", int(Key.u), True),
-    _asking("next question", "next", "Shift+U", SHIFT | int(Key.u), False),
+    _asking("reveal the answer", "reveal", "U", True),
+    _asking("next question", "next", "Shift+U", False),
 )

@@ -6,6 +6,7 @@ view. model.py and question.py decide on the pictures; pages.py draws them.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -26,8 +27,9 @@ from app.state.options.mistakes import MistakesOptions
 from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.coded_text import coded_text
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from app.ui.uploads import Uploads
-from app.ui.view import DockedView, Host
 from renderer.system.errors import LucidaError, describe
 from renderer.system.memo import Memo
 
@@ -35,14 +37,14 @@ MISTAKES = "Mistakes"
 LEAST_EM = 9.0  # the page's height, at least: lower ones are scrolled
 
 
-class MistakesView(DockedView):
+class MistakesView(Instrument):
     """made: the pictures that are shown; None before the first."""
 
     name = MISTAKES
     title = "Mistakes"
 
-    def __init__(self, outside: OutsideView) -> None:
-        self._outside = outside
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        self._outside = view_of(views, OutsideView)
         self._pictures: RayPictures[Made] | None = None
         self._uploads: Uploads | None = None
         self._put = Memo(put_pictures)

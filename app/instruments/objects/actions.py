@@ -7,7 +7,8 @@ from collections.abc import Callable
 from app.instruments.objects import editing
 from app.instruments.objects.choosing import chosen, everything, walked
 from app.state.app_state import AppState
-from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import Action, changing
+from app.ui.host import Host
 from renderer.editing import objects
 from renderer.scene.focus import Focus
 from renderer.system.errors import LucidaError
@@ -22,7 +23,6 @@ def _toggle(
     on: object,
     off: object,
     keys: str = "",
-    chords: tuple[int, ...] = (),
     separated: bool = False,
 ) -> Action:
     """Return the action that switches an option between two values."""
@@ -35,13 +35,13 @@ def _toggle(
             state.options.with_changes({"objects": {field: off if is_on(state) else on}})
         )
 
-    return Action(menu, name, changing(toggled), keys, chords, is_on=is_on, separated=separated)
+    return Action(menu, name, changing(toggled), keys, is_on=is_on, separated=separated)
 
 
-def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window], None]:
+def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Host], None]:
     """Return a function that runs an edit as an undo step, or reports why it is impossible."""
 
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         try:
             window.change(change(window.state, window.focus))
         except LucidaError as error:
@@ -50,11 +50,11 @@ def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Window]
     return run
 
 
-def _has_chosen(window: Window) -> bool:
+def _has_chosen(window: Host) -> bool:
     return bool(chosen(window.state))
 
 
-def _walking(step: int) -> Callable[[Window], None]:
+def _walking(step: int) -> Callable[[Host], None]:
     return lambda window: window.amend(walked(window.state, step))
 
 
@@ -76,7 +76,6 @@ SCENE = (
         "Duplicate",
         _editing(editing.duplicated),
         "Ctrl+D",
-        (CTRL | int(Key.d),),
         can=_has_chosen,
         separated=True,
     ),
@@ -85,7 +84,6 @@ SCENE = (
         "Delete",
         _editing(lambda state, focus: editing.deleted(state)),
         "Delete",
-        (int(Key.delete),),
         can=_has_chosen,
     ),
     Action(
@@ -93,19 +91,18 @@ SCENE = (
         "Select all",
         lambda window: window.amend(everything(window.state)),
         "Ctrl+A",
-        (CTRL | int(Key.a),),
         separated=True,
     ),
-    Action(MENU, "Select next object", _walking(1), ".", (int(Key.period),)),
-    Action(MENU, "Select previous object", _walking(-1), ",", (int(Key.comma),)),
+    Action(MENU, "Select next object", _walking(1), "."),
+    Action(MENU, "Select previous object", _walking(-1), ","),
 )
 
 CHOOSING = (
-    _toggle(MENU, "Select on click", "selects", True, False, "V", (int(Key.v),)),
+    _toggle(MENU, "Select on click", "selects", True, False, "V"),
     _toggle(MENU, "Add dropped models to the scene", "dropped", "add", "open"),
-    _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G", (SHIFT | int(Key.g),)),
-    _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T", (SHIFT | int(Key.t),)),
-    _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L", (SHIFT | int(Key.l),)),
+    _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G"),
+    _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T"),
+    _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L"),
     _toggle(HANDLES, "Along the object's own axes", "along", "object", "world", separated=True),
     _toggle(HANDLES, "In steps", "snaps", True, False),
 )

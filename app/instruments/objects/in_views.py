@@ -19,7 +19,7 @@ from app.instruments.outside.view import OUTSIDE
 from app.state.app_state import AppState
 from app.ui import theme
 from app.ui.guest import Click, ShownIn
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Camera
 from renderer.editing.changing import Item, ids_of
 from renderer.editing.moving import bounds_of

@@ -5,12 +5,19 @@ Keeps what is not in the state. outliner.py and inspector.py draw.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from app.cameras.presets import framed
+from app.images.pair.view import RasterView
+from app.instruments.objects.actions import CHOOSING, SCENE
+from app.instruments.objects.in_views import InViews
 from app.instruments.objects.inspector import Inspector, PanelSetting, inspector_panel
 from app.instruments.objects.listed import Outliner
 from app.instruments.objects.outliner import outliner_panel
+from app.instruments.outside.view import OutsideView
 from app.ui import layout
-from app.ui.view import DockedView, Host
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from renderer.editing.changing import Item, has_default_lights, ids_of
 from renderer.scene.focus import object_corners
 from renderer.system.errors import LucidaError
@@ -18,12 +25,29 @@ from renderer.system.errors import LucidaError
 OBJECTS, INSPECTOR = "Objects", "Inspector"
 
 
-class ObjectsView(DockedView):
+class ObjectsView(Instrument):
     name = OBJECTS
     title = OBJECTS
+    actions = (*SCENE, *CHOOSING)
+    mouse = (("double-click an object", "select it; V: by a click; Shift: one more"),)
+    synonyms = {
+        "Select on click": "select pick tool",
+        "Objects: move": "gizmo translate",
+        "Objects: turn": "gizmo rotate",
+        "Objects: scale": "gizmo size",
+        "Along the object's own axes": "local world space",
+        "In steps": "snap grid",
+        "Objects": "outliner tree hierarchy layers",
+        "Inspector": "properties material transform light",
+        "Delete": "remove",
+        "Duplicate": "copy clone",
+    }
     space = layout.CAMERA_SPACE
 
-    def __init__(self) -> None:
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        guest = InViews()
+        view_of(views, RasterView).linked.guest = guest
+        view_of(views, OutsideView).hosted.guest = guest
         self.outliner = Outliner()
 
     def draw(self, host: Host) -> None:
@@ -41,12 +65,12 @@ class ObjectsView(DockedView):
             host.files.add_model_dialog()
 
 
-class InspectorView(DockedView):
+class InspectorView(Instrument):
     name = INSPECTOR
     title = INSPECTOR
     space = layout.INSTRUMENTS
 
-    def __init__(self) -> None:
+    def __init__(self, views: Sequence[Instrument]) -> None:
         self.inspector = Inspector()
 
     def draw(self, host: Host) -> None:

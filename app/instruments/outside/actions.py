@@ -22,26 +22,22 @@ from app.instruments.outside.switches import (
 from app.instruments.outside.view import OutsideView
 from app.state.app_state import AppState
 from app.state.options.outside import OutsideOptions
-from app.ui.action import CTRL, SHIFT, Action, Key, Window, changing
+from app.ui.action import Action, changing
+from app.ui.host import Host
 from renderer.camera.camera import Camera
 from renderer.camera.navigation import switched_projection
 from renderer.system.errors import LucidaError
 
 MENU, PICTURE = "View/Outside view", "File/Picture"
 ASPECT = 1.4  # of a view along an axis: another one sees no less
-KEYS = {"bundle": ("B", Key.b), "move": ("G", Key.g), "turn": ("T", Key.t)}
+KEYS = {"bundle": "B", "move": "G", "turn": "T"}
 
 
 def _with(state: AppState, options: OutsideOptions) -> AppState:
     return state.with_options(options)
 
 
-def _keys(name: str) -> tuple[str, tuple[int, ...]]:
-    shown, key = KEYS.get(name, ("", None))
-    return shown, () if key is None else (int(key),)
-
-
-def _looking(window: Window) -> Camera:
+def _looking(window: Host) -> Camera:
     """Return the outside camera."""
     state, scope = window.state, window.view(OutsideView).scope
     if scope is not None:
@@ -52,7 +48,7 @@ def _looking(window: Window) -> Camera:
     return state.options.outside.camera or outside_camera(points, home, ASPECT)
 
 
-def _look(window: Window, camera: Camera | None) -> None:
+def _look(window: Host, camera: Camera | None) -> None:
     """Look through a camera; None: through one that sees everything."""
     window.travel(window.state.with_options(replace(window.state.options.outside, camera=camera)))
 
@@ -61,13 +57,13 @@ def _sees_all(state: AppState) -> bool:
     return state.options.outside.camera is None
 
 
-def _along(window: Window, axis: str) -> None:
+def _along(window: Host, axis: str) -> None:
     state = window.state
     points = around(window.focus.framed, window.renderers.camera(state))
     _look(window, framed(points, way_of(axis), ASPECT, _looking(window).projection))
 
 
-def _switch_projection(window: Window) -> None:
+def _switch_projection(window: Host) -> None:
     try:
         _look(window, switched_projection(_looking(window), window.focus.center))
     except LucidaError:  # beyond the numbers: the camera stays
@@ -84,7 +80,7 @@ def _shown(switch: Switch) -> Action:
         MENU,
         f"Show {switch.name}",
         changing(lambda state: _with(state, toggled(state.options.outside, switch.field))),
-        *_keys(switch.field),
+        KEYS.get(switch.field, ""),
         is_on=lambda state: is_on(state.options.outside, switch.field),
     )
 
@@ -94,7 +90,7 @@ def _handles(kind: str, name: str) -> Action:
         MENU,
         f"Handles: {name}",
         changing(lambda state: _with(state, with_gizmo(state.options.outside, kind))),
-        *_keys(kind),
+        KEYS.get(kind, ""),
         is_on=lambda state: state.options.outside.gizmo == kind,
         can=lambda window: kind in {k for k, *_ in handles(window.state.options.outside)},
         separated=kind == "move",
@@ -113,7 +109,6 @@ OUTSIDE = (
         "Fit all",
         lambda window: _look(window, None),
         "Shift+H",
-        (SHIFT | int(Key.h),),
         is_on=_sees_all,
         separated=True,
     ),
@@ -122,7 +117,6 @@ OUTSIDE = (
         "Look from the camera",
         lambda window: _look(window, window.renderers.camera(window.state)),
         "Shift+C",
-        (SHIFT | int(Key.c),),
     ),
     Action(
         MENU,
@@ -144,7 +138,6 @@ DIAGRAM = (
         "Export figure as SVG...",
         lambda window: export_figure(window, "window"),
         "Ctrl+Shift+E",
-        (CTRL | SHIFT | int(Key.e),),
         separated=True,
     ),
     _figure("Export figure as SVG on white...", "white"),

@@ -11,7 +11,7 @@ from app.instruments.outside.cloud import Cloud
 from app.instruments.outside.diagram import Item
 from app.instruments.outside.looking import NOTHING
 from app.instruments.outside.mouse import Scope
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Floats
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Literal
 
 import moderngl
 import numpy as np
@@ -39,15 +39,15 @@ from app.instruments.outside.screen import OutsideScreen, image_plane
 from app.instruments.outside.svg import svg
 from app.instruments.outside.view import OutsideView
 from app.ui import theme
+from app.ui.host import Host
 from app.ui.theme import framebuffer_scale
-from app.ui.view import Host
 from renderer.images.display import to_srgb8
 from renderer.scene.model import Scene
 from renderer.system.atomic import atomic_write
 from renderer.system.errors import LucidaError, describe
 
 if TYPE_CHECKING:
-    from app.ui.action import Window
+    from app.ui.host import Host
 
 Ground = Literal["window", "white", "transparent"]
 PLACE = "Figure"  # see Rasterizer.draw
@@ -144,9 +144,9 @@ def _with_image(sketch: Sketch, host: Host) -> Sketch:
     return replace(sketch, image=image, picture=picture)
 
 
-def export_figure(window: Window, ground: Ground) -> None:
+def export_figure(host: Host, ground: Ground) -> None:
     """Ask for a file, and write the present outside view into it as SVG."""
-    view, host, state = window.view(OutsideView), cast(Host, window), window.state
+    view, state = host.view(OutsideView), host.state
     behind = ground_of(state.scene.background, state.images.exposure_ev)
     page: theme.Rgb = behind if ground == "window" else WHITE
     try:

@@ -16,7 +16,7 @@ from app.instruments.outside.frustum import plane_corners
 from app.instruments.outside.mouse import Scope
 from app.instruments.outside.tint import handle_colors, hide_text, recolor
 from app.ui import theme
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Camera, Floats, Vector
 from renderer.camera.checks import three, volume
 from renderer.system.errors import LucidaError

@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 
 from app.instruments.outside.mouse import Scope
 from app.ui.guest import Click, Guest, ShownIn
-from app.ui.view import Host
+from app.ui.host import Host
 
 
 class Hosted:

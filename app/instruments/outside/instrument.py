@@ -1,23 +1,23 @@
-"""The outside view, as the window takes it."""
+"""The outside view with its actions."""
 
 from __future__ import annotations
 
 from app.instruments.outside.actions import DIAGRAM, OUTSIDE
 from app.instruments.outside.view import OutsideView
-from app.ui.instrument import Instrument
 
-SYNONYMS = {
-    "Show basis": "axes u v w",
-    "Show volume": "frustum",
-    "Show ray": "viewing",
-    "Show bundle": "rays",
-    "Handles: move eye": "gizmo translate",
-    "Handles: turn basis": "gizmo rotate",
-    "Handles: move plane": "gizmo distance focal length",
-    "Handles: turn up": "gizmo rotate roll",
-    "Fit all": "zoom extents",
-    "Export figure as SVG...": "vector drawing diagram",
-    "Outside view": "3d world frustum wireframe scene",
-}
 
-INSTRUMENT = Instrument(lambda views: [OutsideView()], (*DIAGRAM, *OUTSIDE), synonyms=SYNONYMS)
+class Outside(OutsideView):
+    actions = (*DIAGRAM, *OUTSIDE)
+    synonyms = {
+        "Show basis": "axes u v w",
+        "Show volume": "frustum",
+        "Show ray": "viewing",
+        "Show bundle": "rays",
+        "Handles: move eye": "gizmo translate",
+        "Handles: turn basis": "gizmo rotate",
+        "Handles: move plane": "gizmo distance focal length",
+        "Handles: turn up": "gizmo rotate roll",
+        "Fit all": "zoom extents",
+        "Export figure as SVG...": "vector drawing diagram",
+        "Outside view": "3d world frustum wireframe scene",
+    }

@@ -21,8 +21,8 @@ from app.instruments.outside.mouse import Scope
 from app.instruments.outside.screen import NEAREST, OutsideScreen
 from app.state.options.shared import Pixel
 from app.ui import theme
+from app.ui.host import Host
 from app.ui.theme import framebuffer_scale
-from app.ui.view import Host
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.camera.navigation import depth_of, orbited
 from renderer.system.memo import Memo, same

@@ -19,7 +19,7 @@ from app.instruments.outside.frustum import has_plane, image_point, plane_corner
 from app.instruments.outside.mouse import Scope
 from app.instruments.outside.screen import OutsideScreen
 from app.ui import theme
-from app.ui.view import Host
+from app.ui.host import Host
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.camera.intrinsics import PixelOrigin
 from renderer.system.errors import LucidaError

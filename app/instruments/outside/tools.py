@@ -31,8 +31,8 @@ from app.state.bounds import whole_range_of
 from app.state.options.outside import OutsideOptions
 from app.ui import theme
 from app.ui.areas import press_area
+from app.ui.host import Host
 from app.ui.theme import framebuffer_scale
-from app.ui.view import Host
 from renderer.camera.camera import Camera
 
 PAD = 6  # around the menu's button

@@ -51,8 +51,9 @@ from app.state.app_state import AppState
 from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
+from app.ui.host import Host
+from app.ui.instrument import Instrument
 from app.ui.theme import framebuffer_scale
-from app.ui.view import DockedView, Host
 from renderer.camera.camera import Camera, Size
 from renderer.camera.navigation import orbited
 from renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
@@ -67,7 +68,7 @@ GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
 
 
-class OutsideView(DockedView):
+class OutsideView(Instrument):
     """The scene and the camera in it. hosted: the guest that edits objects."""
 
     name = OUTSIDE
@@ -79,7 +80,7 @@ class OutsideView(DockedView):
         | imgui.WindowFlags_.no_background
     )
 
-    def __init__(self) -> None:
+    def __init__(self, views: Sequence[Instrument] = ()) -> None:
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self.tools: Tools | None = None
         self.hosted = Hosted(self.name)

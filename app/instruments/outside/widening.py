@@ -18,7 +18,7 @@ from renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from app.instruments.outside.mouse import Scope
-    from app.ui.view import Host
+    from app.ui.host import Host
 
 
 LABEL_PX = (75.0, 35.0)  # at both ends of a side, for what is written there

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from app.instruments.poses.panel import PoseWish
 from app.instruments.poses.view import POSES, PosesView
-from app.ui.action import Action, Window
+from app.ui.action import Action
+from app.ui.host import Host
 
 MENU = "Camera/Poses"
 WISHES: tuple[tuple[PoseWish, str], ...] = (
@@ -22,12 +23,12 @@ WISHES: tuple[tuple[PoseWish, str], ...] = (
 )
 
 
-def _has_set(window: Window) -> bool:
-    return POSES in window.shell.stage.rects and window.view(PosesView).poses is not None
+def _has_set(window: Host) -> bool:
+    return window.is_visible(POSES) and window.view(PosesView).poses is not None
 
 
 def _action(wish: PoseWish, name: str) -> Action:
-    def run(window: Window) -> None:
+    def run(window: Host) -> None:
         window.view(PosesView).ask(wish)
 
     return Action(MENU, name, run, can=_has_set, separated=wish == "frame")

@@ -6,6 +6,7 @@ set, panel.py draws the panel.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -35,10 +36,10 @@ from app.instruments.poses.reading import PosesReader
 from app.state.app_state import AppState
 from app.state.paths import restored
 from app.ui import layout, theme
-from app.ui.action import Window
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from app.ui.theme import framebuffer_scale
 from app.ui.uploads import Uploads
-from app.ui.view import DockedView, Host
 from renderer.camera.camera import Camera, Size
 from renderer.scene import Scene
 from renderer.system.errors import one_line
@@ -49,7 +50,7 @@ PHOTO = "photograph"
 BEYOND = 1 << 30  # more steps than a set has cameras
 
 
-class PosesView(DockedView):
+class PosesView(Instrument):
     """The view "Poses".
 
     poses: the open set; None if there is none, or it is being read.
@@ -61,8 +62,8 @@ class PosesView(DockedView):
     title = "Poses"
     space = layout.INSTRUMENTS
 
-    def __init__(self, outside: OutsideView) -> None:
-        self._outside = outside
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        self._outside = view_of(views, OutsideView)
         self._reader = PosesReader()
         self._photographs = Photographs()
         self._uploads: Uploads | None = None
@@ -80,13 +81,13 @@ class PosesView(DockedView):
         self._seen = False
         self._asked: PoseWish = ""
 
-    def give(self, window: Window, poses: PoseSet) -> None:
+    def give(self, window: Host, poses: PoseSet) -> None:
         """Show the set that the state names."""
         self._reader.give(poses)  # so that nothing waits
         self._query = ""
-        window.shell.stage.show_in(POSES, layout.OUTSIDE)
+        window.show_in(POSES, layout.OUTSIDE)
 
-    def open(self, window: Window, poses: PoseSet, scene: Scene | None) -> None:
+    def open(self, window: Host, poses: PoseSet, scene: Scene | None) -> None:
         """Open a set for the user, with its first camera. scene: to show it in; None for the
         present one, with its camera.
         """

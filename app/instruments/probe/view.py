@@ -15,21 +15,23 @@ import numpy as np
 from imgui_bundle import imgui
 
 from app.images.pair.marks import walked
-from app.images.pair.view import Linked
+from app.images.pair.view import RasterView
 from app.images.request import MIRROR_DEPTH
 from app.instruments.outside.diagram import Arrow, Dot, Item, Segments
 from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.growing import stage_at, stages_of
 from app.instruments.outside.view import OutsideView
 from app.instruments.probe import panel
+from app.instruments.probe.actions import PINNING
 from app.instruments.probe.model import Probe
 from app.instruments.probe.reading import Reading
 from app.state.app_state import AppState
 from app.state.options.shared import Pixel
 from app.ui import formula, theme
 from app.ui.background import Background
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from app.ui.messages import wrapped
-from app.ui.view import DockedView, Host
 from renderer.camera.camera import Camera, Size
 from renderer.system.errors import describe
 from renderer.system.memo import Memo
@@ -45,13 +47,18 @@ NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
 HINT = "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys walk."
 
 
-class ProbeView(DockedView):
+class ProbeView(Instrument):
     name = PROBE
     title = "Probe"
+    actions = PINNING
+    keyboard = (("arrows in the probe", "another pixel; Shift: by ten"),)
+    synonyms = {
+        "Probe": "ray formula intersection pixel",
+    }
 
-    def __init__(self, outside: OutsideView, images: Linked) -> None:
-        self._outside = outside
-        images.pins = lambda state: state.options.probe.pins
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        self._outside = view_of(views, OutsideView)
+        view_of(views, RasterView).linked.pins = lambda state: state.options.probe.pins
         self._making: Background[Probe] | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is

@@ -17,7 +17,8 @@ def _stepping(step: Step) -> Action:
         f"Stepper: {step.told}",
         lambda window: window.view(StepperView).ask(step.wish),
         step.shown,
-        can=lambda window: STEPPER in window.shell.stage.rects,
+        binds=False,
+        can=lambda window: window.is_visible(STEPPER),
         separated=step is STEPS[0],
     )
 

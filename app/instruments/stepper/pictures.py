@@ -29,8 +29,8 @@ from app.instruments.stepper.runs import Prepared
 from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.canvas import Marks, color_picture
+from app.ui.host import Host
 from app.ui.uploads import Uploads
-from app.ui.view import Host
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.system.errors import describe
 from renderer.system.memo import Memo

@@ -7,6 +7,7 @@ outside view. stepper/panel.py draws a run, stepper/model.py computes a step.
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 
 import moderngl
@@ -26,8 +27,9 @@ from app.state.app_state import AppState
 from app.state.options.stepper import StepperOptions
 from app.ui import theme
 from app.ui.canvas import color_picture, depth_picture
+from app.ui.host import Host
+from app.ui.instrument import Instrument, view_of
 from app.ui.uploads import Uploads
-from app.ui.view import DockedView, Host
 from renderer.system.errors import describe
 from renderer.system.memo import Memo
 
@@ -37,12 +39,12 @@ LEAST_EM = 18.0  # the width and height of an algorithm; more than there is room
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 
 
-class StepperView(DockedView):
+class StepperView(Instrument):
     name = STEPPER
     title = "Loop stepper"
 
-    def __init__(self, outside: OutsideView) -> None:
-        self._outside = outside
+    def __init__(self, views: Sequence[Instrument]) -> None:
+        self._outside = view_of(views, OutsideView)
         self._runs: Prepared[Pair] | None = None
         self._uploads: Uploads | None = None
         self._pictures: LoopPictures | None = None

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, is_dataclass, replace
 from typing import Any
 
+from app.state.bounds import OptionPart
 from app.state.options.compare import CompareOptions
 from app.state.options.costs import CostOptions
 from app.state.options.laboratory import LaboratoryOptions
@@ -20,26 +21,9 @@ from app.state.options.pair import PairOptions
 from app.state.options.photograph import PhotographOptions
 from app.state.options.poses import PosesOptions
 from app.state.options.probe import ProbeOptions
-from app.state.options.shared import ImageOptions, Preferences, SharedOptions
+from app.state.options.shared import SharedOptions
 from app.state.options.stepper import StepperOptions
 from app.state.options.your_code import YourCodeOptions
-
-Part = (
-    ImageOptions
-    | Preferences
-    | PhotographOptions
-    | PairOptions
-    | CompareOptions
-    | OutsideOptions
-    | ObjectsOptions
-    | ProbeOptions
-    | StepperOptions
-    | CostOptions
-    | LaboratoryOptions
-    | MistakesOptions
-    | YourCodeOptions
-    | PosesOptions
-)
 
 
 @dataclass(frozen=True)
@@ -69,7 +53,7 @@ class Options(SharedOptions):
         }
         return replace(self, **parts)
 
-    def with_parts(self, *parts: Options | Part) -> Options:
+    def with_parts(self, *parts: Options | OptionPart) -> Options:
         """Return these options with other parts, each in its place; all of them for `Options`."""
         options = self
         for part in parts:
@@ -80,4 +64,6 @@ class Options(SharedOptions):
         return options
 
 
-_NAMES = {type(part): name for name, part in vars(Options()).items() if is_dataclass(part)}
+_NAMES: dict[type, str] = {
+    type(part): name for name, part in vars(Options()).items() if is_dataclass(part)
+}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import Range
+from app.state.bounds import OptionPart, Range
 from app.state.options.shared import Part
 from renderer.images.difference import LARGEST_GAIN
 
@@ -13,7 +13,7 @@ CompareMode = Literal["absolute", "signed", "wipe", "flip"]
 
 
 @dataclass(frozen=True)
-class CompareOptions:
+class CompareOptions(OptionPart):
     """The compare view.
 
     gain: what the difference is multiplied with before it gets a colour.

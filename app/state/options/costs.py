@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from app.state.bounds import OptionPart
+
 
 @dataclass(frozen=True)
-class CostOptions:
+class CostOptions(OptionPart):
     """against: the horizontal axis, which is what grows."""
 
     against: Literal["triangles", "pixels"] = "triangles"

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import Range
+from app.state.bounds import OptionPart, Range
 from app.state.options.shared import Part
 
 LONGEST = 4.0  # the largest progress of all drawings
 
 
 @dataclass(frozen=True)
-class LaboratoryOptions:
+class LaboratoryOptions(OptionPart):
     """page: the drawing that is shown.
 
     progress: how far the drawing is, in builds: 0 is its first, 1 its second, 0.5 halfway.

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import AtMost, OneOf, Range
+from app.state.bounds import AtMost, OneOf, OptionPart, Range
 
 Mode = Literal["laboratory", "which-line", "which-picture"]
 Count = Annotated[int, Range(0, 1_000_000)]
 
 
 @dataclass(frozen=True)
-class MistakesOptions:
+class MistakesOptions(OptionPart):
     """mode: wrong lines to switch on; or the quiz: which of four lines made a picture, or which of
     four pictures a line makes. Names of mistakes are those of app/checking/mistakes/; those that
     the camera's projection does not have are skipped.

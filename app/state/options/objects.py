@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import AtMost, Range
+from app.state.bounds import AtMost, OptionPart, Range
 
 MOST_CHOSEN = 1000
 Key = Annotated[int, Range(0, 2**53)]
@@ -13,7 +13,7 @@ Handle = Literal["none", "move", "turn", "scale"]
 
 
 @dataclass(frozen=True)
-class ObjectsOptions:
+class ObjectsOptions(OptionPart):
     """The options for editing the scene.
 
     chosen: selected objects and lights by their keys (renderer/editing/), the last one last.

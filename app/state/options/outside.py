@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import AtMost, Range
+from app.state.bounds import AtMost, OptionPart, Range
 from renderer.camera.camera import Camera
 
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
@@ -18,7 +18,7 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
 
 @dataclass(frozen=True)
-class OutsideOptions:
+class OutsideOptions(OptionPart):
     """The outside view. camera: the free camera that looks at the scene and the other camera;
     None: one that shows both. turned: its degrees around the scene. bundle: rows and columns of the
     bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do: move the eye or

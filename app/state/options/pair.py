@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import AtMost, Range
+from app.state.bounds import AtMost, OptionPart, Range
 
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Point = tuple[Coordinate, Coordinate, Coordinate]
 
 
 @dataclass(frozen=True)
-class PairOptions:
+class PairOptions(OptionPart):
     """The drawings over both images.
 
     parallels: points of the world, through each of which a line is drawn in the direction `along`.

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import Beside, Range
+from app.state.bounds import Beside, OptionPart, Range
 from renderer.scene.model import View
 
 Lay = Literal["over", "behind"]
 
 
 @dataclass(frozen=True)
-class PhotographOptions:
+class PhotographOptions(OptionPart):
     """The options of the photograph.
 
     file: the photograph's absolute path, as app.state.paths.stored() writes it, "" for none; in a

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import Beside, Range
+from app.state.bounds import Beside, OptionPart, Range
 
 
 @dataclass(frozen=True)
-class PosesOptions:
+class PosesOptions(OptionPart):
     """The options of the view "Poses".
 
     file: of the set, an absolute path, as app.state.paths.stored() writes it, "" for none; in a

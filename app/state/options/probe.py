@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import AtMost
+from app.state.bounds import AtMost, OptionPart
 from app.state.options.shared import Pixel
 
 Section = Literal["all", "ray", "objects", "hit", "colour"]
 
 
 @dataclass(frozen=True)
-class ProbeOptions:
+class ProbeOptions(OptionPart):
     """The options of the probe.
 
     pins: pixels to compare.

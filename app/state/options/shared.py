@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal
 
-from app.state.bounds import Accepted, AtMost, OneOf, Range
+from app.state.bounds import Accepted, AtMost, OneOf, OptionPart, Range
 from renderer.camera.intrinsics import PixelOrigin
 from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from renderer.images.frame import LARGEST_SIDE, check_size
@@ -42,7 +42,7 @@ Notation = Literal["book", "code"]
 
 
 @dataclass(frozen=True)
-class ImageOptions:
+class ImageOptions(OptionPart):
     """How both images are drawn and shown.
 
     exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
@@ -82,7 +82,7 @@ Theme = Literal["dark", "light", "contrast"]
 
 
 @dataclass(frozen=True)
-class Preferences:
+class Preferences(OptionPart):
     """The looks of the window. reduced_motion: the camera jumps without a transition."""
 
     theme: Theme = "dark"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import Range
+from app.state.bounds import OptionPart, Range
 
 Step = Annotated[int, Range(0, 1_000_000)]  # of a run
 
@@ -13,7 +13,7 @@ Runs = Annotated[float, Range(0, 8)]
 
 
 @dataclass(frozen=True)
-class StepperOptions:
+class StepperOptions(OptionPart):
     """The options of the loop stepper.
 
     picture: what a lecture shows: the two loops in words; ray tracing in three lines, first at

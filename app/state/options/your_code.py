@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import AtMost, Beside, Range
+from app.state.bounds import AtMost, Beside, OptionPart, Range
 
 
 @dataclass(frozen=True)
-class YourCodeOptions:
+class YourCodeOptions(OptionPart):
     """The options of the view "Your code".
 
     file: an absolute path, as app.state.paths.stored() writes it, "" for none; in a lecture, a

@@ -1,21 +1,22 @@
-"""A view: a window that can be docked, shown and hidden; and its host's interface."""
+"""The window, as its instruments see it: the state, both images, files, and what a menu can ask."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable
-from typing import ClassVar, Protocol, TypeVar
-
-import moderngl
-from imgui_bundle import ImVec2
+from collections.abc import Callable, Hashable
+from typing import Protocol, TypeVar
 
 from app.images.renderers import Renderers
 from app.state.app_state import AppState
+from app.state.bounds import OptionPart
+from app.state.options import Options
 from app.state.options.shared import Pixel
 from app.ui.recent import RecentFiles
 from app.ui.theme import Fonts
-from renderer.camera.camera import Camera
+from app.ui.toasts import Toasts
 from renderer.scene import View as SceneView
 from renderer.scene.focus import Focus
+
+T = TypeVar("T")
 
 
 class Filing(Protocol):
@@ -59,11 +60,30 @@ class Filing(Protocol):
         """Show a toast."""
 
 
+class Around(Protocol):
+    """The parts of the window around the views, for actions."""
+
+    @property
+    def toasts(self) -> Toasts: ...
+    @property
+    def has_failed(self) -> bool:
+        """True if drawing a view has failed."""
+
+    def maximise(self) -> None: ...
+    def focus_next(self, step: int) -> None: ...
+    def toggle_palette(self) -> None: ...
+    def toggle_help(self) -> None: ...
+    def toggle_full_screen(self) -> None: ...
+    def picture(self, view: bool = False, copy: bool = False) -> None: ...
+    def picture_as(self, view: bool = False) -> None: ...
+    def export_as(self, host: Host) -> None: ...
+
+
 class Host(Protocol):
-    """The window as its views see it. Use it only on the window's thread.
+    """The window, for instruments and actions. Use it only on the window's thread.
 
     renderers: both images of the current state.
-    files: opening and saving.
+    files: opening and saving. shell: the parts around the views.
     moves: True if things may move by themselves; False while a picture of the window is taken.
     """
 
@@ -78,7 +98,16 @@ class Host(Protocol):
     @property
     def files(self) -> Filing: ...
     @property
+    def shell(self) -> Around: ...
+    @property
     def state(self) -> AppState: ...
+    @property
+    def options(self) -> Options:
+        """The current state's options."""
+
+    @property
+    def present(self) -> AppState:
+        """The current state, without a movement to it."""
 
     @property
     def focus(self) -> Focus:
@@ -96,6 +125,9 @@ class Host(Protocol):
         those with an equal gesture that is not None.
         """
 
+    def edit(self, part: Options | OptionPart) -> None:
+        """Replace a part of the options, as apply() does: `edit(replace(options.probe, ...))`."""
+
     def change(self, state: AppState) -> None:
         """Make a state the current one, as a separate undo step."""
 
@@ -107,12 +139,33 @@ class Host(Protocol):
     def show(self, view: str) -> None:
         """Show a view that is hidden, or behind another tab."""
 
+    def show_in(self, view: str, layout: str) -> None:
+        """Show a view in a layout that has a place for it, unless it is visible."""
+
+    def is_visible(self, view: str) -> bool:
+        """Return True if a view was drawn in the last frame."""
+
+    def view(self, kind: type[T]) -> T:
+        """Return the window's instrument of a class."""
+
     def unclick(self) -> None:
         """Undo the previous click if it marked a pixel: it was the first of a double click."""
 
     def ask_resolution(self) -> None:
         """Open the box that asks for the images' resolution."""
 
+    def ask_pixel(self) -> None: ...
+    def close_boxes(self) -> bool: ...
+    def focus_object(self) -> None: ...
+    def undo(self) -> None: ...
+    def redo(self) -> None: ...
+    def can_undo(self) -> bool: ...
+    def can_redo(self) -> bool: ...
+    def retry(self) -> None: ...
+    def quit(self) -> None: ...
+    def save_scene(self) -> None: ...
+    def save_scene_as(self) -> None: ...
+    def save_scene_with_view(self) -> None: ...
     def travel(self, state: AppState) -> None:
         """Make a state the current one, as an undo step, by a smooth transition of its camera, or
         of the outside camera if that is visible.
@@ -136,97 +189,3 @@ class Host(Protocol):
 
     def animate(self) -> None:
         """Request the next frame at full rate, because something is moving by itself."""
-
-
-AView = TypeVar("AView", bound="DockedView")
-
-
-class DockedView:
-    """A view in a dockable window.
-
-    Methods are called on the window's thread, with its OpenGL context current.
-
-    name: unique; the window's id in ImGui.
-    title: on its tab.
-    padding, flags: of the ImGui window; None and 0 for the style's.
-    space: where it is docked in layouts that do not place it and have that space; "": where the
-    largest view is.
-    """
-
-    name: ClassVar[str]
-    title: ClassVar[str]
-    padding: ClassVar[ImVec2 | None] = None
-    flags: ClassVar[int] = 0
-    space: ClassVar[str] = ""
-
-    @property
-    def label(self) -> str:
-        return f"{self.title}###{self.name}"
-
-    @property
-    def settled(self) -> bool:
-        """True if nothing in the view will change by itself."""
-        return True
-
-    def begin(self, host: Host, context: moderngl.Context) -> None:
-        """Prepare the view. Called once, when there is a context."""
-
-    def placed(self, host: Host) -> int:
-        """Place the ImGui window of this frame if it lies over the others. Return its flags; 0 if
-        it is docked.
-        """
-        return 0
-
-    def draw(self, host: Host) -> None:
-        """Draw the view inside its ImGui window. Called in each frame in which it is visible."""
-
-    def unseen(self, host: Host) -> None:
-        """Called in each frame in which the view is hidden, or behind another tab."""
-
-    def flown(self, host: Host) -> Camera | None:
-        """Return the camera that the keys move while the mouse is over the view; None if there is
-        none.
-        """
-        return None
-
-    def with_flown(self, state: AppState, camera: Camera) -> AppState:
-        """Return the state with that camera moved."""
-        return state
-
-    def object_under(self, host: Host) -> int | None:
-        """Return the index of the scene's object under the mouse; None for the background, or if
-        unknown.
-        """
-        return None
-
-    @property
-    def sections(self) -> tuple[str, ...] | None:
-        """The parts of the view that are unfolded; None if they follow the space, or if it has
-        none.
-        """
-        return None
-
-    def open_sections(self, names: tuple[str, ...]) -> None:
-        """Unfold these parts, and fold the others. Unknown names come from other versions."""
-
-    def cancel(self) -> None:
-        """End the current drag: something else has changed the state."""
-
-    @property
-    def has_pending(self) -> bool:
-        """True if an entry is not in the state because it is invalid."""
-        return False
-
-    def drop_pending(self) -> None:
-        """Discard that entry."""
-
-    def begin_anew(self) -> None:
-        """Reset what the view keeps outside the state, because a lecture moved by a step."""
-
-    def end(self) -> None:
-        """Release resources. Called once, before the context is destroyed."""
-
-
-def view_of(views: Iterable[DockedView], kind: type[AView]) -> AView:
-    """Return the view of a class among all views."""
-    return next(view for view in views if isinstance(view, kind))

@@ -1,0 +1,15 @@
+"""What tests look for among the opened things."""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+from app.window.opening import Opened
+
+T = TypeVar("T")
+
+
+def found(opened: Opened, kind: type[T]) -> T:
+    thing = opened.find(kind)
+    assert thing is not None
+    return thing
