@@ -1,13 +1,13 @@
 #version 330 core
 // The other camera's picture on its image plane in the outside view, hidden where the scene is
 // nearer; over the scene by blending.
+// TAPS: a constant that is put in above: points that are taken of the picture, a side of a pixel.
 
 #include "chunks/outside.glsl"
 
 uniform sampler2D picture;    // as shown, row 0 at the top
 uniform float opacity;        // of the picture
 uniform float picture_light;  // of the picture: its back is darker
-uniform int taps;             // points that are taken of the picture, a side of a pixel
 
 in vec2 position;
 
@@ -26,15 +26,15 @@ bool may_be_on_plane() {
 }
 
 void main() {
-    if (!may_be_on_plane()) {
+    if (TAPS > 1 && !may_be_on_plane()) {
         discard;
     }
     float t = scene_t(position);
     ivec2 last = textureSize(picture, 0) - 1;
     vec3 shown = vec3(0.0);
     float covered = 0.0;
-    for (int k = 0; k < taps * taps; ++k) {
-        vec2 within = (vec2(k % taps, k / taps) + 0.5) / float(taps);
+    for (int k = 0; k < TAPS * TAPS; ++k) {
+        vec2 within = (vec2(k % TAPS, k / TAPS) + 0.5) / float(TAPS);
         vec4 at = plane_under(floor(position) + within);
         if (at.w > 0.0 && is_in_picture(at) && (perspective > 0.5 ? at.w * t > 1.0 : at.w < t)) {
             ivec2 source = clamp(ivec2(at.xy / at.z * vec2(last + 1)), ivec2(0), last);
@@ -45,5 +45,5 @@ void main() {
     if (covered == 0.0) {
         discard;
     }
-    color = vec4(picture_light * shown / covered, opacity * covered / float(taps * taps));
+    color = vec4(picture_light * shown / covered, opacity * covered / float(TAPS * TAPS));
 }

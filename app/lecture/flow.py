@@ -157,22 +157,26 @@ class _Column:
     def _formula(self, latex: str) -> None:
         """Lay out a formula; in several rows, broken at its signs, if it is too wide."""
         size, row = self._size, ""
-        room = self._width - INDENT * size
         rows: list[str] = []
         for part in breakable(latex):
             longer = f"{row} {part}".strip()
-            if row and self._measure(Piece(longer, "math", size, display=True)).width > room:
+            if row and self._formula_width(longer) > self._width:
                 rows.append(row)
                 longer = part
             row = longer
-        for number, one in enumerate([*rows, row]):
+        rows.append(row)
+        widest = max(map(self._formula_width, rows))
+        left = max(0.0, min(INDENT * size, self._width - widest))
+        for number, one in enumerate(rows):
             piece = Piece(one, "math", size, display=True)
             extent = self._measure(piece)
-            left = INDENT * size if extent.width <= room else 0.0
             self.y += (0.15 if number == 0 else 0.3) * size
             self._put(piece, left, self.y + extent.ascent, "formula")
             self.y += extent.ascent + extent.descent
         self.y += 0.15 * size
+
+    def _formula_width(self, latex: str) -> float:
+        return self._measure(Piece(latex, "math", self._size, display=True)).width
 
     def _code(self, text: str) -> None:
         """Lay out lines as they are. If one is too long, it goes on in the next row, and all are

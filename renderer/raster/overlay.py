@@ -33,6 +33,7 @@ Rgba = tuple[float, float, float, float]
 FAR_PX = 1e6  # outside every image
 BACK_LIGHT = 0.55  # brightness of a picture seen from behind
 CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
+TAPS = {False: 4, True: 1}  # by whether it moves: points of the placed picture a side of a pixel
 _THINNEST = 1e-7  # an image plane that is closer to edge-on does not show its picture
 
 
@@ -110,7 +111,10 @@ class Overlay:
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._owner = own = Owner()
-        self._place = new_array(own, context, "plane.vert", "plane.frag")
+        self._place = {
+            moves: new_array(own, context, "plane.vert", "plane.frag", {"TAPS": taps})
+            for moves, taps in TAPS.items()
+        }
         self._lay_cloud = new_array(own, context, "screen.vert", "cloud.frag")
         self._show = new_array(own, context, "screen.vert", "scene.frag")
         self._gather = new_array(own, context, "screen.vert", "gather.frag")
@@ -172,7 +176,7 @@ class Overlay:
         casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
         cloud: CloudPicture | None = None,
-        taps: int = 4,
+        moves: bool = False,
     ) -> moderngl.Texture:
         """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
@@ -180,8 +184,8 @@ class Overlay:
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
         of the lines' edges. number: a value that differs whenever the scene's picture differs; None
-        if unknown. cloud: of this size, by the same camera; below the layers. taps: points of the
-        placed picture for each pixel, along a side.
+        if unknown. cloud: of this size, by the same camera; below the layers. moves: the placed
+        picture may have jagged edges, so that it is drawn sooner.
         """
         gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)
@@ -208,10 +212,11 @@ class Overlay:
                 if plane is not None and picture is not None:
                     picture.use(2)
                     light = 1.0 if plane.is_front else BACK_LIGHT
-                    values = {"opacity": opacity, "picture_light": light, "taps": taps}
-                    set_uniforms(self._place.program, **shared, picture=2, **values)
+                    values = {"opacity": opacity, "picture_light": light}
+                    place = self._place[moves]
+                    set_uniforms(place.program, **shared, picture=2, **values)
                     gl.blend_func = BLENDING
-                    self._place.render(moderngl.TRIANGLE_STRIP, vertices=4)
+                    place.render(moderngl.TRIANGLE_STRIP, vertices=4)
                 if cloud is not None:
                     cloud.color.use(3)
                     cloud.depth.use(4)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.images.compare.composed import RIM, Composed, Mapping, marks
+from app.images.compare.composed import RIM, SIDES, Composed, Mapping, marks
 from renderer import Frame
 from renderer.compare.raster_and_ray import AGREE, CAUSES, LABEL_COLORS, SHADING, UNEXPLAINED
 from renderer.images.difference import (
@@ -111,24 +111,26 @@ def test_it_is_drawn_again_only_where_something_has_changed(composed, upload):
     assert (shown(composed.difference(first, 2, random_frame(3), Mapping(gain=0.5))) != after).any()
 
 
-@pytest.mark.parametrize("divider", [0, 1, 6, 13])
-def test_a_wipe_is_exactly_one_image_left_and_the_other_right(composed, upload, divider):
+def test_each_side_keeps_its_picture(composed, upload):
     rng = np.random.default_rng(3)
-    left, right = (rng.integers(0, 256, (*SIZE[::-1], 4), np.uint8) for _ in range(2))
-    picture = composed.compose(SIZE, (upload(left), 0), (upload(right), 0), divider)
-    assert (shown(picture)[:, :divider] == left[:, :divider, :3]).all()
-    assert (shown(picture)[:, divider:] == right[:, divider:, :3]).all()
+    values = [rng.integers(0, 256, (*SIZE[::-1], 4), np.uint8) for _ in SIDES]
+    pictures = [
+        composed.compose(SIZE, (upload(value), 0), side=side)
+        for value, side in zip(values, SIDES, strict=True)
+    ]
+    for picture, value in zip(pictures, values, strict=True):
+        assert (shown(picture) == value[..., :3]).all()
 
 
 def test_a_coarse_picture_is_enlarged_to_the_nearest_pixel(composed, upload):
     coarse = np.random.default_rng(4).integers(0, 256, (4, 7, 4), np.uint8)
-    picture = shown(composed.compose((14, 8), (upload(coarse), 0), divider=14))
+    picture = shown(composed.compose((14, 8), (upload(coarse), 0)))
     assert (picture == coarse[..., :3].repeat(2, axis=0).repeat(2, axis=1)).all()
 
 
 def test_a_muted_picture_is_gray_and_dark(composed, upload):
     bright = np.full((*SIZE[::-1], 4), (250, 120, 30, 255), np.uint8)
-    picture = shown(composed.compose(SIZE, (upload(bright), 0), divider=13, muted=True))
+    picture = shown(composed.compose(SIZE, (upload(bright), 0), muted=True))
     assert (picture == picture[..., :1]).all()
     assert 20 < picture.mean() < 100
 
@@ -137,12 +139,12 @@ def test_marked_pixels_have_their_causes_colours(composed, upload):
     labels = np.zeros(SIZE[::-1], np.uint8)
     labels[2, 3], labels[4, 5], labels[6, 12] = 1, SHADING, UNEXPLAINED
     black = upload(np.zeros((*SIZE[::-1], 4), np.uint8))
-    picture = composed.compose(SIZE, (black, 0), divider=13, labels=labels, enlarged=False)
+    picture = composed.compose(SIZE, (black, 0), labels=labels, enlarged=False)
     expected = LABEL_COLORS[labels]
     assert (shown(picture) == expected).all()
     labels = labels.copy()
     labels[0, 0] = len(CAUSES)
-    picture = composed.compose(SIZE, (black, 0), divider=13, labels=labels, enlarged=False)
+    picture = composed.compose(SIZE, (black, 0), labels=labels, enlarged=False)
     assert (shown(picture) == LABEL_COLORS[labels]).all()
 
 
@@ -179,7 +181,7 @@ def test_nothing_is_left(gl, upload):
     kept = sum(type(thing).__name__ != "InvalidObject" for thing in gl.objects)
     made = Composed(gl)
     picture = made.difference(raster, 0, ray, Mapping("depth"))
-    made.compose(SIZE, picture.held, divider=3, labels=np.ones(SIZE[::-1], np.uint8))
+    made.compose(SIZE, picture.held, labels=np.ones(SIZE[::-1], np.uint8))
     made.release()
     assert sum(type(thing).__name__ != "InvalidObject" for thing in gl.objects) == kept
     gl.gc_mode = None

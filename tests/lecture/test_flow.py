@@ -112,9 +112,10 @@ def test_lines_are_filled_to_the_last_pixel():
 
 
 def test_what_is_too_wide_goes_on_in_the_next_row():
-    """The column is 100 wide: formulas have 87.5, code has 90; a letter is 5 wide. Sizes stay."""
+    """The column is 100 wide, of which code has 90; a letter is 5 wide. Sizes stay."""
     formula = laid("$$\nabcdefgh = ijklmnop + qrstuvw\n$$").pieces
-    assert [placed.piece.text for placed in formula] == ["abcdefgh", "= ijklmnop", "+ qrstuvw"]
+    assert [placed.piece.text for placed in formula] == ["abcdefgh = ijklmnop", "+ qrstuvw"]
+    assert [placed.x for placed in formula] == [5, 5]  # indented as far as there is room
     code = laid("```\nfor i in range(9):\n    total = total + i\n```").pieces
     assert [placed.piece.text for placed in code] == [
         "for i in range(9):", "  total = total +", "      i",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Any
+from unittest import mock
+
 import numpy as np
 from held_clock import Clock
 from option_changes import with_options
@@ -42,6 +45,24 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     assert ground(d).shown is shown
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
     d.settle()
+
+
+def drive_the_placed_picture_has_smooth_edges_once_nothing_moves(d: Driver) -> None:
+    enter(d)
+    tools, drawn = view(d).tools, list[bool]()
+    assert tools is not None
+    draw = tools.overlay.draw
+
+    def noted(*values: Any, moves: bool, **more: Any) -> Any:
+        drawn.append(moves)
+        return draw(*values, moves=moves, **more)
+
+    with mock.patch.object(tools.overlay, "draw", noted):
+        d.drag_field("eye.x", 40)
+        assert any(drawn)
+        d.until(lambda: not drawn[-1])
+        d.settle()
+        assert not drawn[-1]
 
 
 def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:

@@ -21,6 +21,7 @@ from renderer.raster.resources import Owner, new_texture
 from renderer.raster.targets import Textures
 from renderer.system.memo import Memo
 
+SIDES = "left", "right"  # of a wipe; everything else is "left"
 RIM = 250  # a label: the dark border of a mark
 MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
 LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
@@ -42,7 +43,7 @@ class Composed:
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._difference = Pass(context, "difference.frag")
-        self._compose = Pass(context, "compose.frag")
+        self._compose = {side: Pass(context, "compose.frag") for side in SIDES}
         self._owner = Owner()
         self._maps = {
             False: self._row(ABSOLUTE_COLORS),
@@ -101,29 +102,25 @@ class Composed:
     def compose(
         self,
         size: tuple[int, int],
-        left: Held,
-        right: Held | None = None,
-        divider: int = 0,
+        picture: Held,
         muted: bool = False,
         labels: NDArray[np.uint8] | None = None,
         enlarged: bool = True,
-        rise: float = 1.0,
+        side: str = SIDES[0],
     ) -> Picture:
-        """Return a picture of (width, height): `left` up to the column `divider`, then `right`;
-        without `right`, only `left`.
+        """Return `picture` at (width, height), with its marked pixels.
 
         muted: gray and dark. labels: those of renderer/compare/raster_and_ray.py, uint8
         (height, width): the pixels to mark in their causes' colours. enlarged: with a border, so
-        that they are visible from a distance. rise: the opacity of `right` over `left`.
+        that they are visible from a distance. side: one of SIDES; the next picture of a side
+        overwrites its last one.
         """
         marks, colors = self._upload_marks(labels, enlarged), (self._label_colors, None)
-        return self._compose.draw(
+        return self._compose[side].draw(
             size,
-            {"left": left, "right": right or left, "marks": marks or colors, "colors": colors},
+            {"picture": picture, "marks": marks or colors, "colors": colors},
             extent=(float(size[0]), float(size[1])),
-            divider=float(divider),
             muted=float(muted),
-            rise=rise,
             has_marks=marks is not None,
         )
 
@@ -132,7 +129,8 @@ class Composed:
         if self._marks is not None:
             self._marks.release()
         self._owner.release()
-        self._compose.release()
+        for compose in self._compose.values():
+            compose.release()
         self._difference.release()
 
     def _row(self, colors: NDArray[np.uint8]) -> moderngl.Texture:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from app.images.compare import comparing, panel
 from app.images.compare.actions import COMPARING, FLIP_KEY
-from app.images.compare.composed import Composed, Mapping
+from app.images.compare.composed import SIDES, Composed, Mapping
 from app.images.compare.differences import draw_differences
 from app.images.pair.view import ImageView, RasterView
 from app.images.placement import Placement
@@ -39,6 +39,7 @@ NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
+RIGHT = "right"  # the name of a wipe's second picture; see ShownImage.picture
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
 AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the display transform
 
@@ -57,21 +58,23 @@ class CompareView(ImageView):
     def __init__(self, views: Sequence[Instrument]) -> None:
         super().__init__(view_of(views, RasterView).linked)
         self._composed: Composed | None = None
-        self._shown: ShownImage | None = None
-        self._show = Memo(_show)
+        self._shown: dict[str, ShownImage] = {}  # by SIDES
+        self._show = {side: Memo(_show) for side in SIDES}
         self._error: Exception | None = None
         self._footer_px = 0.0  # the height of what is below the image, in the last frame
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._composed, self._shown = Composed(context), ShownImage(context)
+        self._composed = Composed(context)
+        self._shown = {side: ShownImage(context) for side in SIDES}
 
     def end(self) -> None:
-        if self._composed is not None and self._shown is not None:
-            self._shown.release()
+        if self._composed is not None:
             self._composed.release()
-        self._composed = self._shown = None
+        for shown in self._shown.values():
+            shown.release()
+        self._composed, self._shown = None, {}
 
     def cancel(self) -> None:
         super().cancel()
@@ -106,12 +109,13 @@ class CompareView(ImageView):
 
     def _image(self, host: Host) -> None:
         both, mode = host.renderers, host.state.options.compare.mode
-        assert self._shown is not None
-        self._shown.begin_frame()
+        for shown in self._shown.values():
+            shown.begin_frame()
         is_picture = mode in ("wipe", "flip")
+        side = SIDES[mode == "flip" and self._flipped(host.state)]
         self._pane(
             host,
-            lambda *wanted: self._picture(both, *wanted),
+            lambda state, placement, name: self._picture(both, state, placement, name, side),
             (lambda state, channel, region: self._values(both, state, channel, region))
             if is_picture
             else None,
@@ -137,25 +141,40 @@ class CompareView(ImageView):
             _label(host, screen, "Ray" if self._flipped(host.state) else "Raster", right=False)
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
-        verdict = host.renderers.verdict(host.state)
-        if host.state.options.compare.mode not in ("absolute", "signed") or verdict is None:
-            return
-        if host.state.images.grid and not waiting(host.renderers, host.state):
-            draw_differences(screen, host.state, verdict.comparison, host.fonts)
+        both, state = host.renderers, host.state
+        options, verdict = state.options.compare, both.verdict(state)
+        has_differences = options.mode in ("absolute", "signed") and state.images.grid
+        if options.mode == "wipe":
+            picture = self._picture(both, state, screen.placement, RIGHT, SIDES[1])
+            if picture is not None:
+                low, high = screen.visible
+                draw, image = imgui.get_window_draw_list(), imgui.ImTextureRef(picture.texture.glo)
+                x = self._divider_x(state, screen, both.size)
+                draw.push_clip_rect(ImVec2(x, low.y), high, True)
+                draw.add_image(image, low, high, col=theme.u32(ImVec4(1, 1, 1, options.rise)))
+                draw.pop_clip_rect()
+        elif has_differences and verdict is not None and not waiting(both, state):
+            draw_differences(screen, state, verdict.comparison, host.fonts)
 
     def _picture(
-        self, both: Renderers, state: AppState, placement: Placement, name: str
+        self, both: Renderers, state: AppState, placement: Placement, name: str, side: str
     ) -> Picture | None:
-        """Return the visible part of the picture, or None."""
-        textures, composed, shown = both.textures, self._composed, self._shown
-        assert textures is not None and composed is not None and shown is not None
+        """Return the visible part of the difference, or of the image on one side of a wipe: raster
+        left, ray right. Return None if it is not there yet.
+        """
+        textures, composed = both.textures, self._composed
+        assert textures is not None and composed is not None
         options, look = state.options.compare, look_of(state.images)
         request = both.request(state)
         assert request is not None
-        raster = textures.raster_in(whole(both.size), request, look, COMPARED)
-        if raster is None:
+        picture = textures.raster_in(whole(both.size), request, look, COMPARED)
+        if picture is not None and self._shows_ray(state, side):
+            ray = textures.ray_in(whole(both.size), request, look, COMPARED)
+            # Without the ray image, the raster image must not be taken for it.
+            picture = ray if ray is None or side == SIDES[1] else picture
+        if picture is None:
             return None
-        left, right, divider, muted = raster.held, None, 0, False
+        held, muted, shown = picture.held, False, self._shown[side]
         try:
             if options.mode in ("absolute", "signed"):
                 drawn, image = textures.raster.full(request), both.ray_image
@@ -167,38 +186,32 @@ class CompareView(ImageView):
                         options.gain,
                         options.mode == "signed",
                     )
-                    left = composed.difference(
+                    held = composed.difference(
                         drawn.textures, drawn.number, image.frame, mapping
                     ).held
-            else:
-                ray = textures.ray_in(whole(both.size), request, look, COMPARED)
-                divider = self._first_ray_column(both, state)
-                if ray is not None:
-                    right = ray.held
-                elif divider < both.size[0] and options.rise == 1.0:
-                    return None  # not the raster image in the ray image's place
             verdict = both.verdict(state)
             labels = verdict.comparison.labels if verdict and options.causes else None
             enlarged = min(placement.unit) < LARGE_PX
-            picture = composed.compose(
-                both.size, left, right, divider, muted, labels, enlarged, options.rise
+            self._show[side](
+                shown, composed.compose(both.size, held, muted, labels, enlarged, side).held
             )
-            self._show(shown, picture.held)
             seen = shown.picture(name, AS_IT_IS, placement)
             self._error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self._error = error
-            self._show.forget()
+            self._show[side].forget()
             shown.set_channels({})
             return None
         return seen
 
-    def _first_ray_column(self, both: Renderers, state: AppState) -> int:
-        """Return the first column that shows the ray image in a wipe or flip."""
+    @staticmethod
+    def _shows_ray(state: AppState, side: str) -> bool:
+        """Return True if a side needs the ray image: the right one, and the left one of a wipe that
+        has it beside it.
+        """
         options = state.options.compare
-        if options.mode == "wipe":
-            return _column(options.divider, both.size)
-        return 0 if self._flipped(state) else both.size[0]
+        beside = options.mode == "wipe" and options.divider < 1.0 and options.rise == 1.0
+        return side == SIDES[1] or beside
 
     def _flipped(self, state: AppState) -> bool:
         """Return True if flip shows the ray image now."""

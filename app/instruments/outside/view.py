@@ -66,7 +66,6 @@ TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
-TAPS, MOVING_TAPS = 4, 1  # points of the picture on the image plane for each pixel, along a side
 
 
 class OutsideView(Instrument):
@@ -307,11 +306,11 @@ class OutsideView(Instrument):
         content = self.content(host, screen)
         if options.half_line and self._over:
             content = replace(content, pointed=_pointed(content, scope))
-        taps = MOVING_TAPS if self._scopes.moves else TAPS
+        moves = self._scopes.moves or ground.factor > 1
         key = (
             content, ground, screen.near, units_px(scope.extent),
             live and live.number, state.images, theme.used(), extensions.items,
-            extensions.cloud, extensions.picture, taps,
+            extensions.cloud, extensions.picture, moves,
         )  # fmt: skip
         if self._made is not None and same(self._made.key, key):
             return self._made
@@ -326,7 +325,7 @@ class OutsideView(Instrument):
         texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
             exposure_ev, options.image_opacity, screen.unit_px, ground.mean, CASING, ground,
-            self.tools.layer.picture(extensions.cloud, screen, _ground(state)), taps,
+            self.tools.layer.picture(extensions.cloud, screen, _ground(state)), moves=moves,
         )  # fmt: skip
         return MadePicture(key, texture, primitives, labels)
 
