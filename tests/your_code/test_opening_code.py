@@ -41,8 +41,8 @@ def test_a_lecture_names_a_file_beside_itself(tmp_path: Path):
         0
     ]
     assert options.views == ("your-code", "outside")
-    assert options.options["your_code"]["file"] == str(tmp_path / "rays.py")
-    assert options.options["your_code"]["canvas"] == (8, 6)
+    assert options.changes["your_code"]["file"] == str(tmp_path / "rays.py")
+    assert options.changes["your_code"]["canvas"] == (8, 6)
     assert (
         lecture(tmp_path, 'options.your_code.file = ""').steps[0].changes["your_code"]["file"] == ""
     )
