@@ -12,7 +12,6 @@ from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture.text import Question
 from app.state.app_state import AppState
-from app.state.options import Options
 from app.web.document import document
 from app.web.formulas import templates
 from app.web.lecture import exercises
@@ -21,7 +20,6 @@ from app.web.lecture.figures import Figures, is_live
 from app.web.lecture.pictures import Form, data_uri, drawing
 from app.web.lecture.shell import BAR, DIALOGS, overview
 from app.web.lecture.text import blocks_html, plain
-from renderer.camera.pixels import Indexing
 from renderer.files.views import view_table
 from renderer.images.display import Bytes
 
@@ -71,8 +69,7 @@ def page(
             tasks[name] = written.task
         if written.figure is not None:
             shown[name] = written.figure
-    options = lecture.steps[0].options
-    indexing = Indexing(int(options.get("one_based", Options().one_based)))
+    indexing = lecture.steps[0].options.indexing
     title = plain(lecture.title)
     author = f' <span class="author">{plain(lecture.author)}</span>' if lecture.author else ""
     body = (
@@ -104,7 +101,7 @@ def is_printed(step: Step, after: Step | None) -> bool:
 
 def _settings(step: Step) -> dict[str, Any]:
     """Return what a build's pictures depend on, by names."""
-    tables = {"view": view_table(step.view)} | step.options
+    tables = {"view": view_table(step.view)} | step.changes
     return {"scene": id(step.scene), "views": step.views, "pixel": step.pixel} | {
         f"{name}.{key}": value
         for name, table in tables.items()
