@@ -229,6 +229,9 @@ def test_bytes_behind_the_triangles_of_an_stl_cost_a_line(tmp_path: Path) -> Non
     assert "attributes" in note(loaded(tmp_path, "t.stl", b"COLOR=\1\2\3\4".ljust(80) + data[80:]))
 
 
+LIGHTS = "KHR_lights_punctual"
+
+
 def lit(tmp_path: Path, light: dict[str, Any], **node: Any) -> Scene:
     """Load a triangle with a light at (0, 0, 2)."""
     shines = {"extensions": {LIGHTS: {"light": 0}}, "translation": [0.5, 0.5, 2]} | node
