@@ -28,13 +28,15 @@ from renderer.images.display import Bytes
 class Still:
     """A picture of a view in a build.
 
-    pixels: (height, width, 3). drawn: the input of the laboratory's drawing, in the light and the
-    dark theme; None of other views.
+    pixels: (height, width, 3), in the light theme. drawn: the input of the laboratory's drawing, in
+    the light and the dark theme; None for other views. dark: as pixels, in the dark theme, for
+    views in the theme's colours.
     """
 
     view: str
     pixels: Bytes
     drawn: tuple[Page, Page] | None = None
+    dark: Bytes | None = None
 
 
 def page(
@@ -170,10 +172,10 @@ class _Step:
             name += " still"  # for prints, and where there is no WebGL
         seen = plain(alternative(still.view, self._step, self._state))
         height, width = still.pixels.shape[:2]
-        picture = (
-            f'<img src="{data_uri(still.pixels, self._form)}" width="{width}" height="{height}" '
-            f'alt="{seen}">'
-        )
+        size = f'width="{width}" height="{height}" alt="{seen}"'
+        picture = f'<img src="{data_uri(still.pixels, self._form)}" {size}>'
+        if still.dark is not None and self._form == "webp":
+            picture += f'<img class="dark" src="{data_uri(still.dark)}" {size}>'
         if still.drawn is not None:
             width, height = still.drawn[0].size
             picture = (
