@@ -197,21 +197,19 @@ class Renderers(ImageSize):
 
     # Pictures and values.
 
-    def raster_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
+    def raster_picture(self, state: AppState, placement: Placement) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         on failure.
-
-        name: of the picture, see ShownImage.picture.
         """
         request = self.request(state)
         assert request is not None
-        return self._begun.raster_in(placement, request, look_of(state.images), name)
+        return self._begun.raster_in(placement, request, look_of(state.images))
 
-    def ray_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
+    def ray_picture(self, state: AppState, placement: Placement) -> Picture | None:
         """Return the same of the newest ray image; None if the raster image has another camera."""
         request = self.request(state)
         assert request is not None
-        return self._begun.ray_in(placement, request, look_of(state.images), name)
+        return self._begun.ray_in(placement, request, look_of(state.images))
 
     def shown_ray(self, state: AppState) -> RayImage | None:
         """Return the ray image that is shown; None if it is stale."""
@@ -292,7 +290,7 @@ class Renderers(ImageSize):
     def raster_s(self) -> float:
         """The time of the visible raster image; 0 if there is none."""
         textures = self._begun
-        return textures.raster.took[1] if textures.raster_seen() is not None else 0.0
+        return textures.raster.took[1] if textures.sees_raster else 0.0
 
     @property
     def raster_factor(self) -> int:
@@ -372,7 +370,7 @@ class Renderers(ImageSize):
                 return None
             return int(frame.channel("id")[pixel]), float(frame.channel("depth")[pixel])
         textures, request = self._begun, self.request(state)
-        if self._moving or request is None or textures.raster_seen() is None:
+        if self._moving or request is None or not textures.sees_raster:
             return None
         try:
             return textures.raster.hit(request, pixel)

@@ -314,10 +314,9 @@ class PhotographedView(ImageView):
         if not layer.follow(host.renderers, host.state):
             return picture
 
-        def laid(state: AppState, placement: Placement, name: str) -> Picture | None:
-            made = picture(state, placement, name)
-            of = self.name, name
-            return layer.over(host.renderers, state, of, made, placement, self.is_ray)
+        def laid(state: AppState, placement: Placement) -> Picture | None:
+            made = picture(state, placement)
+            return layer.over(host.renderers, state, self.name, made, placement)
 
         return laid
 
@@ -375,10 +374,6 @@ class RasterView(PhotographedView):
         "Raster object order": "opengl rasterizer rasterization gpu",
         "Ray image order": "tracer tracing raytracer cpu",
         "Photograph on the images": "overlay background hide show toggle",
-        "Photograph over the images": "overlay blend",
-        "Photograph where nothing is hit": "background backdrop behind",
-        "Photograph more opaque": "opacity alpha blend",
-        "Photograph less opaque": "opacity alpha transparent blend",
         "Undistort the photograph": "lens distortion rectify pinhole straighten",
         "Close the photograph": "remove background overlay",
     }
