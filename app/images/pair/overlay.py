@@ -10,14 +10,14 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from app.images.placement import magnification_text
 from app.images.screen import Screen
 from app.state.app_state import AppState
-from app.ui import theme
+from app.ui import palettes, theme
 from renderer.images.display import ID_PALETTE
 from renderer.images.shared_numbers import FARTHEST_GRAY
 
 BOX = theme.rgb("#0c0d0f", 0.9)
 TEXT = theme.rgb("#e8eaed")
 DIM = theme.rgb("#b4bac2")
-ERROR = theme.DARK.ERROR
+ERROR = palettes.DARK.ERROR
 MARGIN = 8.0
 PADDING = 6.0
 BAR = 84.0  # of the depth's legend
