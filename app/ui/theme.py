@@ -24,6 +24,7 @@ from app.ui.palettes import (
     PRESENTED_LIGHT,
     Palette,
 )
+from app.ui.palettes import rgb as rgb  # every module that draws has it as theme.rgb
 
 TEXT_PX = 16.0
 ATLAS_PX = 1024  # the side of the letters' texture, at least
