@@ -10,6 +10,7 @@ from typing import Any
 from app.lecture.exercises import AskedExercise
 from app.lecture.hiding import HideExercise
 from app.lecture.text import Block
+from app.state.options import Options
 from renderer.scene.model import Scene, View
 from renderer.system.file_dependencies import Noted
 
@@ -25,7 +26,8 @@ class Step:
     before: the part of the text that the build before shows already.
     views: the names of the views to show, the main one first.
     full: the picture fills the window, and the text lies over it.
-    options: changes of the default options, by part.
+    changes: of the default options, by part, as in the file.
+    options: the default options with these changes.
     pixel: the marked one, (row, column), 0-based.
     exercise: of the step's last build; otherwise None.
     move_s: how long the movement from the build before takes; 0 for a cut.
@@ -45,7 +47,8 @@ class Step:
     view: View
     views: tuple[str, ...]
     full: bool
-    options: dict[str, Any]
+    changes: dict[str, Any]
+    options: Options
     pixel: tuple[int, int] | None
     exercise: Exercise | None
     move_s: float

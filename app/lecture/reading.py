@@ -259,8 +259,8 @@ class _LectureReader:
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
-            options = self._options(table.options)
-        resolution = options.get("images", {}).get("resolution")
+            changes = self._changes(table.options)
+        resolution = changes.get("images", {}).get("resolution")
         pixel = table.pixel
         return Step(
             number=0,
@@ -275,7 +275,8 @@ class _LectureReader:
             view=view,
             views=_views(table.views),
             full=table.full,
-            options=options,
+            changes=changes,
+            options=Options().with_changes(changes),
             pixel=None if pixel is None else pixel_of(pixel, resolution, self._indexing),
             exercise=None,
             move_s=0.0,
@@ -301,21 +302,21 @@ class _LectureReader:
         where = f"{self._source}:{self._places.line(field)}: {field}"
         self._notes += [f"{where}: {line}" for line in lines]
 
-    def _options(self, tables: dict[str, Any]) -> dict[str, Any]:
-        """Return the step's options. Pixels are counted in the same way in all steps."""
-        options = with_files(options_from_table(tables), self._folder)
+    def _changes(self, tables: dict[str, Any]) -> dict[str, Any]:
+        """Return a step's changes of the options. All steps count pixels in the same way."""
+        changes = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
         if self._notation is not None:
-            options = {"notation": self._notation} | options
+            changes = {"notation": self._notation} | changes
         if one_based != Options().one_based:
-            options = {"one_based": one_based} | options
-        if options.get("one_based", one_based) != one_based:
+            changes = {"one_based": one_based} | changes
+        if changes.get("one_based", one_based) != one_based:
             raise LucidaError(
                 "one_based",
                 f"differs from pixels_from = {self._indexing.value}",
                 "leave it out; pixels_from, beside the title, holds for the whole lecture",
             )
-        return options
+        return changes
 
     def _scene(self, name: str) -> Scene:
         if name not in self._scenes:

@@ -46,12 +46,12 @@ def state_of(step: Step, base: AppState) -> AppState:
     base: the current state. Only the user's own options, the language of programs, the notation and
     the place in the lecture are kept.
     """
-    options = replace(own(base.options), marked=step.pixel)
-    keep = is_orthonormal(step.view.camera)
-    state = AppState(step.scene, step.view, keep, options, base.step)
+    kept = {name: getattr(base.options, name) for name in (*OWN, *CHOSEN)}
+    kept = {name: value for name, value in kept.items() if name not in step.changes}
+    options = replace(step.options, marked=step.pixel, **kept)
     if isinstance(step.exercise, HideExercise):
-        state = state.with_options(replace(state.options.objects, chosen=(step.exercise.item,)))
-    return state.with_options(state.options.with_changes(step.options))
+        options = replace(options, objects=replace(options.objects, chosen=(step.exercise.item,)))
+    return AppState(step.scene, step.view, is_orthonormal(step.view.camera), options, base.step)
 
 
 def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:

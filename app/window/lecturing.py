@@ -12,11 +12,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from app.instruments.laboratory.view import LABORATORY, LaboratoryView
 from app.lecture.answer_log import AnswerLog
 from app.lecture.model import Lecture
+from app.state.app_state import AppState
+from app.state.options.shared import Theme
 from app.ui.surface import Target
 from app.window.capture import cut
 from app.window.launch import start_drawing
@@ -31,6 +31,7 @@ from renderer.system.errors import LucidaError
 if TYPE_CHECKING:
     from app.web.lecture.page import Still
 
+THEMED = {"stepper", "costs", "probe", "mistakes", "poses"}  # views in the theme's colours
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 
 
@@ -127,7 +128,8 @@ def lecture_stills(
 ) -> list[list[Still]]:
     """Return pictures of the views in each build.
 
-    They are in the light theme, for prints, and without tools. path, size: as in export_lecture().
+    They are without tools, and in the light theme, for prints; views in the theme's colours also in
+    the dark one. path, size: as in export_lecture().
     Needs no display. Raises LucidaError.
     """
     from app.web.lecture.page import Still
@@ -139,12 +141,15 @@ def lecture_stills(
         pixels = target.read()
         laboratory = window.views[LABORATORY]
         assert isinstance(laboratory, LaboratoryView)
-        for view in lecture.builds[place].views:
-            rect = window.shell.stage.rects.get(view.capitalize())
-            if rect is not None:
-                picture = np.ascontiguousarray(cut(pixels, rect))
-                drawn = laboratory.in_both_themes() if view == "laboratory" else None
-                stills[place].append(Still(view, picture, drawn))
+        rects = window.shell.stage.rects
+        places = {view: rects.get(view.capitalize()) for view in lecture.builds[place].views}
+        pictures = {view: cut(pixels, rect) for view, rect in places.items() if rect is not None}
+        if window.state.preferences.theme == "dark":
+            stills[place] = [replace(one, dark=pictures[one.view]) for one in stills[place]]
+            return
+        for view, picture in pictures.items():
+            drawn = laboratory.in_both_themes() if view == "laboratory" else None
+            stills[place].append(Still(view, picture, drawn))
 
     _draw_builds(lecture, path, size, take, progress, for_print=True)
     return stills
@@ -160,13 +165,13 @@ def _draw_builds(
 ) -> None:
     """Draw all builds in a window without a display, and take each once nothing changes any more.
 
-    take: gets the build's place among all. for_print: in the light theme, without tools. Raises
-    LucidaError.
+    take: gets the build's place among all. for_print: without tools, in the light theme, and builds
+    with a view of THEMED in the dark one, too. Raises LucidaError.
     """
     platform = start_platform(want_display=False)
     state = first_state(lecture)
     if for_print:
-        state = state.with_options(replace(state.options.preferences, theme="light"))
+        state = _in_theme(state, "light")
     run = WindowRun(platform, state, size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a build
     window = run.window
@@ -184,9 +189,14 @@ def _draw_builds(
         step = lecture.builds[place]
         if quiet > QUIET_FRAMES:
             take(place, window, target)
+            quiet, began_s = 0, time.monotonic()
+            if for_print and THEMED.intersection(step.views):
+                is_light = window.state.preferences.theme == "light"
+                window.amend(_in_theme(window.state, "dark" if is_light else "light"))
+                if is_light:
+                    return
             place += 1
             progress(place / count)
-            quiet, began_s = 0, time.monotonic()
             if place < count:
                 window.lecture.advance(window, 1)
             else:
@@ -200,3 +210,7 @@ def _draw_builds(
 
     run.on_drawn = drawn
     run.run()
+
+
+def _in_theme(state: AppState, theme: Theme) -> AppState:
+    return state.with_options(replace(state.options.preferences, theme=theme))

@@ -369,7 +369,6 @@ class MainWindow:
             take_opened(self, opened)
         moving = active or self.transition.under_way or self._fly.under_way
         moving = moving or self._playing.under_way
-        self.renderers.update(self.state, moving)
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)
         if not self.lecture.is_given:
@@ -382,6 +381,7 @@ class MainWindow:
         if not self.boxes.focused:
             run_shortcuts(self)
         self.change(self.boxes.draw(self.state, self.renderers))
+        self.renderers.update(self.state, moving)
         self._bars()
         self.shell.draw(self, self.boxes.focused, self.menu_keys.in_menus)
         if self.files.busy or self.renderers.unfinished(self.state):

@@ -130,7 +130,8 @@ class Shell:
 
     def escape(self, window: Host) -> None:
         """Handle Escape: close what lies on top, end what takes long, clear the selection or the
-        mark, make small what is large; one of these at a time."""
+        mark (but not a lecture's on its stage), make small what is large; one of these at a time.
+        """
         if self.palette.open:
             self.palette.open = False
         elif self.files.dialog.is_open:
@@ -153,7 +154,7 @@ class Shell:
             self.exports.cancel()
         elif chosen(window.state):
             window.amend(choose(window.state, ()))
-        elif window.state.marked is not None:
+        elif window.state.marked is not None and window.has_tools:
             window.change(window.state.with_options(replace(window.state.options, marked=None)))
         elif self.stage.maximised:
             self.stage.maximise()

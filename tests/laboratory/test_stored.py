@@ -59,7 +59,7 @@ def test_the_lecture_s_bright_scene_is_clipped_in_part_and_its_highlight_returns
     step = [one for one in load_lecture(BUILTIN).builds if _page(one) == "exposure"][-1]
     with Tracer(step.scene) as tracer:
         color = tracer.render(step.view.for_size((60, 60)), (60, 60)).color[..., :3]
-    after_ev = step.options["laboratory"]["after_ev"]
+    after_ev = step.changes["laboratory"]["after_ev"]
     lost = (color > 1).all(axis=2)
     assert 0.01 < lost.mean() < 0.3
     kept = [shown(store(color, kind), after_ev) for kind in (kinds.COLOR, kinds.FLOAT)]
@@ -70,4 +70,4 @@ def test_the_lecture_s_bright_scene_is_clipped_in_part_and_its_highlight_returns
 
 
 def _page(step) -> str | None:
-    return step.options.get("laboratory", {}).get("page")
+    return step.changes.get("laboratory", {}).get("page")

@@ -43,14 +43,14 @@ def test_a_build_has_what_it_leaves_out_from_the_one_before():
     shown = [plain_text(step.blocks) for step in lecture.builds]
     assert shown == ["One.", "One.\nTwo.", "Three.", ""]
     assert (one.before, two.before, three.before) == ((), one.blocks, ())
-    assert (two.scene, two.views, two.pixel, two.options) == (
-        one.scene, one.views, one.pixel, one.options,
+    assert (two.scene, two.views, two.pixel, two.changes) == (
+        one.scene, one.views, one.pixel, one.changes,
     )  # fmt: skip
     assert two.view == replace(one.view, camera=replace(one.view.camera, projection="parallel"))
     assert (one.move_s, two.move_s, three.move_s, three.loop) == (0, 4, 0.5, True)
     assert (three.views, three.pixel) == (("ray",), (0, 0))
     assert three.scene is not one.scene and three.view == two.view
-    assert three.options["outside"] == {"grid": False, "volume": True}
+    assert three.changes["outside"] == {"grid": False, "volume": True}
     # Notes are the step's; its exercise is asked last, about what is then seen.
     assert one.notes == three.notes and one.exercise is two.exercise is None
     assert three.exercise is not None and three.exercise.camera.is_parallel
@@ -69,7 +69,7 @@ def test_a_camera_changes_by_its_target_or_by_its_basis(first, change, eye):
     for name in ("camera", "options.outside.camera"):
         steps = read(f"{STEP}{name} = {first}\n{BUILD}{name} = {change}\n").builds
         step = steps[1]
-        camera = step.view.camera if name == "camera" else step.options["outside"]["camera"]
+        camera = step.view.camera if name == "camera" else step.changes["outside"]["camera"]
         assert camera.eye == eye
         assert (camera.w == (0, 0, 1)) is ("w" in change)
 

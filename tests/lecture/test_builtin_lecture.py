@@ -60,7 +60,7 @@ class TestTheBuiltInLecture:
 
     def test_the_photograph_is_what_the_correct_lens_draws(self):
         step = next(step for step in self.lecture.steps if step.title == "Exercise: which lens?")
-        with Image.open(step.options["photograph"]["file"]) as image:
+        with Image.open(step.changes["photograph"]["file"]) as image:
             photograph = np.asarray(image.convert("RGB").reduce(4), float)
         assert isinstance(step.exercise, ChoiceExercise)
         off, right = {}, None
@@ -78,7 +78,7 @@ class TestTheBuiltInLecture:
         marked = [step for step in self.lecture.steps if step.pixel]
         assert len(marked) > 5
         for step in marked:
-            width, height = step.options["images"]["resolution"]
+            width, height = step.changes["images"]["resolution"]
             assert step.pixel[0] < height and step.pixel[1] < width, step.title
 
     def test_u_and_v_exchanged_are_told_as_such(self):
@@ -96,5 +96,5 @@ class TestTheBuiltInLecture:
         for step in self.lecture.steps:
             if isinstance(step.exercise, RayExercise):
                 assert step.pixel == step.exercise.pixel
-                assert step.options["images"]["resolution"] == step.exercise.size
+                assert step.changes["images"]["resolution"] == step.exercise.size
                 assert step.view.for_size(step.exercise.size) == step.exercise.camera

@@ -30,9 +30,9 @@ class TestReading:
         assert one.view.camera == Camera(eye=(0, 0, 5))
         assert one.views == ("outside", "ray")
         assert one.pixel == (1, 2)  # row 2, column 3
-        assert one.options["images"] == {"pixel_size": 8, "channel": "depth"}
-        assert one.options["outside"]["bundle"] == (4, 4)
-        assert one.options["outside"]["camera"] == Camera.look_at((5, 5, 5), (0, 0, 0))
+        assert one.changes["images"] == {"pixel_size": 8, "channel": "depth"}
+        assert one.changes["outside"]["bundle"] == (4, 4)
+        assert one.changes["outside"]["camera"] == Camera.look_at((5, 5, 5), (0, 0, 0))
         assert isinstance(one.exercise, RayExercise)
         assert (one.exercise.pixel, one.exercise.size) == ((0, 2), (4, 3))
         assert one.exercise.camera == one.view.camera
@@ -40,7 +40,7 @@ class TestReading:
         assert [option.right for option in three.exercise.options] == [False, True]
         # What a step leaves out.
         assert two.views == ("raster",) and two.part == "First"
-        assert two.pixel is None and two.exercise is None and not two.options
+        assert two.pixel is None and two.exercise is None and not two.changes
         assert two.scene.name == "still life" and two.view == two.scene.view
 
     def test_a_step_is_a_state_whatever_was_before(self):
@@ -89,7 +89,7 @@ class TestReading:
 
     def test_the_built_in_lecture_counts_from_one_and_says_so_first(self):
         lecture = both_lectures()
-        assert not any("one_based" in step.options for step in lecture.steps)
+        assert not any("one_based" in step.changes for step in lecture.steps)
         first = next(build for build in lecture.builds if "j - 0.5" in build.text)
         assert "from 1" in first.text
 

@@ -25,13 +25,13 @@ def text_of(title: str) -> str:
 
 
 def options_of(title: str) -> OutsideOptions:
-    given: dict[str, Any] = dict(STEPS[title].options.get("outside", {}))
+    given: dict[str, Any] = dict(STEPS[title].changes.get("outside", {}))
     return OutsideOptions(**given)
 
 
 def items_of(title: str) -> list[Item]:
     step = STEPS[title]
-    size = step.options.get("images", {}).get("resolution", VIEW)
+    size = step.changes.get("images", {}).get("resolution", VIEW)
     return diagram(Content(step.view.for_size(size), size, options_of(title), 9.0))
 
 
@@ -67,7 +67,7 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
     title = "A ray is half a line"
     step = STEPS[title]
     assert step.pixel is not None
-    size = step.options["images"]["resolution"]
+    size = step.changes["images"]["resolution"]
     marked = RayEnd(step.pixel, 2.5)
     camera = step.view.for_size(size)
     items = diagram(Content(camera, size, options_of(title), 9.0, marked=marked))
@@ -79,7 +79,7 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
 
 def test_pictures_are_by_the_algorithm_that_the_text_is_about() -> None:
     rays = STEPS["Ray tracing"]
-    assert rays.options["stepper"]["picture"] == "rays" and "raster" not in rays.views
+    assert rays.changes["stepper"]["picture"] == "rays" and "raster" not in rays.views
     views = STEPS["Where do viewing rays come from?"].views
     assert "raster" not in views
 

@@ -17,10 +17,12 @@ from app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from app.lecture.hidden_pixels import ids_seen
 from app.lecture.hiding import HideExercise
 from app.lecture.reading import lecture_from_toml
+from app.lecture.text import parse
 from app.web.bundle import bundle
 from app.web.lecture import exercises, pdf
 from app.web.lecture.mathml import inline
 from app.web.lecture.page import Still, page
+from app.web.lecture.text import blocks_html
 from app.web.scene_page import packed_scene
 from renderer.editing.moving import transform
 from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
@@ -64,7 +66,7 @@ def written(lecture, tmp_path_factory):
     ]
     some = dataclasses.replace(lecture, builds=tuple(builds))
     gray = np.full((30, 40, 3), 128, np.uint8)
-    stills = [[Still(step.views[0], gray)] for step in some.builds]
+    stills = [[Still(step.views[0], gray, dark=gray)] for step in some.builds]
     path = tmp_path_factory.mktemp("page") / "lecture.html"
     path.write_text(page(some, stills), encoding="utf-8")
     return path, some
@@ -362,10 +364,32 @@ def test_handles_are_dragged_by_keys_and_mouse(opened, written):
     dragged = np.subtract(opened.evaluate("lucida.camera.eye"), moved)
     assert np.dot(dragged, opened.evaluate("lucida.camera.v")) > 0
     assert place(opened).startswith("1 /")
+    opened.keyboard.press("PageDown")
+    try_it(opened)
+    handle("View direction").focus()
+    before = opened.evaluate("lucida.camera")
+    opened.keyboard.press("ArrowRight")
+    after = opened.evaluate("lucida.camera")
+    assert after["eye"] == before["eye"]
+    assert np.dot(after["w"], before["u"]) < 0  # w points back, so the view turns to the right
     go(opened, 1 + TITLES.index("Exercise: hide the box"))
     handle("ball along x").focus()
     opened.keyboard.press("ArrowRight")
     opened.get_by_text("of the box can still be seen").wait_for()
+
+
+def test_a_view_in_the_themes_colours_has_a_picture_of_each(opened):
+    for theme, is_dark in (("light", False), ("dark", True), ("contrast", True)):
+        opened.evaluate("theme => document.documentElement.dataset.theme = theme", theme)
+        shown = [image.is_visible() for image in opened.locator(".current .view img").all()]
+        assert shown == [not is_dark, is_dark]
+    opened.emulate_media(media="print")
+    assert not opened.locator(".view .dark:visible").count()
+
+
+def test_a_formula_keeps_only_the_stop_after_it():
+    html = blocks_html(parse("An image of $8$ pixels, from $0$."), "book")
+    assert [re.sub("<.*?>", "", part) for part in re.findall(r'kept">(.*?)</span>', html)] == ["0."]
 
 
 def test_hostile_texts_are_only_texts(browser, tmp_path):

@@ -101,7 +101,7 @@ def test_the_ray_comes_last_and_nothing_is_missing_at_the_end() -> None:
 @pytest.mark.parametrize("title", ["Any camera", "Parallel: the pixel moves the origin"])
 def test_each_term_is_in_the_formulas_of_its_step(title) -> None:
     step = [one for one in load_lecture(BUILTIN).builds if one.title == title][-1]
-    assert step.options["outside"]["formula"] == END
+    assert step.changes["outside"]["formula"] == END
     for stage in ("w", "u", "v", "ray"):
         lit = [lit_in(latex, stage) for latex in formulas(step.blocks)]
         assert any(lit), stage

@@ -50,7 +50,7 @@ def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
 def test_a_lecture_names_one_beside_itself(photo):
     file = photo.parent / "lecture.toml"
     file.write_text(STEP + f'options.photograph.file = "{photo.name}"\n')
-    options = load_lecture(file).steps[0].options["photograph"]
+    options = load_lecture(file).steps[0].changes["photograph"]
     assert Path(options["file"]) == photo
     file.write_text(STEP + "options.photograph.opacity = 2\n")
     with pytest.raises(LucidaError, match="opacity"):

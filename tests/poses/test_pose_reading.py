@@ -253,7 +253,7 @@ def test_a_lecture_names_a_set_beside_itself(tmp_path: Path, name: str) -> None:
         f'options.poses.file = "{name}"\noptions.poses.pose = 2\n'
     )
     (step,) = load_lecture(path).steps
-    assert step.options["poses"] == {"file": stored(str(tmp_path / name)), "pose": 2}
+    assert step.changes["poses"] == {"file": stored(str(tmp_path / name)), "pose": 2}
     path.write_text(path.read_text().replace(name, "away.json"))
     with pytest.raises(LucidaError, match=r"'away\.json' does not exist"):
         load_lecture(path)

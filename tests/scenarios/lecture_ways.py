@@ -134,8 +134,9 @@ def drive_the_stage_has_pictures_and_text_alone(d: Driver) -> None:
     d.stay = True
     assert np.abs(d.picture().astype(int) - resting).max() > 30  # the foot and the menu's button
     assert _rects(d) == rects  # on which nothing depends
-    d.press(int(Key.f9))
-    assert bars.show_menu_bar and d.window.has_tools
+    d.window.change(with_options(d.window.state, marked=(1, 1)))
+    d.press(int(Key.escape))  # leaves the stage, and the mark where it is
+    assert bars.show_menu_bar and d.window.has_tools and d.window.state.marked == (1, 1)
     d.press(int(Key.f9))
     assert is_bare()
     for key in (Key._1, Key._2, Key.enter):

@@ -41,10 +41,10 @@ def test_a_lecture_names_a_file_beside_itself(tmp_path: Path):
         0
     ]
     assert options.views == ("your-code", "outside")
-    assert options.options["your_code"]["file"] == str(tmp_path / "rays.py")
-    assert options.options["your_code"]["canvas"] == (8, 6)
+    assert options.changes["your_code"]["file"] == str(tmp_path / "rays.py")
+    assert options.changes["your_code"]["canvas"] == (8, 6)
     assert (
-        lecture(tmp_path, 'options.your_code.file = ""').steps[0].options["your_code"]["file"] == ""
+        lecture(tmp_path, 'options.your_code.file = ""').steps[0].changes["your_code"]["file"] == ""
     )
 
 
@@ -132,6 +132,6 @@ def test_tasks_stand_in_a_session_and_in_a_lecture(tmp_path: Path):
     kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.your_code
     assert kept.tasks == stored(str(file))
     step = lecture(tmp_path, 'options.your_code.tasks = "hw2.toml"').steps[0]
-    assert step.options["your_code"]["tasks"] == str(file)
+    assert step.changes["your_code"]["tasks"] == str(file)
     with pytest.raises(LucidaError, match=r"your_code\.tasks"):
         lecture(tmp_path, 'options.your_code.tasks = "hw2.json"')

@@ -31,7 +31,7 @@ from app.instruments.outside.figure import (
 )
 from renderer.images.display import Bytes
 
-FONTS = "Roboto, Helvetica, Arial, sans-serif"
+FONTS = "Roboto, Helvetica, Arial, narrowed, sans-serif"  # narrowed: in lecture.css
 MONO = "Roboto Mono, Consolas, Menlo, monospace"
 MONO_WIDTH = 0.5  # of a letter, in parts of its size
 ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}

@@ -12,7 +12,6 @@ from app.lecture.model import Lecture, Step
 from app.lecture.step_options import state_of
 from app.lecture.text import Question
 from app.state.app_state import AppState
-from app.state.options import Options
 from app.web.document import document
 from app.web.formulas import templates
 from app.web.lecture import exercises
@@ -21,7 +20,6 @@ from app.web.lecture.figures import Figures, is_live
 from app.web.lecture.pictures import Form, data_uri, drawing
 from app.web.lecture.shell import BAR, DIALOGS, overview
 from app.web.lecture.text import blocks_html, plain
-from renderer.camera.pixels import Indexing
 from renderer.files.views import view_table
 from renderer.images.display import Bytes
 
@@ -30,13 +28,15 @@ from renderer.images.display import Bytes
 class Still:
     """A picture of a view in a build.
 
-    pixels: (height, width, 3). drawn: the input of the laboratory's drawing, in the light and the
-    dark theme; None of other views.
+    pixels: (height, width, 3), in the light theme. drawn: the input of the laboratory's drawing, in
+    the light and the dark theme; None for other views. dark: as pixels, in the dark theme, for
+    views in the theme's colours.
     """
 
     view: str
     pixels: Bytes
     drawn: tuple[Page, Page] | None = None
+    dark: Bytes | None = None
 
 
 def page(
@@ -69,8 +69,7 @@ def page(
             tasks[name] = written.task
         if written.figure is not None:
             shown[name] = written.figure
-    options = lecture.steps[0].options
-    indexing = Indexing(int(options.get("one_based", Options().one_based)))
+    indexing = lecture.steps[0].options.indexing
     title = plain(lecture.title)
     author = f' <span class="author">{plain(lecture.author)}</span>' if lecture.author else ""
     body = (
@@ -102,7 +101,7 @@ def is_printed(step: Step, after: Step | None) -> bool:
 
 def _settings(step: Step) -> dict[str, Any]:
     """Return what a build's pictures depend on, by names."""
-    tables = {"view": view_table(step.view)} | step.options
+    tables = {"view": view_table(step.view)} | step.changes
     return {"scene": id(step.scene), "views": step.views, "pixel": step.pixel} | {
         f"{name}.{key}": value
         for name, table in tables.items()
@@ -173,10 +172,10 @@ class _Step:
             name += " still"  # for prints, and where there is no WebGL
         seen = plain(alternative(still.view, self._step, self._state))
         height, width = still.pixels.shape[:2]
-        picture = (
-            f'<img src="{data_uri(still.pixels, self._form)}" width="{width}" height="{height}" '
-            f'alt="{seen}">'
-        )
+        size = f'width="{width}" height="{height}" alt="{seen}"'
+        picture = f'<img src="{data_uri(still.pixels, self._form)}" {size}>'
+        if still.dark is not None and self._form == "webp":
+            picture += f'<img class="dark" src="{data_uri(still.dark)}" {size}>'
         if still.drawn is not None:
             width, height = still.drawn[0].size
             picture = (

@@ -35,7 +35,7 @@ def written(text: str, notation: Notation) -> str:
 
 
 # A formula, and what must not begin the next line.
-BEFORE_STOP = re.compile(r"(<math\b.*?</math>)([.,;:?!)]+)", re.DOTALL)
+BEFORE_STOP = re.compile(r"(<math\b(?:(?!</math>).)*</math>)([.,;:?!)]+)", re.DOTALL)
 
 
 def blocks_html(blocks: tuple[Block, ...], notation: Notation) -> str:

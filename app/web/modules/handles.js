@@ -6,7 +6,7 @@ import { cross, dot, length, normalized, plus, rotated, times } from "./vectors.
 
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./camera.js").Camera} Camera */
-/** @typedef {"move" | "distance" | "up" | "pixels"} Kind what a lecture lets its class drag */
+/** @typedef {"move" | "turn" | "distance" | "up" | "pixels"} Kind what a lecture lets its class drag */
 /**
  * @typedef {object} Handle
  * @property {string} name spoken @property {string} label shown @property {string} kind of its colour
@@ -34,6 +34,18 @@ export function cameraHandles(kind, camera, reach, up, change) {
         move: (part) => change({ eye: plus(eye, times(part, axis)) }),
       };
     });
+  if (kind === "turn") {
+    const size = ARROW * reach, [right, top] = [normalized(u), normalized(v)];
+    return [{
+      name: "View direction", label: "", kind: "basis w", value: -w[0], text: vectorText(times(-1, w)), at: plus(eye, times(-size, normalized(w))),
+      axes: [times(size, right), times(size, top)],
+      move(x, y = 0) {
+        /** @param {Vec} one @returns {Vec} */
+        const turned = (one) => rotated(rotated(one, top, -x), right, y);
+        change({ u: turned(u), v: turned(v), w: turned(w) });
+      },
+    }];
+  }
   if (kind === "distance") {
     const axis = times(-ARROW * reach, normalized(w)), unit = length(axis) / length(w);
     const middle = imagePlanePoint(camera, (viewport[0] + viewport[1]) / 2, (viewport[2] + viewport[3]) / 2);

@@ -146,9 +146,7 @@ function bindSwipes(slides) {
 
 function nextTheme() {
   const root = document.documentElement;
-  const isLight = matchMedia("(prefers-color-scheme: light)").matches;
-  const now = root.dataset.theme ?? (isLight ? "light" : "dark");
-  root.dataset.theme = THEMES[(THEMES.indexOf(now) + 1) % THEMES.length];
+  root.dataset.theme = THEMES[(THEMES.indexOf(root.dataset.theme ?? "") + 1) % THEMES.length];
   byId("told", HTMLElement).textContent = `Theme: ${root.dataset.theme}`;
 }
 
@@ -209,6 +207,8 @@ export function start() {
   bindSwipes(slides);
   const addressed = () => slides.go(slides.steps.findIndex((step) => `#${step.id}` === location.hash));
   addEventListener("hashchange", addressed);
+  const isLight = matchMedia("(prefers-color-scheme: light)").matches;
+  document.documentElement.dataset.theme = isLight ? "light" : "dark";
   document.body.classList.add("live");
   slides.show();
   addressed();
