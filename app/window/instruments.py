@@ -12,7 +12,7 @@ from app.images.compare.view import CompareView
 from app.images.pair.view import RasterView, RayView
 from app.instruments.costs.view import CostsView
 from app.instruments.laboratory.view import LaboratoryView
-from app.instruments.mistakes.instrument import Mistakes
+from app.instruments.mistakes.view import MistakesView
 from app.instruments.objects.view import InspectorView, ObjectsView
 from app.instruments.outside.instrument import Outside
 from app.instruments.poses.view import PosesView
@@ -33,7 +33,7 @@ INSTRUMENTS: tuple[type[Instrument], ...] = (
     Stepper,
     CostsView,
     LaboratoryView,
-    Mistakes,
+    MistakesView,
     YourCode,
     PosesView,
     LectureInstrument,

@@ -17,7 +17,7 @@ from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text
 from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
 from app.state.options.shared import Notation, Pixel
-from app.ui import theme
+from app.ui import palettes, theme
 from app.ui.checks import checkbox
 from app.ui.explaining.notation import Line, number
 from app.ui.formula import Formula, formula, lit
@@ -305,7 +305,7 @@ def color_row(shown: Shown | None, fonts: Fonts) -> None:
         for k, name in enumerate("RGB"):
             text = f"{name} {shown[0][k]:3d}" if shown is not None else f"{name}   -"
             imgui.same_line()
-            imgui.text_colored(theme.legible(theme.CHANNELS[k]), text)
+            imgui.text_colored(theme.legible(palettes.CHANNELS[k]), text)
 
 
 def _swatch(color: Iterable[float], side: float) -> None:
