@@ -36,6 +36,8 @@ class Replaced:
     was_default: bool = False
 
 
+QUIZ = "there is no quiz of wrong lines any more; a lecture asks by exercises"
+
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
 REMOVED: dict[str, Removed] = {
     "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
@@ -56,6 +58,7 @@ REMOVED: dict[str, Removed] = {
     "compare.pair": Removed(
         "both renderers are compared, and a photograph is laid over them", "raster-ray"
     ),
+    "probe.section": Removed("the probe's parts are folded by their headings", "all"),
     "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
@@ -65,9 +68,18 @@ REMOVED: dict[str, Removed] = {
     ),
     "outside.see": Removed("a step says from where to look by outside.camera", []),
     "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
+    "photograph.lay": Removed("a photograph is laid over the images", "over"),
+    "images.tinted": Removed("a single component is shown as gray", False),
     "pair.value": Removed("the laboratory's page 'function' reads an image", False),
     "outside.answers": Removed("a wrong answer is always drawn", True),
     "highlight": Removed("a step's pictures point out what it is about", []),
+    "mistakes.mode": Removed(QUIZ, "laboratory"),
+    "mistakes.asked": Removed(QUIZ, ""),
+    "mistakes.seed": Removed(QUIZ, 1),
+    "mistakes.names": Removed(QUIZ, []),
+    "mistakes.answer": Removed(QUIZ, ""),
+    "mistakes.revealed": Removed(QUIZ, False),
+    "mistakes.score": Removed(QUIZ, [0, 0]),
     "images.lens_splitting": Removed("vertices are not moved for a lens any more", 0),
 }
 

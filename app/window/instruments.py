@@ -12,10 +12,10 @@ from app.images.compare.view import CompareView
 from app.images.pair.view import RasterView, RayView
 from app.instruments.costs.view import CostsView
 from app.instruments.laboratory.view import LaboratoryView
-from app.instruments.mistakes.instrument import Mistakes
+from app.instruments.mistakes.view import MistakesView
 from app.instruments.objects.view import InspectorView, ObjectsView
 from app.instruments.outside.instrument import Outside
-from app.instruments.poses.instrument import Poses
+from app.instruments.poses.view import PosesView
 from app.instruments.probe.view import ProbeView
 from app.instruments.stepper.instrument import Stepper
 from app.lecture.instrument import LectureInstrument
@@ -33,9 +33,9 @@ INSTRUMENTS: tuple[type[Instrument], ...] = (
     Stepper,
     CostsView,
     LaboratoryView,
-    Mistakes,
+    MistakesView,
     YourCode,
-    Poses,
+    PosesView,
     LectureInstrument,
 )
 

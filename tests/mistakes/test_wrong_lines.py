@@ -17,6 +17,7 @@ from app.state.app_state import AppState
 from app.ui.picture_grid import columns_for
 from renderer.camera.pixels import Indexing
 from renderer.files import load_scene
+from renderer.images import to_srgb8
 from renderer.trace import Tracer
 
 SIZE = (80, 60)
@@ -46,7 +47,7 @@ def test_the_right_lines_make_the_ray_image(painter, state) -> None:
     now = situation(state)
     both = model.compared(painter, now, ())
     image = painter.tracer.render(now.camera, now.size, ("color",)).channel("color")
-    looks = [model.shown(light, 0.0) for light in (both.right, image)]
+    looks = [to_srgb8(light, 0.0) for light in (both.right, image)]
     assert changed_pixels(*looks).mean() < 0.01
     assert both.wrong is both.right and both.ray is None
 
@@ -55,7 +56,7 @@ def test_a_wrong_line_makes_another_picture(painter) -> None:
     now = situation()
     mistakes = model.named(now.program, ("rows count upwards",))
     both = model.compared(painter, now, mistakes)
-    right, wrong = (model.shown(light, 0.0) for light in (both.right, both.wrong))
+    right, wrong = (to_srgb8(light, 0.0) for light in (both.right, both.wrong))
     assert changed_pixels(right, wrong[::-1]).mean() < 0.02  # upside down
     changed = changed_pixels(right, wrong)
     assert changed.mean() > 0.5

@@ -1,20 +1,18 @@
-"""The mistakes: lines made wrong by the mouse, their pictures on the screen, and the quiz."""
+"""The mistakes: lines made wrong by the mouse, their pictures on the screen."""
 
 from __future__ import annotations
 
 import numpy as np
 from maximised import Maximised
 from option_changes import with_options
-from window_driver import Driver, Key, changed
+from window_driver import Driver
 
-from app.instruments.mistakes import model
-from app.instruments.mistakes import question as quiz
 from app.instruments.mistakes.view import MISTAKES, MistakesView
 from app.instruments.outside.view import OUTSIDE, OutsideView
 from app.state.options.mistakes import MistakesOptions
+from renderer.images import to_srgb8
 
 ALONE = Maximised(MistakesView, "mistakes")
-SHIFT = int(Key.mod_shift)
 
 
 def _options(d: Driver) -> MistakesOptions:
@@ -37,7 +35,7 @@ def _on_screen(d: Driver, name: str, size: tuple[int, int]) -> np.ndarray:
 
 
 def _is_shown(d: Driver, name: str, light: np.ndarray, size: tuple[int, int]) -> bool:
-    wanted = model.shown(light, d.window.state.images.exposure_ev).astype(int)
+    wanted = to_srgb8(light, d.window.state.images.exposure_ev).astype(int)
     seen = _on_screen(d, name, size)
     return bool((np.abs(seen.astype(int) - wanted).max(axis=2) <= 6).mean() > 0.95)
 
@@ -53,10 +51,10 @@ def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
     view = ALONE.open(d, columns=32)
     assert _options(d).chosen == ("rows count upwards",)
     made = view.made
-    assert made is not None and made.compared is not None
-    size = made.now.size
-    assert _is_shown(d, "right", made.compared.right, size)
-    assert _is_shown(d, "wrong", made.compared.wrong, size)
+    assert made is not None
+    size = made.of.size
+    assert _is_shown(d, "right", made.right, size)
+    assert _is_shown(d, "wrong", made.wrong, size)
     _choose(d, "direction", "along +w")
     assert _options(d).chosen == ("rows count upwards", "along +w")
     again = view.made
@@ -78,7 +76,7 @@ def drive_a_click_marks_a_pixel_in_all_views(d: Driver) -> None:
     d.settle()
     assert d.window.state.marked is not None
     made = view.made
-    assert made is not None and made.compared is not None and made.compared.ray is not None
+    assert made is not None and made.ray is not None
     d.ctx.item_click(_item("wrong"))
     d.settle()
     assert d.window.state.marked is None
@@ -104,41 +102,3 @@ def drive_the_outside_view_shows_the_wrong_camera(d: Driver) -> None:
     d.window.shell.stage.show(MISTAKES, False)
     d.settle()
     assert not d.window.view(OutsideView).extra  # who is not seen shows nothing
-
-
-def drive_a_line_is_asked_for(d: Driver) -> None:
-    view = ALONE.open(d, columns=32)
-    d.ctx.item_click(ALONE.item("which line?##mode"))
-    d.settle()
-    assert _options(d).mode == "which-line"
-    made = view.made
-    assert made is not None and made.question is not None
-    asked = made.question
-    assert len(asked.names) == quiz.CHOICES
-    assert _is_shown(d, "wrong", asked.pictures[asked.right_at], made.now.size)
-    before = d.picture()
-    d.ctx.item_click(_item(f"###choice {quiz.LETTERS[asked.right_at]}"))
-    d.settle()
-    options = _options(d)
-    assert options.answer == asked.names[asked.right_at] and options.score == (1, 1)
-    assert changed(before, d.picture()) > 0
-    d.window.undo()
-    d.settle()
-    assert _options(d).answer == "" and _options(d).score == (0, 0)
-    made = view.made
-    assert made is not None and made.question is not None
-    assert made.question.names == asked.names  # undo brings the very question back
-    # A, by its letter, once the view has the keyboard.
-    d.ctx.key_press(int(Key.a))
-    d.settle()
-    assert _options(d).answer == asked.names[0]
-    d.ctx.key_press(SHIFT | int(Key.u))
-    d.settle()
-    assert _options(d).seed == 2 and _options(d).answer == ""
-    made = view.made
-    assert made is not None and made.question is not None
-    assert made.question.names != asked.names
-    d.ctx.key_press(int(Key._3))
-    d.settle()
-    assert _options(d).answer == made.question.names[2] and _options(d).score[1] == 2
-    ALONE.close(d)

@@ -8,17 +8,17 @@ from typing import Generic
 from option_changes import with_options
 from window_driver import Driver
 
-from app.ui.instrument import AView
+from app.ui.instrument import AnInstrument
 
 
 @dataclass(frozen=True)
-class Maximised(Generic[AView]):
+class Maximised(Generic[AnInstrument]):
     """kind: the view's class. options: what its options are called in the state."""
 
-    kind: type[AView]
+    kind: type[AnInstrument]
     options: str
 
-    def open(self, d: Driver, **options: object) -> AView:
+    def open(self, d: Driver, **options: object) -> AnInstrument:
         """Shows the view, alone, with these options."""
         stage = d.window.shell.stage
         stage.show(self.kind.name)

@@ -9,14 +9,11 @@ from option_changes import with_options
 from window_driver import Driver
 
 from app.instruments.laboratory.view import LABORATORY
-from app.instruments.mistakes.view import MISTAKES
 from app.state.app_state import AppState
 from app.state.options.laboratory import LaboratoryOptions
-from app.state.options.mistakes import Mode
 from app.state.paths import stored
 
 PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
-MODES = get_args(Mode)
 
 CODE = """\
 def viewing_ray(i, j, width, height, camera):
@@ -44,7 +41,7 @@ def views_in_turn(d: Driver) -> Iterator[str]:
     """Shows every view alone, and every page of those that have several."""
     stage = d.window.shell.stage
     before = {view.name for view in stage.shown}
-    pages = {LABORATORY: ("laboratory", "page", PAGES), MISTAKES: ("mistakes", "mode", MODES)}
+    pages = {LABORATORY: ("laboratory", "page", PAGES)}
     for name in stage.views:
         options, field, choices = pages.get(name, ("", "", ("",)))
         stage.show(name)

@@ -90,7 +90,6 @@ PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
         ("depth", "Depth"),
         ("subpixel", "Image laboratory: Displays"),
         ("lights", "Add point light"),
-        ("quiz", "Mistakes: what will this line do?"),
     ],
 )
 def test_the_words_of_other_programs_find_what_is_meant(query, wanted):

@@ -20,10 +20,8 @@ from app.state.options.shared import Pixel
 from app.ui.explaining.breaking import broken
 from renderer.camera.camera import Camera, Floats, Size
 from renderer.camera.pixels import Indexing
-from renderer.images import to_srgb8
 
 Light = NDArray[np.float32]
-Bytes = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -45,9 +43,16 @@ class Situation:
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """right, wrong: linear light (H, W, 3). corners: origins and directions (4, 3) of the wrong
-    rays, as outside.second_camera takes them. ray: of the marked pixel, as wrong as the others."""
+    """The pictures of correct and of wrong lines.
 
+    of, mistakes: the request.
+    right, wrong: linear light (H, W, 3).
+    corners: origins and directions (4, 3) of the wrong rays, as outside.second_camera takes them.
+    ray: the marked pixel's ray, from the wrong lines.
+    """
+
+    of: Situation
+    mistakes: Mistakes
     right: Light
     wrong: Light
     corners: tuple[Floats, Floats]
@@ -55,7 +60,7 @@ class Compared:
 
 
 def situation_of(state: AppState, images: Size) -> Situation:
-    """images: the size of the window's own images, whose shape is taken."""
+    """Return the inputs of the pictures. images: the size of the window's own images."""
     size = picture_size(state, images)
     camera = state.view.for_size(size)
     marked, pixel = state.marked, None
@@ -65,7 +70,9 @@ def situation_of(state: AppState, images: Size) -> Situation:
 
 
 def picture_size(state: AppState, images: Size) -> Size:
-    """As large as the images where these are as coarse, else of the columns that were chosen."""
+    """Return the images' size if they are as coarse as the pictures; otherwise the selected columns
+    and the images' aspect ratio.
+    """
     columns = state.options.mistakes.columns
     width, height = images if min(images) else (4, 3)
     if state.images.resolution is not None and width <= columns:
@@ -74,21 +81,21 @@ def picture_size(state: AppState, images: Size) -> Size:
 
 
 def scaled_pixel(pixel: Pixel, of: Size, size: Size) -> Pixel:
-    """The pixel of an image of `size` that lies where that one does in an image of another."""
+    """Return the pixel at the same place in an image of another size."""
     row, column = (
-        (2 * at + 1) * new // (2 * old)  # where its middle lies
+        (2 * at + 1) * new // (2 * old)  # the place of its centre
         for at, old, new in zip(pixel, reversed(of), reversed(size), strict=True)
     )
     return row, column
 
 
 def rays_of(now: Situation, mistakes: Mistakes) -> tuple[Floats, Floats]:
-    """Origins and directions (H, W, 3) as the lines with these mistakes make them."""
+    """Return the origins and directions, (H, W, 3), from the lines with these mistakes."""
     return camera_rays(now.camera, now.size, mistakes, now.indexing)
 
 
 def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compared:
-    """Both pictures; for a thread."""
+    """Return both pictures. Runs on a thread."""
     right = painter.picture(*rays_of(now, ()), now.camera.t_range)
     origins, directions = rays_of(now, mistakes)
     wrong = painter.picture(origins, directions, now.camera.t_range) if mistakes else right
@@ -97,12 +104,13 @@ def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compare
         origin, direction = origins[now.pixel], directions[now.pixel]
         t = painter.hits([origin], [direction], now.camera.t_range)
         ray = GivenRay(origin, direction, float(t[0]))
-    return Compared(right, wrong, corner_rays(origins, directions), ray)
+    return Compared(now, mistakes, right, wrong, corner_rays(origins, directions), ray)
 
 
 def named(program: Program, names: Iterable[str]) -> Mistakes:
-    """The mistakes of these names that the program has, in their order; at most two, which can be
-    made together."""
+    """Return the program's mistakes with these names, in this order; at most two, which can be
+    combined.
+    """
     found: list[Mistake] = []
     for name in names:
         for mistake in program.mistakes:
@@ -113,7 +121,7 @@ def named(program: Program, names: Iterable[str]) -> Mistakes:
 
 
 def unknown(names: Iterable[str]) -> tuple[str, ...]:
-    """The names that no program of a ray has."""
+    """Return the names that no program of a ray has."""
     known = {
         mistake.name
         for projection in ("perspective", "parallel")
@@ -142,18 +150,13 @@ def switched(program: Program, names: Sequence[str], name: str) -> tuple[str, ..
 
 
 def without_line(program: Program, names: Sequence[str], key: str) -> tuple[str, ...]:
-    """The names after a line was made right again."""
+    """Return the names after a line was corrected."""
     return tuple(one.name for one in named(program, names) if key not in one.keys)
 
 
 def folded(code: str, letters: int) -> list[str]:
     """Return the code in rows of so many letters."""
     return [row for line in code.split("\n") for row in broken(line, letters)]
-
-
-def shown(light: Light, exposure_ev: float) -> Bytes:
-    """Linear light as it is shown."""
-    return to_srgb8(light, exposure_ev)
 
 
 def told_difference(changed: NDArray[np.bool_]) -> str:

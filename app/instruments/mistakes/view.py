@@ -1,24 +1,18 @@
-"""The mistakes: a laboratory of wrong lines, and a quiz on them, as a view.
-
-Keeps the requests to the pictures' thread, the present question, and its drawing in the outside
-view. model.py and question.py decide on the pictures; pages.py draws them.
-"""
+"""The mistakes laboratory: wrong lines, switched on one by one, and the pictures that they make."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
+from app.checking.reports.picture import changed_pixels, difference_picture
 from app.images.ray_pictures import RayPictures
-from app.instruments.mistakes import model, pages, panel, question
+from app.instruments.mistakes import model, panel
 from app.instruments.mistakes.model import Compared, Situation
-from app.instruments.mistakes.pages import Made, Page, put_pictures
-from app.instruments.mistakes.question import CHOICES
 from app.instruments.outside.diagram import Item
 from app.instruments.outside.extent import end_parameter
 from app.instruments.outside.second_camera import SecondCamera, second_camera
@@ -26,43 +20,45 @@ from app.instruments.outside.view import OutsideView
 from app.state.options.mistakes import MistakesOptions
 from app.state.options.shared import Pixel
 from app.ui import theme
+from app.ui.checks import checkbox
 from app.ui.coded_text import coded_text
 from app.ui.host import Host
 from app.ui.instrument import Instrument, view_of
+from app.ui.picture_grid import GridPicture, picture_grid
+from app.ui.rows import button_width, follow
 from app.ui.uploads import Uploads
+from renderer.images import to_srgb8
 from renderer.system.errors import LucidaError, describe
 from renderer.system.memo import Memo
 
 MISTAKES = "Mistakes"
-LEAST_EM = 9.0  # the page's height, at least: lower ones are scrolled
+STUDENTS = "student's"  # the name of the wrong picture, and of its camera in the outside view
+LEAST_EM = 9.0  # the least height of the page; a lower view scrolls
+WIDE = 1.2  # width / height from which the pictures are next to the text
+TEXT_PART = 0.47  # the part of the width that the text then has
+GAP_EM = 0.8
+LEAST_PICTURES_EM = 8.0  # the least height of pictures below the text
 
 
 class MistakesView(Instrument):
-    """made: the pictures that are shown; None before the first."""
+    """made: the pictures on screen; None before the first."""
 
     name = MISTAKES
     title = "Mistakes"
+    synonyms = {"Mistakes": "wrong lines errors exercise what if students sign offset"}
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
-        self._pictures: RayPictures[Made] | None = None
+        self._pictures: RayPictures[Compared] | None = None
         self._uploads: Uploads | None = None
-        self._put = Memo(put_pictures)
+        self._put = Memo(_put_pictures)
         self._items = Memo(_outside_items)
-        self._stands: tuple[Any, tuple[str, ...]] = (None, ())  # a question's key, and its names
-        self._asked: list[panel.Wish | int | None] = []  # by keys and clicks, for the next frame
-        self._seen = self._told = False
-        self.made: Made | None = None
-
-    def ask(self, wish: panel.Wish | int) -> None:
-        """Ask for what a button, or the number of an answer, would do; for the next frame."""
-        self._asked.append(wish)
+        self._seen = False
+        self.made: Compared | None = None
 
     @property
     def settled(self) -> bool:
-        if not self._seen or self._pictures is None:
-            return True
-        return not (self._pictures.busy or self._asked)
+        return not self._seen or self._pictures is None or not self._pictures.busy
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._pictures = RayPictures("lucida-mistakes", host.animate)
@@ -80,173 +76,143 @@ class MistakesView(Instrument):
         self._pictures.forget()
         self._put.forget()
         self._seen, self.made = False, None
-        self._asked.clear()
         self._outside.show(MISTAKES, ())
 
-    def begin_anew(self) -> None:
-        self._stands = (None, ())
-        self._asked.clear()
-
     def draw(self, host: Host) -> None:
-        assert self._uploads is not None
+        assert self._uploads is not None and self._pictures is not None
         self._uploads.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        self._draw(host, self._uploads)
-        self._show_outside(host)
-
-    def _draw(self, host: Host, uploads: Uploads) -> None:
         now = model.situation_of(host.state, host.renderers.size)
-        options = host.state.options.mistakes
-        self.made = self._follow(host, now, options)
+        mistakes = model.named(now.program, host.state.options.mistakes.chosen)
+        self.made = self._pictures.follow(
+            (now, mistakes),
+            host.state.scene,
+            host.renderers.live,
+            lambda painter: model.compared(painter, now, mistakes),
+        )
         if host.has_tools:
-            changed, wish = panel.controls(options, bool(self._names(options, now)))
-            if changed != options:
-                host.change(host.state.with_options(changed))
-            self._grant(host, now, wish)
-        error = self._problem(host.state.options.mistakes)
-        if error:
-            width = imgui.get_content_region_avail().x
-            coded_text(error, width, theme.ERROR, host.fonts)
+            self._controls(host)
+        width = imgui.get_content_region_avail().x
+        for problem in self._problems(host.state.options.mistakes):
+            coded_text(problem, width, theme.ERROR, host.fonts)
         room = imgui.get_content_region_avail()
-        is_told = host.state.options.mistakes.revealed
         if imgui.begin_child("page", room, imgui.ChildFlags_.nav_flattened):
-            if is_told and not self._told:
-                imgui.set_scroll_y(0.0)  # where the reason stands
-            self._told = is_told
-            # What fits beside a scrollbar only must not take it away, and come back with it.
+            # Always leave room for the scrollbar: otherwise it could appear and disappear in turn.
             width = room.x - imgui.get_style().scrollbar_size
             height = max(room.y, LEAST_EM * imgui.get_font_size())
-            exposure_ev = host.state.images.exposure_ev
             try:
-                size, aspect = ImVec2(width, height), now.size[0] / now.size[1]
-                notation = host.state.options.notation
-                page = Page(size, aspect, host.fonts, exposure_ev, uploads, self._put, notation)
-                self._page(host, now, page)
-            except LucidaError as problem:  # no memory for the textures
-                imgui.text_colored(theme.ERROR, describe(problem))
+                self._page(host, now, ImVec2(width, height))
+            except LucidaError as error:  # no memory for the textures
+                imgui.text_colored(theme.ERROR, describe(error))
         imgui.end_child()
+        self._show_outside(host)
 
-    def _page(self, host: Host, now: Situation, page: Page) -> None:
+    def _controls(self, host: Host) -> None:
         options = host.state.options.mistakes
-        if options.mode != "laboratory":
-            clicked = pages.quiz(page, self.made, options)
-            if clicked is not None:
-                self.ask(clicked)
-                host.animate()
-            return
-        answer = pages.laboratory(page, now, self.made, options)
-        if answer.chosen is not None:
-            host.change(
-                host.state.with_options(replace(host.state.options.mistakes, chosen=answer.chosen))
+        _, on = checkbox("difference", options.difference)
+        imgui.set_item_tooltip("a picture of the pixels that the wrong lines change")
+        changed = replace(options, difference=on)
+        if options.chosen:
+            follow(button_width("Undo all mistakes"))
+            if imgui.button("Undo all mistakes"):
+                changed = replace(changed, chosen=())
+            imgui.set_item_tooltip("every line correct again")
+        if changed != options:
+            host.change(host.state.with_options(changed))
+
+    def _problems(self, options: MistakesOptions) -> list[str]:
+        assert self._pictures is not None
+        if self._pictures.error is not None:
+            return [describe(self._pictures.error)]
+        return [
+            f'There is no mistake "{name}"; the lines\' menus have their names.'
+            for name in model.unknown(options.chosen)
+        ]
+
+    def _page(self, host: Host, now: Situation, room: ImVec2) -> None:
+        """Draw the program, the explanations of its mistakes, and the pictures."""
+        options, notation = host.state.options.mistakes, host.state.options.notation
+        program = now.program.in_notation(notation)
+        mistakes = model.named(program, options.chosen)
+        corner = imgui.get_cursor_screen_pos()
+        is_wide = room.x > WIDE * room.y
+        width = TEXT_PART * room.x if is_wide else room.x
+        clicked = panel.program_lines(program, mistakes, width, host.fonts, notation)
+        for one in mistakes:
+            told = f"{one.hint} (lecture: {one.part})"
+            coded_text(told, width, theme.TEXT, host.fonts)
+        if is_wide:
+            left = width + GAP_EM * imgui.get_font_size()
+            imgui.set_cursor_screen_pos(ImVec2(corner.x + left, corner.y))
+            for_pictures = ImVec2(max(1.0, room.x - left), room.y)
+        else:
+            below = room.y - (imgui.get_cursor_screen_pos().y - corner.y)
+            for_pictures = ImVec2(room.x, max(LEAST_PICTURES_EM * imgui.get_font_size(), below))
+        pixel = self._draw_pictures(host, now, for_pictures)
+        if clicked is not None:
+            chosen = (
+                model.without_line(program, options.chosen, clicked.key)
+                if clicked.mistake is None
+                else model.switched(program, options.chosen, clicked.mistake.name)
             )
-        elif answer.pixel is not None and self.made is not None:
-            self._mark(host, self.made.now, answer.pixel)
+            host.change(host.state.with_options(replace(options, chosen=chosen)))
+        elif pixel is not None and self.made is not None:
+            self._mark(host, self.made.of, pixel)
+
+    def _draw_pictures(self, host: Host, now: Situation, room: ImVec2) -> Pixel | None:
+        """Draw the correct picture, the wrong one, and their difference. Return the clicked pixel,
+        or None.
+        """
+        made, uploads = self.made, self._uploads
+        assert uploads is not None
+        if made is None:
+            imgui.text_colored(theme.DIM, "the first pictures are being traced ...")
+            return None
+        told = self._put(uploads, made, host.state.images.exposure_ev)
+        pixel = now.pixel if made.of.size == now.size else None
+        shown = [GridPicture("right", "correct", uploads.get("right"), pixel=pixel)]
+        if made.mistakes:
+            color, wrong = panel.wrong_color(), uploads.get("wrong")
+            shown.append(GridPicture("wrong", STUDENTS, wrong, "", color, pixel))
+            if host.state.options.mistakes.difference:
+                difference = uploads.get("difference")
+                shown.append(GridPicture("difference", "difference", difference, told))
+        clicked = picture_grid(shown, made.of.size, room, host.fonts)
+        return clicked.pixel if clicked is not None else None
 
     def _mark(self, host: Host, now: Situation, pixel: Pixel) -> None:
-        """Marks a pixel in all views, or takes the mark away."""
+        """Mark a pixel in all views, or clear its mark."""
         images = host.renderers.size
         marked = None if now.pixel == pixel else model.scaled_pixel(pixel, now.size, images)
         host.change(host.state.with_options(replace(host.state.options, marked=marked)))
 
-    def _problem(self, options: MistakesOptions) -> str:
-        """Return the error in words, or ""."""
-        assert self._pictures is not None
-        if self._pictures.error is not None:
-            return describe(self._pictures.error)
-        names = (*options.chosen, *([options.asked] if options.asked else []))
-        unknown = model.unknown(names)
-        if unknown:
-            return f'There is no mistake "{unknown[0]}"; the lines\' menus have their names.'
-        return ""
-
-    # From the state to the pictures.
-
-    def _follow(self, host: Host, now: Situation, options: MistakesOptions) -> Made | None:
-        """The pictures of this state, or the last ones while these are on their way."""
-        assert self._pictures is not None
-        scene, live = host.state.scene, host.renderers.live
-        if options.mode == "laboratory":
-            mistakes = model.named(now.program, options.chosen)
-            made = self._pictures.follow(
-                (now, mistakes),
-                scene,
-                live,
-                lambda painter: Made(
-                    None, now, mistakes, compared=model.compared(painter, now, mistakes)
-                ),
-            )
-            return made if made is not None and made.compared is not None else None
-        key, names = self._key(options, now), self._names(options, now)
-        made = self._pictures.follow(
-            (now, key, options.names),
-            scene,
-            live,
-            lambda painter: Made(
-                key, now, question=question.question(painter, now, options, names)
-            ),
-        )
-        if made is None or made.question is None or made.of != key:
-            return None
-        if not names:
-            self._stands = (key, made.question.names)
-        return made
-
-    def _key(self, options: MistakesOptions, now: Situation) -> Any:
-        """Return what a question is drawn from, besides what the camera can distinguish."""
-        return options.seed, options.asked, now.program
-
-    def _names(self, options: MistakesOptions, now: Situation) -> tuple[str, ...]:
-        """Return the names of the present question, which stays while the camera moves."""
-        known = {mistake.name for mistake in now.program.mistakes}
-        if len(options.names) == CHOICES and known.issuperset(options.names):
-            return options.names
-        key, names = self._stands
-        return names if key == self._key(options, now) else ()
-
-    # What was asked for.
-
-    def _grant(self, host: Host, now: Situation, wish: panel.Wish) -> None:
-        asked, self._asked = [*self._asked, wish], []
-        if host.state.options.mistakes.mode != "laboratory":
-            asked.append(panel.key_answer())
-        for one in asked:
-            options = host.state.options.mistakes
-            changed = self._changed(options, self._names(options, now), one)
-            if changed != options:
-                host.change(host.state.with_options(changed))
-
-    def _changed(
-        self, options: MistakesOptions, names: tuple[str, ...], wish: panel.Wish | int | None
-    ) -> MistakesOptions:
-        """Return the options after a request."""
-        if wish == "right":
-            return replace(options, chosen=())
-        if options.mode == "laboratory":
-            return options
-        if wish == "next":
-            return question.next_question(options)
-        if wish == "reveal":
-            return question.revealed(options, names)
-        return question.answered(options, names, wish) if isinstance(wish, int) else options
-
-    # What the outside view shows.
-
     def _show_outside(self, host: Host) -> None:
-        """The camera of the wrong lines, and its ray; not in the quiz: it would be the answer."""
+        """Show the camera of the wrong lines in the outside view, and the marked pixel's ray."""
         made = self.made
-        if made is None or made.compared is None or not made.mistakes:
+        if made is None or not made.mistakes:
             self._outside.show(MISTAKES)
             return
-        now = made.now
-        end = end_parameter(now.camera, host.focus.framed)
-        items = self._items(now, made.compared, end)
+        items = self._items(made, end_parameter(made.of.camera, host.focus.framed))
         self._outside.show(MISTAKES, items, answer=tuple(one.name for one in made.mistakes))
 
 
-def _outside_items(now: Situation, compared: Compared, end: float) -> list[Item]:
+def _put_pictures(uploads: Uploads, made: Compared, exposure_ev: float) -> str:
+    """Upload the pictures. Return the size of their difference, in words.
+
+    Raises LucidaError if there is no memory for them.
+    """
+    right, wrong = (to_srgb8(light, exposure_ev) for light in (made.right, made.wrong))
+    changed = changed_pixels(right, wrong)
+    uploads.put_pixels("right", right)
+    uploads.put_pixels("wrong", wrong)
+    uploads.put_pixels("difference", difference_picture(right, changed))
+    return model.told_difference(changed)
+
+
+def _outside_items(made: Compared, end: float) -> list[Item]:
+    now = made.of
     middle = (now.size[1] - 1) / 2, (now.size[0] - 1) / 2
     reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
     first = f"pixel {now.indexing.text((0, 0))}"
-    seen = SecondCamera(*compared.corners, compared.ray, pages.STUDENTS, first)
-    return [*second_camera(seen, reach)]
+    return [*second_camera(SecondCamera(*made.corners, made.ray, STUDENTS, first), reach)]

@@ -239,8 +239,6 @@ def _laboratory(step: Step, state: AppState) -> str:
 
 def _mistakes(step: Step, state: AppState) -> str:
     options = state.options.mistakes
-    if options.mode != "laboratory":
-        return f"A quiz: which of four pictures does a wrong line make? {_seen(step, state)}"
     wrong = ", ".join(options.chosen) or "none"
     return (
         "The lines from a pixel to its ray, and the pictures that they make, correct and as "

@@ -47,16 +47,12 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
         found = gltf_camera(tree, placed)
         shown.add(placed.node.camera)
-        called = repr(found.name or len(cameras))
         camera, fit = found.camera, not found.has_aspect
         if fit and options.size is not None:
             camera = _as_wide(camera, options.size[0] / options.size[1])
         elif fit:
-            taken.append(
-                f"{called} has no aspectRatio: its yfov is that of an image wider than high"
-            )
-        if found.straightened:
-            taken.append(f"the node of {called} is {found.straightened}, its camera is not")
+            name = found.name or len(cameras)
+            taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
         cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
@@ -67,11 +63,9 @@ def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
     if tree.animations:
         yield "animations are not used: the cameras are where their nodes are at rest"
     cameras = tree.cameras if isinstance(tree.cameras, list) else []
-    for number, camera in enumerate(cameras):
+    for number in range(len(cameras)):
         if number not in shown:
             yield f"cameras[{number}] is not used: no node of the scene holds it"
-        elif left := [*camera.get("extensions", ()), *["extras"] * bool(camera.get("extras"))]:
-            yield f"cameras[{number}] is shown without {', '.join(left)}"
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
