@@ -1,12 +1,10 @@
 #version 330 core
-// A picture with a photograph laid over it, or behind it: where nothing is hit. The mean of both is
-// of display values, as they are.
-// EXACT, BEHIND: constants that are put in above: whether the photograph's pixels are the image's, and
-// where it is laid. (OpenGL on the CPU takes both ways of every branch.)
+// A picture with a photograph laid over it. The mean of both is of display values, as they are.
+// EXACT: a constant that the program inserts above: true if the photograph's pixels are the image's.
+// (OpenGL on the CPU takes both ways of every branch.)
 
 uniform sampler2D picture;     // the target's size
 uniform sampler2D photograph;  // display values times alpha; row 0 at the top
-uniform isampler2D objects;    // of any size, row 0 at the top; -1 where nothing is hit
 uniform vec2 extent;           // of the target
 uniform vec4 shown;            // left, top, right, bottom of the target, in parts of the image
 uniform vec4 covered;          // of the photograph, likewise
@@ -22,11 +20,6 @@ vec4 of_photograph(vec2 place) {
     return texelFetch(photograph, min(ivec2(place * vec2(size)), size - 1), 0);
 }
 
-bool is_hit(vec2 at) {
-    ivec2 size = textureSize(objects, 0);
-    return texelFetch(objects, clamp(ivec2(at * vec2(size)), ivec2(0), size - 1), 0).r >= 0;
-}
-
 void main() {
     vec3 rgb = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
     vec2 part = gl_FragCoord.xy / extent;
@@ -34,7 +27,7 @@ void main() {
     if (level == 0.0) at = (floor(at * pixels) + 0.5) / pixels;  // enlarged, pixels stay squares
     vec2 place = (at - covered.xy) / (covered.zw - covered.xy);
     bool inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(1.0)));
-    if (inside && !(BEHIND && is_hit(at))) {
+    if (inside) {
         vec4 photo = opacity * of_photograph(place);
         rgb = rgb * (1.0 - photo.a) + photo.rgb;
     }

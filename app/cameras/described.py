@@ -1,13 +1,11 @@
-"""The contents of a camera file in the lecture's words: a line for each quantity with its numbers.
+"""The contents of a camera file as values, and as text: a line for each value.
 
-Pure; for the command line and for panels.
+Pure; for the command line.
 """
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -74,17 +72,16 @@ def _largest_px(posed: PosedCamera, lens: Lens) -> float:
 def _of_all(found: CameraSet) -> list[Fact]:
     cameras = found.cameras
     names = [camera.name for camera in cameras if camera.name]
-    first = ", ".join(names[:TOLD]) + (", ..." if len(names) > TOLD else "")
-    told = [Fact("cameras", f"{len(cameras)}: {first}" if names else str(len(cameras)))]
-    sizes = Counter(camera.size for camera in cameras)
-    told.append(Fact("images", _counted((_size_text(size), n) for size, n in sizes.most_common())))
-    kinds = Counter(camera.camera.projection for camera in cameras)
-    told.append(Fact("projection", _counted(kinds.most_common())))
-    eyes = np.array([camera.camera.eye for camera in cameras])
-    told.append(Fact("eyes", f"from {_vector(eyes.min(axis=0))} to {_vector(eyes.max(axis=0))}"))
+    told = [Fact("cameras", f"{len(cameras)}: {_listed(names)}" if names else str(len(cameras)))]
+    sizes = dict.fromkeys(camera.size for camera in cameras)
+    told.append(Fact("size", _listed([_size_text(size) for size in sizes])))
     if found.points is not None and len(found.points):
         told.append(Fact("points", f"{len(found.points)} of a reconstruction"))
     return told + _lens_facts(cameras)
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:TOLD]) + (", ..." if len(names) > TOLD else "")
 
 
 def _lens_facts(cameras: Sequence[PosedCamera]) -> list[Fact]:
@@ -93,57 +90,31 @@ def _lens_facts(cameras: Sequence[PosedCamera]) -> list[Fact]:
 
 
 def _of_one(posed: PosedCamera) -> list[Fact]:
-    camera = _for_own_size(posed)
-    left, right, bottom, top = camera.viewport
-    told = [Fact("name", posed.name)] if posed.name else []
-    if posed.image and posed.image != posed.name:
-        told.append(Fact("photograph", posed.image))
-    told += [
-        Fact("image", _size_text(posed.size)),
-        Fact("projection", camera.projection),
-        Fact("eye", _vector(camera.eye)),
-        Fact("u, right", _vector(camera.u)),
-        Fact("v, up", _vector(camera.v)),
-        Fact("w, back", _vector(camera.w)),
-        Fact("basis", basis_text(camera)),
-        Fact("d", f"{_number(camera.distance)} from the eye to the viewport, along -w"),
-        Fact("viewport", _viewport_text(camera, posed.fit and posed.size is None)),
+    """Return a line for each value of the camera that the file has; see as_data()."""
+    values = _camera_data(posed) | {"size": _size_text(posed.size)}
+    told = [
+        Fact(name, _text(value))
+        for name, value in values.items()
+        if value not in (None, "", False) and name not in ("lens", "ignored")
     ]
-    told += [
-        Fact(name, f"{_number(value)} along -w")
-        for name, value in (("near", camera.near), ("far", camera.far))
-        if value is not None
-    ]
-    if camera.is_parallel:
-        across, up = math.hypot(*camera.u), math.hypot(*camera.v)
-        sides = f"{_number((right - left) * across)} wide, {_number((top - bottom) * up)} high"
-        told.append(Fact("seen", f"{sides}, in world units"))
-    else:
-        angles = f"{_number(camera.fov_x_deg)} across, {_number(camera.fov_y_deg)} up and down"
-        told.append(Fact("field of view", f"{angles}, in degrees"))
-    return told + _in_pixels(camera, posed.size) + _lens_facts([posed])
+    if values["K"] is not None:
+        told.append(Fact("", "K, R and t count pixels from the centre of the first one"))
+    return told + _lens_facts([posed])
 
 
-def _in_pixels(camera: Camera, size: Size | None) -> list[Fact]:
-    """Return the lines that need an image's size."""
-    if size is None:
-        return [Fact("in pixels", "the file has no image's size; --size WxH says the rest")]
-    told = []
-    left, right, bottom, top = camera.viewport
-    wide = (right - left) / size[0] * math.hypot(*camera.u)
-    high = (top - bottom) / size[1] * math.hypot(*camera.v)
-    if not camera.is_parallel:
-        k = camera.intrinsics(size, "corner").K
-        told = [
-            Fact("focal lengths", f"fx {_number(k[0, 0])}, fy {_number(k[1, 1])}, in pixels"),
-            Fact("principal point", f"{_point(k)} from the corner of the image's first pixel"),
-            Fact("", f"{_point(k - 0.5)} from that pixel's centre"),
-        ]
-        if abs(k[0, 1]) > 1e-9 * abs(k[0, 0]):
-            told.append(Fact("skew", f"{_number(k[0, 1])}, in pixels"))
-    square = abs(wide / high - 1) <= 1e-6
-    shape = "square" if square else f"not square: {_number(wide / high)} as wide as high"
-    return [*told, Fact("pixels", shape)]
+def _text(value: Any) -> str:
+    """Return a flag, a text, a number, a vector or a matrix as text."""
+    if value is True:
+        return "true"
+    if isinstance(value, str):
+        return value
+    if not isinstance(value, list):
+        return _number(value)
+    if isinstance(value[0], list):
+        return ", ".join(map(_text, value))
+    numbers = np.array(value)
+    numbers[np.abs(numbers) < ROUNDING * np.abs(numbers).max()] = 0.0
+    return "(" + ", ".join(map(_number, numbers.tolist())) + ")"
 
 
 def basis_text(camera: Camera) -> str:
@@ -219,38 +190,8 @@ def _for_own_size(posed: PosedCamera) -> Camera:
     return view.camera if posed.size is None else view.for_size(posed.size)
 
 
-def _viewport_text(camera: Camera, fit: bool) -> str:
-    left, right, bottom, top = camera.viewport
-    sides = {"left": left, "right": right, "bottom": bottom, "top": top}
-    told = ", ".join(f"{name} {_number(value)}" for name, value in sides.items())
-    off_axis = abs(left + right) > 1e-9 * (right - left) or abs(bottom + top) > 1e-9 * (
-        top - bottom
-    )
-    told += " (off-axis)" if off_axis else ""
-    return told + "; widened to each image's shape" if fit else told
-
-
 def _size_text(size: Size | None) -> str:
     return "of any size" if size is None else f"{size[0]}x{size[1]}"
-
-
-def _counted(counts: Iterable[tuple[str, int]]) -> str:
-    """Return `800x800`, or `800x800 (10), 640x480 (2)`."""
-    counts = list(counts)
-    if len(counts) == 1:
-        return counts[0][0]
-    told = ", ".join(f"{what} ({count})" for what, count in counts[:TOLD])
-    return told + (", ..." if len(counts) > TOLD else "")
-
-
-def _point(k: Any) -> str:
-    return f"({_number(k[0, 2])}, {_number(k[1, 2])})"
-
-
-def _vector(values: Iterable[float]) -> str:
-    numbers = np.fromiter(values, float)
-    numbers[np.abs(numbers) < ROUNDING * np.abs(numbers).max()] = 0.0
-    return "(" + ", ".join(map(_number, numbers.tolist())) + ")"
 
 
 def _number(value: float) -> str:

@@ -35,8 +35,6 @@ def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes
     if options.component == "rgb" or options.channel == "id":
         return shown
     index = _COMPONENTS.index(options.component)
-    if options.tinted:
-        return shown * (np.arange(3) == index).astype(np.uint8)
     return np.repeat(shown[..., index : index + 1], 3, axis=2)
 
 

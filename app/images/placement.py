@@ -68,12 +68,6 @@ class Placement:
         return left, top, max(right, left + 1), max(bottom, top + 1)
 
     @property
-    def sees_all(self) -> bool:
-        """True if nothing of the image is outside the window."""
-        room = beside(self.pane, self.margin)
-        return all(e <= r for e, r in zip(self.extent, room, strict=True))
-
-    @property
     def visible_parts(self) -> tuple[float, float, float, float]:
         """The visible part, as fractions of the image's width and height: left, top, right,
         bottom.

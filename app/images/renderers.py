@@ -7,7 +7,6 @@ are called on the window's thread, with its context current.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from app.images.agreement import Agreement, Verdict
 from app.images.image_size import ImageSize
+from app.images.pace import Pace
 from app.images.picking import object_on_ray
 from app.images.placement import Placement
 from app.images.progressive_ray import LiveTrace, RayImage
@@ -29,7 +29,7 @@ from app.state.options.shared import ImageOptions
 from app.ui.background import lower_priority
 from renderer.camera.camera import Camera
 from renderer.compare.why_black import Reason
-from renderer.images.coarseness import STILL_S, Coarseness, reduced
+from renderer.images.coarseness import reduced
 from renderer.images.frame import Frame
 from renderer.raster import Look
 from renderer.raster.targets import Region
@@ -38,7 +38,6 @@ from renderer.system import compile_note
 from renderer.system.memo import Memo
 
 NOTE_AFTER_S = 0.3
-BUDGET_S = 1 / 60  # for both images, while anything moves
 
 
 class Renderers(ImageSize):
@@ -54,18 +53,13 @@ class Renderers(ImageSize):
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
         super().__init__()
-        self._smooth = smooth
+        self._pace = Pace(smooth)
         self.agreement = Agreement(wake)
         self.live = LiveTrace(wake, tracer_for, lower_priority if smooth else None)
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
         self._raster_failed = False
-        self._coarseness = Coarseness(BUDGET_S)
-        self._factor = 1
-        self._wanted: ImageRequest | None = None  # the newest
-        self._changed_s = -STILL_S
         self._pair: RayImage | None = None  # whose raster image is shown in this frame
-        self._measured = 1, 0.0
         self._camera = Memo(View.for_size)
         self._moving = False
         # True if a view wants the ray image: in the last frame, in this one.
@@ -127,31 +121,14 @@ class Renderers(ImageSize):
             self._ask(state)  # while other things are drawn, it may be there in time
         self._measure()
         # Not in the frame of an image's arrival, which shows it first.
-        if not self._take_ray() and self._to_compare(state) and self._rests:
+        if not self._take_ray() and self._to_compare(state) and self._pace.rests:
             self._compare(state)
         self._pair = self._next_pair(state)
         self.agreement.poll()
 
-    @property
-    def _rests(self) -> bool:
-        """True if nothing has changed for a while."""
-        return not self._smooth or time.monotonic() - self._changed_s >= STILL_S
-
-    def _factor_of(self, request: ImageRequest) -> int:
-        """Return how many times coarser the newest request's images are. Full when it rests."""
-        before = self._wanted
-        if request != before:
-            self._wanted, now_s = request, time.monotonic()
-            if before is None or not before.has_scene_of(request):
-                self._coarseness.forget()  # nothing moves: the scene is another one
-            else:
-                self._changed_s = now_s
-                self._factor = self._coarseness.changed(request.size[0] * request.size[1], now_s)
-        return 1 if self._rests else self._factor
-
     def _to_draw(self, request: ImageRequest) -> tuple[ImageRequest, int]:
         """Return the raster image to show for a request, and how many times coarser."""
-        factor, pair = self._factor_of(request), self._pair
+        factor, pair = self._pace.factor_of(request), self._pair
         if pair is None or not pair.request.may_stand_in_for(request):
             return request, factor
         if pair.request.without_effects == request.without_effects:
@@ -170,8 +147,8 @@ class Renderers(ImageSize):
     def _ask(self, state: AppState) -> None:
         """Request the ray image; with several samples per pixel once nothing moves."""
         if (request := self.request(state)) is not None:
-            factor = self._factor_of(request)
-            self.live.request(request if self._rests else replace(request, samples=1), factor)
+            factor = self._pace.factor_of(request)
+            self.live.request(request if self._pace.rests else replace(request, samples=1), factor)
 
     def _measure(self) -> None:
         """Record what the last images took: with OpenGL on the CPU, both use the same cores."""
@@ -182,9 +159,7 @@ class Renderers(ImageSize):
                 return
             time_s += image.frame.time_s
         width, height = reduced(self.size, factor)
-        if time_s > 0 and (factor, time_s) != self._measured:
-            self._measured = factor, time_s
-            self._coarseness.measured(factor, width * height, time_s)
+        self._pace.measured(factor, width * height, time_s)
 
     def _take_ray(self) -> bool:
         """Take the newest ray image. Return True if there was one."""
@@ -197,21 +172,19 @@ class Renderers(ImageSize):
 
     # Pictures and values.
 
-    def raster_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
+    def raster_picture(self, state: AppState, placement: Placement) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         on failure.
-
-        name: of the picture, see ShownImage.picture.
         """
         request = self.request(state)
         assert request is not None
-        return self._begun.raster_in(placement, request, look_of(state.images), name)
+        return self._begun.raster_in(placement, request, look_of(state.images))
 
-    def ray_picture(self, state: AppState, placement: Placement, name: str) -> Picture | None:
+    def ray_picture(self, state: AppState, placement: Placement) -> Picture | None:
         """Return the same of the newest ray image; None if the raster image has another camera."""
         request = self.request(state)
         assert request is not None
-        return self._begun.ray_in(placement, request, look_of(state.images), name)
+        return self._begun.ray_in(placement, request, look_of(state.images))
 
     def shown_ray(self, state: AppState) -> RayImage | None:
         """Return the ray image that is shown; None if it is stale."""
@@ -247,9 +220,9 @@ class Renderers(ImageSize):
 
     def unfinished(self, state: AppState) -> bool:
         """True if later frames have something to do that no thread will call for."""
-        refines = self._wanted is not None and not self._rests
-        compares = self._to_compare(state)
-        return refines or compares or (self.textures is not None and self.textures.unfinished)
+        if not self._pace.rests or self._to_compare(state):
+            return True
+        return self.textures is not None and self.textures.unfinished
 
     @property
     def busy(self) -> bool:
@@ -292,7 +265,7 @@ class Renderers(ImageSize):
     def raster_s(self) -> float:
         """The time of the visible raster image; 0 if there is none."""
         textures = self._begun
-        return textures.raster.took[1] if textures.raster_seen() is not None else 0.0
+        return textures.raster.took[1] if textures.sees_raster else 0.0
 
     @property
     def raster_factor(self) -> int:
@@ -372,7 +345,7 @@ class Renderers(ImageSize):
                 return None
             return int(frame.channel("id")[pixel]), float(frame.channel("depth")[pixel])
         textures, request = self._begun, self.request(state)
-        if self._moving or request is None or textures.raster_seen() is None:
+        if self._moving or request is None or not textures.sees_raster:
             return None
         try:
             return textures.raster.hit(request, pixel)
@@ -413,6 +386,5 @@ def look_of(options: ImageOptions) -> Look:
         options.exposure_ev,
         options.transfer,
         options.component,
-        options.tinted,
         options.dissolved,
     )

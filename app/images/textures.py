@@ -94,12 +94,9 @@ class ImageTextures:
             return None
 
     @property
-    def _sees_raster(self) -> bool:
+    def sees_raster(self) -> bool:
+        """True if a view shows the raster image; otherwise it may be out of date."""
         return self._raster_frame >= self._frame - 1
-
-    def raster_seen(self) -> RasterImage | None:
-        """Return the raster image if a view shows it; otherwise it may be out of date."""
-        return self.raster.image if self._sees_raster else None
 
     def take_ray(self, image: RayImage) -> None:
         """Show this ray image from now on."""
@@ -125,7 +122,7 @@ class ImageTextures:
             if getattr(image.frame, look.channel) is None:
                 return None  # coarse, and begun before the channel was selected
             _, _, texture = self._uploaded = self._upload(image, look.channel)
-            if look.channel == "depth" and not self._sees_raster:
+            if look.channel == "depth" and not self.sees_raster:
                 self._measure(self._uploaded, texture)
             picture = self._shown_ray.picture(name, look, placement, self._depths)
             self.ray_error = None
@@ -144,7 +141,7 @@ class ImageTextures:
     @property
     def unfinished(self) -> bool:
         """True if the next frames refine an image, try again, or read a measurement."""
-        refines = self._sees_raster and self.raster.unfinished
+        refines = self.sees_raster and self.raster.unfinished
         tries_again = 0 < self._ray_failures < ATTEMPTS
         return refines or self.raster.is_timed or tries_again or self._range.unfinished
 

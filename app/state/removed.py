@@ -58,6 +58,7 @@ REMOVED: dict[str, Removed] = {
     "compare.pair": Removed(
         "both renderers are compared, and a photograph is laid over them", "raster-ray"
     ),
+    "probe.section": Removed("the probe's parts are folded by their headings", "all"),
     "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
@@ -67,6 +68,8 @@ REMOVED: dict[str, Removed] = {
     ),
     "outside.see": Removed("a step says from where to look by outside.camera", []),
     "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
+    "photograph.lay": Removed("a photograph is laid over the images", "over"),
+    "images.tinted": Removed("a single component is shown as gray", False),
     "pair.value": Removed("the laboratory's page 'function' reads an image", False),
     "outside.answers": Removed("a wrong answer is always drawn", True),
     "highlight": Removed("a step's pictures point out what it is about", []),

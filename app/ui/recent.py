@@ -7,8 +7,6 @@ entries.
 from __future__ import annotations
 
 import contextlib
-import threading
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,75 +49,53 @@ class RecentFiles:
 
     folder: of the list's file; None keeps the list for this run only.
     wake: called from a thread.
-    Files are checked on a thread, so that a sleeping disk delays no frame.
+    The list is read, written and checked on a thread, so that a sleeping disk delays no frame.
     """
 
     def __init__(self, folder: Path | None, wake: Callable[[], None]) -> None:
         self._file = folder / "recent.json" if folder is not None else None
-        self._work: Background[tuple[int, tuple[Recent, ...]]] = Background("lucida-recent", wake)
+        self._work: Background[tuple[Recent, ...]] = Background("lucida-recent", wake, every=True)
         self._entries: tuple[Recent, ...] = ()
-        self._asked = 0  # how often: what an earlier question found is out of date
-        self._changes: deque[Change] = deque()
-        self._writing = threading.Lock()
+        self._paths: list[str] = []  # without a file; used on the thread only
         self.look()
 
     @property
     def entries(self) -> tuple[Recent, ...]:
-        outcome = self._work.poll()
-        if outcome is not None and outcome.value is not None:
-            asked, found = outcome.value
-            if asked == self._asked:
-                self._entries = found
+        while (outcome := self._work.poll()) is not None:
+            if outcome.value is not None and not self._work.busy:  # otherwise it is out of date
+                self._entries = outcome.value
         return self._entries
 
     def add(self, path: str) -> None:
         """Put a file at the top of the list."""
-        self._change(lambda paths: [path, *(other for other in paths if other != path)])
+        self._change(lambda paths: [path, *(other for other in paths if other != path)][:MOST])
 
     def clear(self) -> None:
         self._change(lambda paths: [])
 
     def look(self) -> None:
         """Read the list again, and check which files exist."""
-        self._change(None)
+        self._work.submit(lambda: self._changed(None))
 
     def close(self) -> None:
-        self._work.close()
-        if self._writing.acquire(timeout=LAST_S):  # what the thread has begun is on the disk then
-            if self._changes:  # it did not come to these
-                self._changed([])
-            self._writing.release()
+        self._work.close(LAST_S)
 
-    def _change(self, change: Change | None) -> None:
-        entries = self.entries
+    def _change(self, change: Change) -> None:
+        """Show the changed list at once, and store it on the thread."""
+        self._entries = tuple(Recent(path) for path in change([e.path for e in self.entries]))
+        self._work.submit(lambda: self._changed(change))
+
+    def _changed(self, change: Change | None) -> tuple[Recent, ...]:
+        """Read the list from its file again, apply the change, and write it."""
+        paths = _read(self._file) if self._file is not None else self._paths
         if change is not None:
-            self._entries = tuple(Recent(path) for path in change([e.path for e in entries])[:MOST])
-            self._changes.append(change)  # the thread may come later, for several at once
-        known = [entry.path for entry in self._entries]
-        self._asked = asked = self._asked + 1
-        self._work.submit(lambda: (asked, self._done(known)))
-
-    def _done(self, known: list[str]) -> tuple[Recent, ...]:
-        """Apply the waiting changes on the thread. Return the list.
-
-        Files are looked for after the writing: that may take as long as a disk sleeps.
-        """
-        with self._writing:
-            paths = self._changed(known)
+            self._paths = paths = change(paths)
+            if self._file is not None:
+                with contextlib.suppress(LucidaError, OSError):
+                    self._file.parent.mkdir(parents=True, exist_ok=True)
+                    with atomic_write(self._file) as file:
+                        file.write(msgspec.json.encode([stored(path) for path in paths]))
         return tuple(Recent(path, not _exists(path)) for path in paths)
-
-    def _changed(self, known: list[str]) -> list[str]:
-        """Read the list from its file again, apply the waiting changes, and write it."""
-        changed = False
-        paths = _read(self._file) if self._file is not None else known
-        while self._changes:
-            paths, changed = self._changes.popleft()(paths)[:MOST], True
-        if changed and self._file is not None:
-            with contextlib.suppress(LucidaError, OSError):
-                self._file.parent.mkdir(parents=True, exist_ok=True)
-                with atomic_write(self._file) as file:
-                    file.write(msgspec.json.encode([stored(path) for path in paths]))
-        return paths
 
 
 def _read(file: Path) -> list[str]:

@@ -1,8 +1,6 @@
 """The window's theme: colours, fonts, spacing, type size.
 
-The colour language is the same everywhere: u, v, w after Okabe and Ito, rays in orange, hits and
-the marked pixel in yellow. There are dark and light palettes, each also for presentation, and one
-of high contrast. Colours are read as theme.RAY, theme.TEXT, ...: those of the current palette, so
+palettes.py has the colours. theme.RAY, theme.TEXT and the others are those of the current palette:
 read them when you draw, never at import.
 """
 
@@ -11,13 +9,22 @@ from __future__ import annotations
 import functools
 import math
 import os
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 from app.state.options.shared import Preferences
 from app.ui.contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
+from app.ui.palettes import (
+    CONTRAST,
+    DARK,
+    LIGHT,
+    PRESENTED_DARK,
+    PRESENTED_LIGHT,
+    Palette,
+)
+from app.ui.palettes import rgb as rgb  # every module that draws has it as theme.rgb
 
 TEXT_PX = 16.0
 ATLAS_PX = 1024  # the side of the letters' texture, at least
@@ -25,125 +32,6 @@ CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least,
 # The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
 # it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
 HALL, LARGEST = 0.02 / CAPITAL, 0.0445
-
-
-def rgb(text: str, alpha: float = 1.0) -> ImVec4:
-    """Parse `#d55e00` as a colour."""
-    red, green, blue = (int(text[k : k + 2], 16) / 255 for k in (1, 3, 5))
-    return ImVec4(red, green, blue, alpha)
-
-
-@dataclass(frozen=True, eq=False)
-class Palette:
-    """The colours of a theme.
-
-    ACCENT, FILL: of the outline and of the ground, under text, of what is chosen.
-    LINE_WIDTH: the factor for the width of lines that teach.
-    """
-
-    BASIS: dict[str, ImVec4]
-    RAY: ImVec4
-    MARK: ImVec4
-    PLAIN: ImVec4
-    TEXT: ImVec4
-    DIM: ImVec4
-    ERROR: ImVec4
-    GOOD: ImVec4
-    BACKGROUND: ImVec4
-    PANEL: ImVec4
-    POPUP: ImVec4
-    FRAME: ImVec4
-    FRAME_HOVERED: ImVec4
-    FRAME_ACTIVE: ImVec4
-    LINE: ImVec4
-    ACCENT: ImVec4
-    FILL: ImVec4
-    LINE_WIDTH: float = 1.0
-
-    def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
-        """Return a palette with other colours. u, v, w: of the basis."""
-        basis = {"u": rgb(u), "v": rgb(v), "w": rgb(w)}
-        parts: dict[str, Any] = {name: rgb(text) for name, text in colors.items()}
-        return replace(self, BASIS=basis, **parts)
-
-
-# Of a colour's channels, red, green and blue; legible() makes text of them.
-CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
-
-_BLACK: Any = [rgb("#000000")] * 16
-_NONE = Palette({}, *_BLACK)
-# Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
-DARK = _NONE.changed(
-    *("#d55e00", "#009e73", "#3f9be0"),
-    RAY="#e69f00",
-    MARK="#f0e442",
-    PLAIN="#9aa3ad",
-    TEXT="#e8eaed",
-    DIM="#a3abb5",
-    ERROR="#ff7391",
-    GOOD="#35c497",
-    BACKGROUND="#16181b",
-    PANEL="#1e2125",
-    POPUP="#24282d",
-    FRAME="#2b3036",
-    FRAME_HOVERED="#373d45",
-    FRAME_ACTIVE="#434b55",
-    LINE="#3a4048",
-    ACCENT="#4d6a86",
-    FILL="#4d6a86",
-)
-LIGHT = DARK.changed(
-    *("#d55e00", "#008a64", "#0072b2"),
-    PLAIN="#717a84",
-    TEXT="#16191c",
-    DIM="#545c65",
-    ERROR="#b0003a",
-    GOOD="#00704f",
-    BACKGROUND="#d9dde1",
-    PANEL="#f6f7f8",
-    POPUP="#ffffff",
-    FRAME="#e2e6ea",
-    FRAME_HOVERED="#d2d8de",
-    FRAME_ACTIVE="#bfc8d1",
-    LINE="#b9c0c8",
-    ACCENT="#3d78ad",
-    FILL="#a9cbe6",
-)
-# Projectors reduce contrast: use the ends of the scale, and brighter colours.
-PRESENTED_DARK = replace(DARK, LINE_WIDTH=2.0).changed(
-    *("#ff7a1a", "#1fc795", "#56b4e9"),
-    RAY="#ffb000",
-    TEXT="#ffffff",
-    DIM="#d0d5db",
-    BACKGROUND="#000000",
-    PANEL="#0e1012",
-    LINE="#68717c",
-)
-PRESENTED_LIGHT = replace(LIGHT, LINE_WIDTH=2.0).changed(
-    *("#c24e00", "#00704f", "#005c94"),
-    TEXT="#000000",
-    DIM="#33393f",
-    BACKGROUND="#e8ebee",
-    PANEL="#ffffff",
-    LINE="#8b949e",
-)
-# Text has 7:1 with what is behind it (WCAG 2.1, 1.4.6), and every control has an edge.
-CONTRAST = PRESENTED_DARK.changed(
-    *("#ff9a4d", "#4fe0b5", "#7cc8ff"),
-    MARK="#ffff00",
-    PLAIN="#ffffff",
-    DIM="#e2e6ea",
-    ERROR="#ffa3b8",
-    GOOD="#6ff0c4",
-    PANEL="#000000",
-    POPUP="#000000",
-    FRAME="#101316",
-    FRAME_HOVERED="#2b3036",
-    FRAME_ACTIVE="#3d444d",
-    LINE="#ffffff",
-    ACCENT="#9fd4ff",
-    FILL="#00457f",
-)
 
 
 @dataclass(frozen=True)

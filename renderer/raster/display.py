@@ -23,16 +23,15 @@ COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 class Look:
     """The appearance of an image. channel, component: the part that is shown.
 
-    exposure_ev, transfer: of the colour. tinted: a single component in its own colour, otherwise
-    gray. dissolved: 0 to 1, how far the image has dissolved into flat squares, each with the value
-    of its middle, until there are SQUARES of them in a row.
+    exposure_ev, transfer: of the colour. A single component is gray. dissolved: 0 to 1, how far the
+    image has dissolved into flat squares, each with the value of its middle, until there are
+    SQUARES of them in a row.
     """
 
     channel: Literal["color", "depth", "normal", "id"] = "color"
     exposure_ev: float = 0.0
     transfer: Literal["srgb", "linear"] = "srgb"
     component: Literal["rgb", "red", "green", "blue"] = "rgb"
-    tinted: bool = False
     dissolved: float = 0.0
 
 
@@ -82,7 +81,6 @@ class Display:
                 self._screen_of(look, section),
                 exposure=exposure_factor(look.exposure_ev),
                 component=COMPONENTS[look.component],
-                tinted=look.tinted,
                 origin=section.origin,
                 texels_per_pixel=section.texels_per_pixel,
                 square=max(1.0, source.width / SQUARES) ** look.dissolved,

@@ -10,7 +10,6 @@ uniform isampler2D numbers;     // objects, -1: none
 uniform sampler2D depth_range;  // one pixel: the nearest and the farthest hit
 uniform float exposure;         // a factor
 uniform int component;          // the only one that is shown
-uniform bool tinted;            // one component is shown in its own colour, not as gray
 
 vec3 exposed(vec3 light) {
     vec3 result = clamp(exposure * light, 0.0, 1.0);
@@ -42,6 +41,5 @@ vec3 encoded(vec3 value) {
     if (IS_WHOLE) {
         return shown;
     }
-    vec3 only = vec3(component == 0, component == 1, component == 2);
-    return tinted ? only * shown : vec3(dot(only, shown));
+    return vec3(dot(vec3(component == 0, component == 1, component == 2), shown));
 }

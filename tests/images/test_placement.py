@@ -46,7 +46,7 @@ def placed(size, pane, rulers=(0, 0), **options):
 def test_fixed_images_are_fitted(size, pane, magnification):
     at = placed(size, pane)
     assert at.magnification == magnification
-    assert at.sees_all
+    assert at.visible_parts == (0, 0, 1, 1)
     assert at.visible_pixels == (0, 0, size[1], size[0])
     for k in (0, 1):  # in the middle
         assert abs(2 * at.origin[k] + at.extent[k] - pane[k]) <= 1
@@ -56,7 +56,7 @@ def test_fixed_images_are_fitted(size, pane, magnification):
 def test_fitted_images_are_seen_whole_beside_their_rulers(size, pane, rulers):
     at = placed(size, pane, rulers)
     assume(at.magnification > placement.LEAST)
-    assert at.sees_all
+    assert at.visible_parts == (0, 0, 1, 1)
     assert at.visible_pixels == (0, 0, size[1], size[0])
     if at.magnification < placement.RULED_FROM:
         assert at.margin == (0, 0)
@@ -184,7 +184,7 @@ def test_the_images_follow_the_largest_window_and_those_that_are_nearly_as_large
 
 def test_an_image_that_follows_a_larger_window_is_reduced_in_a_smaller_one():
     here = place(ImageOptions(), (640, 500), (320, 300))
-    assert here.sees_all
+    assert here.visible_parts == (0, 0, 1, 1)
     assert here.magnification == 0.5
     assert place(ImageOptions(), (300, 300), (320, 310)).magnification == 1
     assert place(ImageOptions(pixel_size=4), (80, 75), (320, 300)).magnification == 4
@@ -203,7 +203,7 @@ def test_what_is_seen_of_an_image_by_hand():
     assert at.pixel_at(500, 500) == (19, 9)
     assert at.part_at(28, 34) == (0.5, 0.15)
     assert at.margin == (0, 0)
-    assert not at.sees_all
+    assert at.visible_parts != (0, 0, 1, 1)
     assert not replace(at, extent=(81, 160)).whole
 
 

@@ -15,7 +15,6 @@ LOOKS = (
     Look(exposure_ev=1.0),
     Look(transfer="linear"),
     Look(component="green"),
-    Look(component="green", tinted=True),
     Look("depth"),
     Look("normal"),
     Look("id"),

@@ -17,7 +17,7 @@ from app.instruments.laboratory.sheet import LIGHTS, between, reached
 from app.instruments.outside.figure import Figure, Label, Line, Picture, Polygon
 from app.instruments.outside.svg import svg
 from app.state.options.laboratory import LONGEST, LaboratoryOptions
-from app.ui import theme
+from app.ui import palettes, theme
 from app.ui.uploads import nearest
 from renderer.camera.camera import Camera
 
@@ -30,7 +30,7 @@ def page_of(page: str, size=(853, 720), progress: float = 0.0, **options) -> Pag
     shape = images.image_size(page, size, (8, 6)) if PAGES[page].has_image else (1, 1)
     color = np.random.default_rng(2).uniform(0, 2, (shape[1], shape[0], 3)).astype(np.float32)
     chosen = LaboratoryOptions(page=page, progress=progress, **options)
-    return Page(size, look_of(theme.DARK), chosen, color, 0.0, (0.3, 0.6))
+    return Page(size, look_of(palettes.DARK), chosen, color, 0.0, (0.3, 0.6))
 
 
 def figure_of(page: str, *args, **options) -> Figure:
@@ -148,7 +148,7 @@ def test_rulers_lead_to_the_camera_s_u_and_v():
 
 
 def test_pixels_are_the_mean_of_the_shapes():
-    look = look_of(theme.LIGHT)
+    look = look_of(palettes.LIGHT)
     picture = shapes.bitmap(shapes.house(look), (64, 64)).astype(int)
     assert abs(picture[0, 0] - np.multiply(255, look.ground)).max() <= 1
     assert abs(picture[44, 12] - np.multiply(255, look.fill)).max() <= 1  # the wall

@@ -24,7 +24,7 @@ from app.lecture.hiding import HideExercise
 from app.lecture.model import Lecture, Step
 from app.state.app_state import AppState
 from app.ui.explaining.notation import text_tuple
-from app.ui.theme import PRESENTED_DARK
+from app.ui.palettes import PRESENTED_DARK
 from app.web.lecture.page import Still, page
 from app.window.start import first_state
 from renderer.camera.camera import Camera

@@ -13,7 +13,7 @@ from app.instruments.outside.frustum import pixel_corners, plane_corners
 from app.instruments.outside.paint import figure_color, ground_of, layers, role_color
 from app.instruments.outside.projected import project
 from app.instruments.outside.screen import OutsideScreen
-from app.ui import contrast, theme
+from app.ui import contrast, palettes, theme
 from renderer.camera.camera import Camera
 from renderer.raster import Rasterizer
 from renderer.raster.overlay import Overlay, Plane, plane_on_screen
@@ -287,7 +287,7 @@ def test_the_basis_stands_out_from_the_scenes_ground(monkeypatch, look, presente
         assert contrast.contrast((color.x, color.y, color.z), ground) >= 3.0
         own = role_color(name)
         if look == "light" and max(ground) < 0.35:
-            own = theme.PRESENTED_DARK.BASIS[name]
+            own = palettes.PRESENTED_DARK.BASIS[name]
         if contrast.contrast((own.x, own.y, own.z), ground) >= 3.0:
             assert (color.x, color.y, color.z) == (own.x, own.y, own.z)
         assert contrast.contrast(figure_color(name, 0.0, ground), ground) >= 3.0

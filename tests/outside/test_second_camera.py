@@ -12,7 +12,7 @@ from app.instruments.outside.paint import DARKER, FIXED, role_color
 from app.instruments.outside.projected import project
 from app.instruments.outside.screen import OutsideScreen
 from app.instruments.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
-from app.ui import contrast, theme
+from app.ui import contrast, palettes
 from renderer.camera.camera import Camera
 
 SIZE = (40, 30)
@@ -102,7 +102,7 @@ def test_its_colour_is_seen_on_every_ground(ground) -> None:
 
 
 def test_its_colour_is_seen_on_light_paper() -> None:
-    for color, ground in ((DARKER["other"], theme.LIGHT), (FIXED["other"], theme.DARK)):
+    for color, ground in ((DARKER["other"], palettes.LIGHT), (FIXED["other"], palettes.DARK)):
         behind = ground.BACKGROUND
         behind = behind.x, behind.y, behind.z
         assert contrast.contrast((color.x, color.y, color.z), behind) >= contrast.SEEN

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.images.photograph.laying import LaidPhotograph, Laying, level
+from app.images.photograph.laying import Laying, level
 from app.images.photograph.model import WHOLE
 from app.images.placement import Placement
 from app.images.shown import Picture, whole
@@ -56,24 +56,11 @@ def shown(picture):
 def test_the_mean_is_of_display_values(gl, laying, upload, opacity):
     image, photo = noise(), noise()
     laying.take(photo)
-    made = laying.laid(
-        "a", pictured(gl, upload, image), whole(SIZE), LaidPhotograph(WHOLE, opacity)
-    )
+    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), WHOLE, opacity)
     wanted = (1 - opacity) * image.astype(float) + opacity * photo
     assert np.abs(shown(made)[..., :3] - wanted[..., :3]).max() <= 0.51
     if opacity == 1.0:
         assert np.array_equal(shown(made), photo)
-
-
-def test_behind_it_is_seen_where_nothing_is_hit(gl, laying, upload):
-    image, photo = noise(), noise()
-    ids = RNG.integers(-1, 2, SIZE[::-1]).astype(np.int32)
-    laying.take(photo)
-    picture = pictured(gl, upload, image)
-    laid = LaidPhotograph(WHOLE, behind=True)
-    made = laying.laid("a", picture, whole(SIZE), laid, (upload(ids), 1))
-    assert np.array_equal(shown(made), np.where(ids[..., None] < 0, photo, image))
-    assert laying.laid("a", picture, whole(SIZE), laid) is picture  # not known what is hit
 
 
 def test_what_is_transparent_shows_the_image(gl, laying, upload):
@@ -81,15 +68,15 @@ def test_what_is_transparent_shows_the_image(gl, laying, upload):
     clear = RNG.random(SIZE[::-1]) < 0.5
     photo[clear] = 0
     laying.take(photo)
-    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), LaidPhotograph(WHOLE))
+    made = laying.laid("a", pictured(gl, upload, image), whole(SIZE), WHOLE)
     assert np.array_equal(shown(made), np.where(clear[..., None], image, photo))
 
 
 def test_it_covers_its_part_of_the_image(gl, laying, upload):
     image, photo = noise((12, 8)), noise((6, 4))
     laying.take(photo)
-    laid = LaidPhotograph((0.25, 0.25, 0.75, 0.75))
-    made = laying.laid("a", pictured(gl, upload, image), whole((12, 8)), laid)
+    part = (0.25, 0.25, 0.75, 0.75)
+    made = laying.laid("a", pictured(gl, upload, image), whole((12, 8)), part)
     wanted = image.copy()
     wanted[2:6, 3:9] = photo
     assert np.abs(shown(made).astype(int) - wanted).max() <= 1
@@ -100,7 +87,7 @@ def test_of_a_magnified_image_what_is_seen_is_laid(gl, laying, upload):
     photo = noise()
     laying.take(photo)
     placement = Placement(SIZE, (9, 6), 2.0, (-4, -2), (26, 14))
-    made = laying.laid("a", pictured(gl, upload, noise((9, 6))), placement, LaidPhotograph(WHOLE))
+    made = laying.laid("a", pictured(gl, upload, noise((9, 6))), placement, WHOLE)
     assert np.array_equal(shown(made), photo.repeat(2, 0).repeat(2, 1)[2:8, 4:13])
 
 
@@ -109,7 +96,7 @@ def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
     picture = pictured(gl, upload, noise())
 
     def laid(opacity=0.5):
-        return laying.laid("a", picture, whole(SIZE), LaidPhotograph(WHOLE, opacity))
+        return laying.laid("a", picture, whole(SIZE), WHOLE, opacity)
 
     before, drawn = shown(laid()), laid().made
     assert laid().made is drawn  # which is another one each time
@@ -123,31 +110,26 @@ def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
 
 def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
     rng = np.random.default_rng(20261124)
-    picture, ids = pictured(gl, upload, noise()), upload(rng.integers(-1, 2, SIZE[::-1], np.int32))
+    picture = pictured(gl, upload, noise())
     magnified = Placement(SIZE, SIZE, 2.0, (-4, -2), (26, 14))
     choices = {
         "covered": (WHOLE, (0.25, 0.25, 0.75, 0.75)),
         "opacity": (0.25, 0.5, 1.0),
-        "behind": (False, True),
         "placement": (whole(SIZE), magnified),
     }
     given = {name: values[0] for name, values in choices.items()}
-    photos, number, seen = [noise(), noise((26, 14)), noise()], 0, set()
+    photos, seen = [noise(), noise((26, 14)), noise()], set()
     laying.take(photos[0])
     for step in range(120):
-        kind = str(rng.choice([*choices, "photograph", "picture", "objects"]))
+        kind = str(rng.choice([*choices, "photograph", "picture"]))
         if kind == "photograph":
             laying.take(photos[rng.integers(len(photos))])
         elif kind == "picture":  # the same texture, with another image in it
             picture.texture.write(noise())
             picture = replace(picture, made=object())
-        elif kind == "objects":
-            ids.write(rng.integers(-1, 2, SIZE[::-1]).astype(np.int32))
-            number += 1
         else:
             given[kind] = choices[kind][rng.integers(len(choices[kind]))]
-        laid = LaidPhotograph(given["covered"], given["opacity"], given["behind"])
-        rest = given["placement"], laid, (ids, number)
+        rest = given["placement"], given["covered"], given["opacity"]
         kept = shown(laying.laid("kept", picture, *rest))
         np.testing.assert_array_equal(
             kept, shown(laying.laid(step, picture, *rest)), err_msg=f"{kind} at {step}"
@@ -163,5 +145,5 @@ def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):
     laying.take(photo)
     placement = Placement((16, 16), (4, 4), 0.25, (0, 0), (4, 4))
     assert level((16, 16), placement, (4, 4), WHOLE) == pytest.approx(2.0)
-    made = laying.laid("a", pictured(gl, upload, noise((4, 4))), placement, LaidPhotograph(WHOLE))
+    made = laying.laid("a", pictured(gl, upload, noise((4, 4))), placement, WHOLE)
     assert np.abs(shown(made)[..., :3].astype(int) - 64).max() <= 2

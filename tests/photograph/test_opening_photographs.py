@@ -61,7 +61,6 @@ def test_a_session_keeps_it(photo):
     state = with_photograph(
         AppState.for_scene(load_scene("still-life")),
         str(photo) + "\udcff",
-        lay="behind",
         opacity=0.25,
         follows=True,
     )

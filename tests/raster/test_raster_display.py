@@ -98,10 +98,9 @@ def test_channels_have_the_colours_of_saved_pictures(data, show, channel):
 
 @pytest.mark.parametrize("channel", ["color", "normal"])
 @pytest.mark.parametrize("component", ["red", "green", "blue"])
-@pytest.mark.parametrize("tinted", [False, True])
-def test_single_components(data, show, channel, component, tinted):
-    look = Look(channel, 0.5, "srgb", component, tinted)
-    options = ImageOptions(channel, component, exposure_ev=0.5, tinted=tinted)
+def test_single_components(data, show, channel, component):
+    look = Look(channel, 0.5, "srgb", component)
+    options = ImageOptions(channel, component, exposure_ev=0.5)
     expected = shown_bytes(data.channel(channel), options, None)
     assert np.abs(show(data, look).astype(int) - expected).max() <= 1
 

@@ -114,7 +114,7 @@ def drive_resolutions_are_fixed_and_fitted(d):
         assert both.size == size
         for name in (RASTER, RAY):
             at = placement(d, name)
-            assert at.sees_all
+            assert at.visible_parts == (0, 0, 1, 1)
             left, top, right, bottom = d.rect(name)
             scale = framebuffer_scale()
             assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent

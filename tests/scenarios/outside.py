@@ -19,7 +19,7 @@ from app.instruments.outside.frustum import plane_corners
 from app.instruments.outside.gizmo import LENGTH
 from app.instruments.outside.paint import ground_of
 from app.instruments.outside.view import OUTSIDE
-from app.ui import theme
+from app.ui import palettes, theme
 from renderer.camera.camera import Camera
 from renderer.scene.model import Sphere
 
@@ -114,7 +114,7 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
 def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
     """The look follows the preferences a frame later: what was drawn between is of the old one."""
     enter(d)
-    drawn: list[theme.Palette] = []
+    drawn: list[palettes.Palette] = []
     layers = outside.layers
 
     def watched(primitives: Any, ground: theme.Rgb) -> Any:
@@ -122,12 +122,13 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
         return layers(primitives, ground)
 
     outside.layers = watched
-    palettes = theme.LIGHT, theme.PRESENTED_LIGHT, theme.PRESENTED_DARK, theme.DARK
+    light = palettes.LIGHT, palettes.PRESENTED_LIGHT
+    shown = *light, palettes.PRESENTED_DARK, palettes.DARK
     try:
-        for palette in palettes:
+        for palette in shown:
             look = {
-                "theme": "light" if palette in (theme.LIGHT, theme.PRESENTED_LIGHT) else "dark",
-                "presentation": palette in (theme.PRESENTED_LIGHT, theme.PRESENTED_DARK),
+                "theme": "light" if palette in light else "dark",
+                "presentation": palette in (palettes.PRESENTED_LIGHT, palettes.PRESENTED_DARK),
             }
             drawn.clear()
             d.window.change(with_options(d.window.state, preferences=look))

@@ -147,7 +147,7 @@ def test_opacity_of_gltf_vertices_that_should_cut_holes_costs_a_line(
 @settings(
     max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
-@given(scale=st.floats(1e-300, 1e300), angle=st.floats(-7, 7))
+@given(scale=st.floats(1e-6, 1e100), angle=st.floats(-7, 7))
 def test_gltf_quaternions_of_any_length_turn(scale: float, angle: float, tmp_path: Path) -> None:
     rotation = [0, 0, scale * math.sin(angle / 2), scale * math.cos(angle / 2)]
     tree = gltf(nodes=[{"mesh": 0, "rotation": rotation}])
@@ -190,21 +190,6 @@ def test_gltf_modes(mode: int, tmp_path: Path) -> None:
     for other in (0, 1, 2, 3):
         with pytest.raises(LucidaError, match="holds no triangle"):
             load_gltf(gltf(primitive | {"mode": other}), tmp_path)
-
-
-@pytest.mark.parametrize("has_view", [True, False])
-def test_gltf_sparse_numbers_are_put_in(has_view: bool, tmp_path: Path) -> None:
-    moved = np.array([[7, 0, 0], [0, 7, 0]], "<f4")
-    blobs = np.array([0, 2], "<u2").tobytes(), moved.tobytes()
-    tree = gltf({"POSITION": AROUND[:3]}, blobs=blobs)
-    indices = {"bufferView": 1, "componentType": 5123}
-    tree["accessors"][0]["sparse"] = {"count": 2, "indices": indices, "values": {"bufferView": 2}}
-    if not has_view:
-        del tree["accessors"][0]["bufferView"]
-    mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
-    np.testing.assert_array_equal(
-        mesh.vertices[mesh.faces], [[[7, 0, 0], AROUND[1] * has_view, [0, 7, 0]]]
-    )
 
 
 def test_a_model_s_scene_flattens(tmp_path: Path) -> None:

@@ -229,18 +229,6 @@ def test_bytes_behind_the_triangles_of_an_stl_cost_a_line(tmp_path: Path) -> Non
     assert "attributes" in note(loaded(tmp_path, "t.stl", b"COLOR=\1\2\3\4".ljust(80) + data[80:]))
 
 
-def test_colours_of_some_vertices_and_weights_cost_a_line(tmp_path: Path) -> None:
-    face, rest = "f 1 2 3\n", "v 1 0 0\nv 0 1 0\n"
-    some = loaded(tmp_path, "t.obj", f"v 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0\n{face}")
-    assert note(some) == "OBJ: not read: colours, which only some vertices have"
-    weights = loaded(tmp_path, "t.obj", f"v 0 0 0 0.5\nv 1 0 0 1\nv 0 1 0 1\n{face}")
-    assert note(weights) == "OBJ: not read: the weights of vertices"
-    assert not loaded(tmp_path, "t.obj", f"v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n{face}").notes
-    assert not loaded(tmp_path, "t.obj", f"v 0 0 0\n{rest}{face}").notes
-
-
-# glTF.
-
 LIGHTS = "KHR_lights_punctual"
 
 
@@ -283,21 +271,6 @@ def test_lights_of_an_export_are_read_as_they_were(tmp_path: Path) -> None:
     assert any("a scene file has its own" in line for line in load_scene(tmp_path / "b.toml").notes)
 
 
-def test_gltf_instances_of_a_node(tmp_path: Path) -> None:
-    name = "EXT_mesh_gpu_instancing"
-    moved = np.array([[0, 0, 0], [3, 0, 0]], "<f4")
-    turned = np.array([[0, 0, 0, 1], [0, 0, 1, 0]], "<f4")
-    tree = gltf({"POSITION": CORNERS, "TRANSLATION": moved, "ROTATION": turned})
-    attributes = tree["meshes"][0]["primitives"][0]["attributes"]
-    own = {key: attributes.pop(key) for key in ("TRANSLATION", "ROTATION")}
-    tree["nodes"] = [{"mesh": 0, "scale": [2, 2, 2], "extensions": {name: {"attributes": own}}}]
-    tree["extensionsRequired"] = [name]
-    first, second = load_gltf(tree, tmp_path).objects
-    assert (first.shape.transform == np.diag([2, 2, 2, 1])).all()
-    wanted = [[-2, 0, 0, 6], [0, -2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]]
-    np.testing.assert_allclose(second.shape.transform, wanted, atol=1e-12)
-
-
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
 
 
@@ -305,8 +278,9 @@ def test_extensions_that_are_not_read_are_named_or_refused(tmp_path: Path) -> No
     used = ["MSFT_lod", LIGHTS, "KHR_materials_variants", "KHR_materials_unlit"]
     scene = load_gltf(gltf(extensionsUsed=used), tmp_path)
     assert note(scene) == "extensions: not read: MSFT_lod, KHR_materials_variants"
-    with pytest.raises(LucidaError, match="extensionsRequired: MSFT_lod is not read"):
-        load_gltf(gltf(extensionsRequired=["MSFT_lod"]), tmp_path)
+    for name in ("MSFT_lod", "EXT_mesh_gpu_instancing"):
+        with pytest.raises(LucidaError, match=f"extensionsRequired: {name} is not read"):
+            load_gltf(gltf(extensionsRequired=[name]), tmp_path)
 
 
 def test_gltf_points_and_lines_are_named_and_a_byte_order_mark_is_passed(tmp_path: Path) -> None:

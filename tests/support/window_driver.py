@@ -29,7 +29,7 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.images.pair import view as pair
+from app.images.pair import image_view
 from app.images.pair.view import RASTER, RAY
 from app.instruments.outside import mouse as outside_mouse
 from app.state.app_state import AppState, History
@@ -44,7 +44,7 @@ from renderer.files import load_scene
 
 SIZE = (1100, 720)
 # On a slow or busy machine a turn of the wheel takes long: no picture may depend on that.
-pair.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
+image_view.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
 toasts.SHOWN_S = 1e9  # nor what is still told
 FRAME_S = 1 / 60  # what ImGui takes a frame for: clicks are double ones however slow frames are
 PROMPT_FRAMES = 8  # what the window does by itself takes some frames; threads take longer

@@ -3,12 +3,18 @@
 import pytest
 from imgui_bundle import ImVec4
 
-from app.ui import contrast, theme
+from app.ui import contrast, palettes
 
 
 @pytest.mark.parametrize(
     "palette",
-    [theme.DARK, theme.LIGHT, theme.PRESENTED_DARK, theme.PRESENTED_LIGHT, theme.CONTRAST],
+    [
+        palettes.DARK,
+        palettes.LIGHT,
+        palettes.PRESENTED_DARK,
+        palettes.PRESENTED_LIGHT,
+        palettes.CONTRAST,
+    ],
 )
 def test_an_empty_box_stands_out_from_its_panel(palette):
     edge, *behind = (
@@ -18,7 +24,7 @@ def test_an_empty_box_stands_out_from_its_panel(palette):
 
 
 def test_text_of_the_high_contrast_theme_has_7_to_1_with_every_ground():
-    palette = theme.CONTRAST
+    palette = palettes.CONTRAST
     grounds = palette.PANEL, palette.FRAME, palette.FRAME_HOVERED, palette.FRAME_ACTIVE
     assert all(ratio(palette.TEXT, ground) >= 7 for ground in (*grounds, palette.FILL))
     others = palette.DIM, palette.ERROR, palette.GOOD, palette.MARK, *palette.BASIS.values()

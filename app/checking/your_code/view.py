@@ -190,14 +190,14 @@ class YourCodeView(Instrument):
             Path(path), options, runs, report, self._follower.is_away, host.fonts
         )
         if canvas != options.canvas:
-            _change(host, canvas=canvas)
+            host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
         self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
-            _change(host, task=clicked.name)
+            host.edit(replace(host.options.your_code, task=clicked.name))
         self._pictures.follow(host, report)
         marked = marked_pixel(host, report)
         room = imgui.get_content_region_avail()
@@ -281,7 +281,7 @@ class YourCodeView(Instrument):
         elif wish == "tasks":
             host.files.open_tasks_dialog()
         elif wish == "built-in":
-            _change(host, tasks="", task="")
+            host.edit(replace(host.options.your_code, tasks="", task=""))
 
     def write_starter(self, path: str, tasks: str = "", notation: Notation = "book") -> str:
         """Write a starter file, on a thread. Raises LucidaError.
@@ -298,13 +298,7 @@ class YourCodeView(Instrument):
     def _open_written(self, host: Host) -> None:
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
-        _change(host, file=stored(path), task="")
-
-
-def _change(host: Host, **changes: Any) -> None:
-    """Change options of this view."""
-    options = replace(host.state.options.your_code, **changes)
-    host.change(host.state.with_options(options))
+        host.edit(replace(host.options.your_code, file=stored(path), task=""))
 
 
 def _notation_of(path: str) -> dict[str, Any]:

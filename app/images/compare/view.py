@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from app.images.compare import comparing, panel
 from app.images.compare.actions import COMPARING, FLIP_KEY
 from app.images.compare.composed import SIDES, Composed, Mapping
-from app.images.compare.differences import draw_differences
 from app.images.pair.view import ImageView, RasterView
 from app.images.placement import Placement
 from app.images.renderers import Renderers, look_of
 from app.images.screen import Screen
 from app.images.shown import Held, Picture, ShownImage, whole
+from app.images.textures import PANE
 from app.state.app_state import AppState
 from app.ui import theme
 from app.ui.areas import focused_steps, mouse_area
@@ -39,7 +39,6 @@ NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
-RIGHT = "right"  # the name of a wipe's second picture; see ShownImage.picture
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
 AS_IT_IS = Look(transfer="linear")  # of pictures that have gone through the display transform
 
@@ -115,7 +114,7 @@ class CompareView(ImageView):
         side = SIDES[mode == "flip" and self._flipped(host.state)]
         self._pane(
             host,
-            lambda state, placement, name: self._picture(both, state, placement, name, side),
+            lambda state, placement: self._picture(both, state, placement, side),
             (lambda state, channel, region: self._values(both, state, channel, region))
             if is_picture
             else None,
@@ -142,10 +141,9 @@ class CompareView(ImageView):
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         both, state = host.renderers, host.state
-        options, verdict = state.options.compare, both.verdict(state)
-        has_differences = options.mode in ("absolute", "signed") and state.images.grid
+        options = state.options.compare
         if options.mode == "wipe":
-            picture = self._picture(both, state, screen.placement, RIGHT, SIDES[1])
+            picture = self._picture(both, state, screen.placement, SIDES[1])
             if picture is not None:
                 low, high = screen.visible
                 draw, image = imgui.get_window_draw_list(), imgui.ImTextureRef(picture.texture.glo)
@@ -153,11 +151,9 @@ class CompareView(ImageView):
                 draw.push_clip_rect(ImVec2(x, low.y), high, True)
                 draw.add_image(image, low, high, col=theme.u32(ImVec4(1, 1, 1, options.rise)))
                 draw.pop_clip_rect()
-        elif has_differences and verdict is not None and not waiting(both, state):
-            draw_differences(screen, state, verdict.comparison, host.fonts)
 
     def _picture(
-        self, both: Renderers, state: AppState, placement: Placement, name: str, side: str
+        self, both: Renderers, state: AppState, placement: Placement, side: str
     ) -> Picture | None:
         """Return the visible part of the difference, or of the image on one side of a wipe: raster
         left, ray right. Return None if it is not there yet.
@@ -195,7 +191,7 @@ class CompareView(ImageView):
             self._show[side](
                 shown, composed.compose(both.size, held, muted, labels, enlarged, side).held
             )
-            seen = shown.picture(name, AS_IT_IS, placement)
+            seen = shown.picture(PANE, AS_IT_IS, placement)
             self._error = None
         except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
             self._error = error

@@ -65,7 +65,6 @@ def has_lens(window: Host) -> bool:
 IMAGE = (
     *(choice.action(CHANNEL) for choice in choices.CHANNEL),
     *(choice.action(CHANNEL, k == 0) for k, choice in enumerate(choices.COMPONENT)),
-    choices.TINT.action(CHANNEL),
     *(choice.action(RESOLUTION) for choice in choices.PIXEL_SIZE),
     *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.RESOLUTION)),
     Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), "Alt+S", separated=True),

@@ -91,10 +91,6 @@ RGB, *COMPONENT = (
     )
     for component, (name, tip) in COMPONENTS.items()
 )  # fmt: skip
-TINT = Choice(
-    "Tint single channels", toggling("tinted"), has("tinted", True), "Alt+T",
-    "A single channel, not as gray.", "In its own colour",
-)  # fmt: skip
 PIXEL_SIZE = tuple(map(_pixel_size, PIXEL_SIZES))
 RESOLUTION = tuple(
     Choice(size_text(size), partial(with_resolution, resolution=size), has("resolution", size))

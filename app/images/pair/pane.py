@@ -11,21 +11,19 @@ from imgui_bundle import ImVec2, imgui
 from app.images.pair.dark_note import DarkNote, draw_dark_note
 from app.images.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
 from app.images.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
-from app.images.pair.overlay import draw_corner, draw_legend, draw_note
+from app.images.pair.overlay import draw_legend, draw_magnification, draw_note
 from app.images.pair.pixelgrid import Values, draw_pixel_grid
 from app.images.pair.rulers import draw_rulers
 from app.images.placement import Placement
 from app.images.screen import Box, Screen
 from app.images.shown import Picture
-from app.images.textures import PANE
 from app.state.app_state import AppState
 from app.state.options.shared import Pixel
 from app.ui import theme
 from app.ui.areas import mouse_area
 
-MAP = "map"  # the whole image, small
-# Returns the visible part of a state's image in a window, under a name; None for no image.
-Drawn = Callable[[AppState, Placement, str], Picture | None]
+# Returns the visible part of a state's image in a window; None for no image.
+Drawn = Callable[[AppState, Placement], Picture | None]
 
 
 @dataclass(frozen=True)
@@ -126,7 +124,7 @@ def image_pane(
 def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
     draw = imgui.get_window_draw_list()
     low, high = screen.visible
-    picture = pane.picture(state, screen.placement, PANE)
+    picture = pane.picture(state, screen.placement)
     if picture is None:  # yet: no part of it may be taken for a black image
         draw.add_rect_filled(*room, theme.u32(theme.PANEL))
     else:
@@ -157,20 +155,12 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         if pane.legend and pane.has_tools:
             draw_legend(draw, screen, state, pane.depths, pane.fonts)
         if pane.has_tools:
-            draw_corner(draw, screen, state, lambda size: _map(pane, state, screen, size))
+            draw_magnification(draw, screen, state)
     if pane.note:
         draw_note(draw, screen, pane.note, pane.is_error)
     elif pane.dark is not None:
         draw_dark_note(draw, pane.dark, screen)
     draw.pop_clip_rect()
-
-
-def _map(pane: Pane, state: AppState, screen: Screen, extent: tuple[int, int]) -> int | None:
-    """Return OpenGL's name of a texture of the whole image, (width, height) framebuffer pixels."""
-    size = screen.placement.size
-    small = Placement(size, extent, extent[0] / size[0], (0, 0), extent)
-    picture = pane.picture(state, small, MAP)
-    return picture.texture.glo if picture is not None else None
 
 
 def _surround(draw: imgui.ImDrawList, room: Box, low: ImVec2, high: ImVec2) -> None:

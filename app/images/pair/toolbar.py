@@ -163,9 +163,7 @@ def _transfer(strip: Strip, state: AppState) -> AppState:
 
 
 def _component(strip: Strip, state: AppState) -> AppState:
-    state = _entries(state, (choices.RGB, *choices.COMPONENT), is_radio=True)
-    imgui.separator()
-    return _entries(state, [choices.TINT])
+    return _entries(state, (choices.RGB, *choices.COMPONENT), is_radio=True)
 
 
 def _lens(strip: Strip, state: AppState) -> AppState:

@@ -6,16 +6,14 @@ from pathlib import Path
 
 import moderngl
 
-from app.images.photograph.laying import LaidPhotograph, Laying
+from app.images.photograph.laying import Laying
 from app.images.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
 from app.images.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
 from app.images.placement import Placement
-from app.images.progressive_ray import RayImage
 from app.images.renderers import Renderers
-from app.images.shown import Held, Picture
+from app.images.shown import Picture
 from app.state.app_state import AppState
 from app.ui.background import Background
-from renderer.raster.display import upload
 from renderer.scene.model import View
 from renderer.system.errors import LucidaError, describe
 
@@ -36,7 +34,6 @@ class PhotographLayer:
         self._asked: Asked | None = None
         self._path: Path | None = None  # of the photograph on the GPU
         self._distorted: View | None = None  # the lens that is taken out of that
-        self._objects: tuple[RayImage, moderngl.Texture] | None = None
         self.problem = ""
         self.note = ""
         self.file_size: Size = (0, 0)
@@ -78,23 +75,25 @@ class PhotographLayer:
         self,
         both: Renderers,
         state: AppState,
-        name: tuple[str, str],
+        name: str,
         picture: Picture | None,
         placement: Placement,
-        ray: bool,
     ) -> Picture | None:
         """Return a picture of one of the images with the photograph as the state says. Call
         follow() first.
 
-        name: of the view, and of its picture.
-        ray: True for the ray image.
+        name: of the view.
         """
         options = state.options.photograph
         if picture is None or not options.shown or not options.opacity:
             return picture
+        assert self._laying is not None
         parts = self._parts(both, state)
-        laid = LaidPhotograph(parts, options.opacity, options.lay == "behind")
-        return self._laid(both, name, picture, placement, laid, ray)
+        try:
+            return self._laying.laid(name, picture, placement, parts, options.opacity)
+        except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
+            self.problem = describe(error)
+            return picture
 
     def end(self) -> None:
         self._work.close()
@@ -114,23 +113,6 @@ class PhotographLayer:
         shape = state.view.own_size or pixels_of(parts, both.size)
         return letterboxed(parts, shape, self.file_size) if known else parts
 
-    def _laid(
-        self,
-        both: Renderers,
-        name: tuple[str, str],
-        picture: Picture,
-        placement: Placement,
-        laid: LaidPhotograph,
-        ray: bool,
-    ) -> Picture:
-        assert self._laying is not None
-        try:
-            objects = self._seen(both, ray) if laid.behind else None
-            return self._laying.laid(name, picture, placement, laid, objects)
-        except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
-            self.problem = describe(error)
-            return picture
-
     def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
         assert self._laying is not None
         if self._asked is None or asked[::2] != self._asked[::2]:
@@ -147,21 +129,6 @@ class PhotographLayer:
             return
         self._path, self.file_size, self._distorted = asked[0], answer.size, asked[2]
 
-    def _seen(self, both: Renderers, ray: bool) -> Held | None:
-        """Return what the pixels of an image show.
-
-        While the camera moves, the ray image has only its colours; use the raster image's then, if
-        it is visible too.
-        """
-        image = both.ray_image
-        if ray and image is not None and image.frame.id is not None and self._gl is not None:
-            if self._objects is None or self._objects[0] is not image:
-                old, self._objects = self._objects, None
-                self._objects = image, upload(self._gl, image.frame.id, old and old[1])
-            return self._objects[1], image
-        raster = both.textures.raster_seen() if both.textures is not None else None
-        return (raster.textures.object, raster) if raster is not None else None
-
     def _forget(self) -> None:
         """Release the photograph's memory."""
         if self._asked is None:
@@ -171,9 +138,6 @@ class PhotographLayer:
         self.file_size = (0, 0)
         if self._laying is not None:
             self._laying.take(None)
-        if self._objects is not None:
-            self._objects[1].release()
-            self._objects = None
 
 
 def _answer(asked: Asked) -> Answer:

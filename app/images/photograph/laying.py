@@ -1,4 +1,4 @@
-"""A photograph over or behind a picture of an image, composed on the GPU.
+"""A photograph over a picture of an image, composed on the GPU.
 
 There is one target for each picture, redrawn only if something has changed. The result is only for
 display: the images, and the values read from them, are unchanged.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable
-from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -17,19 +16,8 @@ from numpy.typing import NDArray
 from app.images.passes import Pass
 from app.images.photograph.model import WHOLE, Parts
 from app.images.placement import Placement
-from app.images.shown import Held, Picture
-from renderer.raster.resources import Owner, new_texture
-
-
-@dataclass(frozen=True)
-class LaidPhotograph:
-    """The laying of a photograph. covered: the part of the image. opacity: from 0 to 1. behind:
-    only where nothing is hit.
-    """
-
-    covered: Parts
-    opacity: float = 1.0
-    behind: bool = False
+from app.images.shown import Picture
+from renderer.raster.resources import new_texture
 
 
 class Laying:
@@ -37,9 +25,7 @@ class Laying:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
-        self._owner = Owner()
-        self._none = self._owner.own(new_texture(context, (1, 1), 1, np.int32))
-        self._passes: dict[Hashable, tuple[tuple[bool, bool], Pass]] = {}
+        self._passes: dict[Hashable, tuple[bool, Pass]] = {}
         self.texture: moderngl.Texture | None = None
 
     def take(self, pixels: NDArray[np.uint8] | None) -> None:
@@ -60,42 +46,36 @@ class Laying:
         name: Hashable,
         picture: Picture,
         placement: Placement,
-        laid: LaidPhotograph,
-        objects: Held | None = None,
+        covered: Parts,
+        opacity: float = 1.0,
     ) -> Picture:
         """Return the picture of an image, placed in a window by `placement`, with the photograph.
 
-        Laying behind needs objects: the number of each pixel's object, int32, row 0 at the top;
-        without them nothing is laid. name: each picture is drawn over by the next of that name.
+        name: each picture is drawn over by the next of that name. covered: the part of the image
+        that the photograph covers. opacity: from 0 to 1.
         """
-        if self.texture is None or (laid.behind and objects is None):
+        if self.texture is None:
             return picture
-        size, at_whole = picture.texture.size, laid.covered == WHOLE
-        smaller = level(self.texture.size, placement, size, laid.covered)
+        size, at_whole = picture.texture.size, covered == WHOLE
+        smaller = level(self.texture.size, placement, size, covered)
         exact = smaller == 0.0 and at_whole and self.texture.size == placement.size
-        return self._pass(name, exact, laid.behind).draw(
+        return self._pass(name, exact).draw(
             size,
-            {
-                "picture": picture.held,
-                "photograph": (self.texture, None),
-                "objects": objects if objects is not None and laid.behind else (self._none, None),
-            },
+            {"picture": picture.held, "photograph": (self.texture, None)},
             extent=(float(size[0]), float(size[1])),
             shown=placement.visible_parts,
-            covered=laid.covered,
-            opacity=laid.opacity,
+            covered=covered,
+            opacity=opacity,
             pixels=(float(placement.size[0]), float(placement.size[1])),
             level=smaller,
         )
 
-    def _pass(self, name: Hashable, exact: bool, behind: bool) -> Pass:
+    def _pass(self, name: Hashable, exact: bool) -> Pass:
         """Return the pass of that name; a new one if the shader differs."""
-        kind = exact, behind
-        if name in self._passes and self._passes[name][0] != kind:
+        if name in self._passes and self._passes[name][0] != exact:
             self._passes.pop(name)[1].release()
         if name not in self._passes:
-            constants = {"EXACT": exact, "BEHIND": behind}
-            self._passes[name] = kind, Pass(self._gl, "photograph.frag", constants)
+            self._passes[name] = exact, Pass(self._gl, "photograph.frag", {"EXACT": exact})
         return self._passes[name][1]
 
     def release(self) -> None:
@@ -103,7 +83,6 @@ class Laying:
         for _, made in self._passes.values():
             made.release()
         self._passes.clear()
-        self._owner.release()
 
 
 def level(photo: tuple[int, int], placement: Placement, size: tuple[int, int], at: Parts) -> float:

@@ -11,7 +11,7 @@ from app.images.photograph.model import can_undistort, closed, undistorting
 from app.images.photograph.reading import Size
 from app.state.app_state import AppState
 from app.state.bounds import range_of
-from app.state.options.photograph import Lay, PhotographOptions
+from app.state.options.photograph import PhotographOptions
 from app.ui.rows import tip
 from app.ui.sliders import slider_float
 from renderer.images.frame import check_size
@@ -19,10 +19,6 @@ from renderer.system.errors import LucidaError
 
 SLIDER_EM = 11.0
 UNDISTORT = "Undistort the photograph"
-LAYS: tuple[tuple[Lay, str, str], ...] = (
-    ("over", "Over the images", "Over all of an image."),
-    ("behind", "Where nothing is hit", "Behind what the image shows."),
-)
 
 
 def entries(state: AppState, file_size: Size) -> AppState:
@@ -40,10 +36,6 @@ def entries(state: AppState, file_size: Size) -> AppState:
     tip("How much of the photograph is seen: a mean of what the screen shows (sRGB), not of light.")
     if changed:
         state = state.with_options(replace(state.options.photograph, opacity=opacity, shown=True))
-    for lay, name, told in LAYS:
-        if imgui.menu_item(name, "", options.lay == lay)[0]:
-            state = state.with_options(replace(state.options.photograph, lay=lay, shown=True))
-        imgui.set_item_tooltip(told)
     imgui.separator()
     if can_undistort(state):
         if imgui.menu_item(UNDISTORT, "", options.distorted is not None)[0]:

@@ -6,10 +6,10 @@ from imgui_bundle import ImVec4
 
 from app.instruments.laboratory.sheet import Look
 from app.instruments.outside.figure import Color
-from app.ui import theme
+from app.ui import palettes, theme
 
 
-def look_of(palette: theme.Palette) -> Look:
+def look_of(palette: palettes.Palette) -> Look:
     """Return the colours of a sheet in a theme."""
     ground = _rgb(palette.PANEL)
     plain = (palette.TEXT, palette.DIM, palette.LINE, palette.FRAME_ACTIVE)

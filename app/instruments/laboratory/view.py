@@ -21,7 +21,7 @@ from app.instruments.outside.figure import Figure
 from app.instruments.outside.painting import Painter
 from app.state.bounds import range_of
 from app.state.options.laboratory import LaboratoryOptions
-from app.ui import theme
+from app.ui import palettes, theme
 from app.ui.areas import focused_steps, mouse_area
 from app.ui.host import Host
 from app.ui.instrument import Instrument
@@ -108,7 +108,7 @@ class LaboratoryView(Instrument):
     def in_both_themes(self) -> tuple[Page, Page]:
         """Return the input of the last drawing, in the light and in the dark theme of a hall."""
         assert self.page is not None
-        light, dark = (look_of(one) for one in (theme.PRESENTED_LIGHT, theme.PRESENTED_DARK))
+        light, dark = (look_of(one) for one in (palettes.PRESENTED_LIGHT, palettes.PRESENTED_DARK))
         return replace(self.page, look=light), replace(self.page, look=dark)
 
     def _color(self, host: Host, page: str, size: Size) -> Image:
@@ -134,11 +134,7 @@ class LaboratoryView(Instrument):
             place = np.clip(((mouse.x, mouse.y) - first) / (last - first), 0, 1)
         elif any(steps):
             place = np.clip(place + KEY_STEP * np.array(steps), 0, 1)
-            host.apply(
-                host.state.with_options(
-                    replace(host.state.options.laboratory, point=tuple(place.tolist()))
-                )
-            )
+            host.edit(replace(host.options.laboratory, point=tuple(place.tolist())))
         return float(place[0]), float(place[1])
 
 

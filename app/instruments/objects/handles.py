@@ -24,7 +24,7 @@ from app.instruments.outside.gizmo import (
 )
 from app.instruments.outside.tint import AXES, HELD, hide_text, recolor
 from app.state.options.objects import Handle, ObjectsOptions
-from app.ui import theme
+from app.ui import palettes, theme
 from app.ui.guest import ShownIn
 from renderer.camera.camera import Vector
 from renderer.editing.changing import Item, fields_of
@@ -41,7 +41,7 @@ WIDE_PART = 0.08  # of the view's width, where that is longer
 HEAD_PART = 0.12  # of a handle: its arrow's head at most
 # ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
 COLORS = {
-    **dict(zip(AXES.values(), theme.CHANNELS, strict=True)),
+    **dict(zip(AXES.values(), palettes.CHANNELS, strict=True)),
     HELD: theme.rgb("#ffffff"),
 }
 STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units

@@ -15,7 +15,7 @@ from imgui_bundle import ImVec4
 from app.instruments.outside.diagram import Role, Segments
 from app.instruments.outside.figure import Color
 from app.instruments.outside.projected import Primitive, Shape, Strokes, Text
-from app.ui import theme
+from app.ui import palettes, theme
 from renderer.camera.camera import Vector
 from renderer.images.display import to_srgb8
 from renderer.raster.lines import (
@@ -69,7 +69,7 @@ def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
     if role in theme.BASIS or role == "other":
         basis = theme.BASIS
         if theme.used().theme == "light" and ground is not None and max(ground) < DARK_GROUND:
-            basis = theme.PRESENTED_DARK.BASIS  # the light theme's are dark
+            basis = palettes.PRESENTED_DARK.BASIS  # the light theme's are dark
         color = FIXED[role] if role == "other" else basis[role]
         return color if ground is None else theme.seen_on(color, ground)
     if role == "ray":

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated
 
 from app.state.bounds import Beside, OptionPart, Range
 from renderer.scene.model import View
-
-Lay = Literal["over", "behind"]
 
 
 @dataclass(frozen=True)
@@ -18,7 +16,6 @@ class PhotographOptions(OptionPart):
     file: the photograph's absolute path, as app.state.paths.stored() writes it, "" for none; in a
     lecture, a file next to the lecture's.
     shown: draw it in the images.
-    lay: over a whole image, or behind it, where nothing is hit.
     opacity: from 0 to 1, of display values.
     follows: show the photograph of the current pose.
     distorted: the view with the lens that took it, while the photograph and the camera are shown
@@ -27,7 +24,6 @@ class PhotographOptions(OptionPart):
 
     file: Annotated[str, Beside(("",))] = ""
     shown: bool = True
-    lay: Lay = "over"
     opacity: Annotated[float, Range(0, 1)] = 0.5
     follows: bool = False
     distorted: View | None = None

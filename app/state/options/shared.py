@@ -31,7 +31,7 @@ MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 # Fields of ImageOptions that say how an image is shown, not which one.
 DISPLAY = (
     *("channel", "component", "transfer", "exposure_ev", "magnification", "center"),
-    *("tinted", "grid", "values", "dissolved"),
+    *("grid", "values", "dissolved"),
 )
 
 Channel = Literal["color", "depth", "normal", "id"]
@@ -50,8 +50,8 @@ class ImageOptions(OptionPart):
     None for what fits the window at pixel_size screen pixels per side of an image's pixel.
     magnification: screen pixels per side of an image's pixel if the user has zoomed into the
     pixels, None to fit the whole image into its window; center: the centre of the view then, as a
-    fraction of the image's width and height. tinted: show a single component in its own colour,
-    else gray. grid: draw lines between pixels, and their numbers, if those are large enough.
+    fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
+    if those are large enough.
     values: how the numbers of a colour are written. samples: of the ray image's colour, once that
     is full: its pixels show their mean. dissolved: how far both images have dissolved into flat
     squares, of which there are 32 in a row in the end. lens_enlargement: texels along a side
@@ -66,7 +66,6 @@ class ImageOptions(OptionPart):
     resolution: Annotated[tuple[int, int], Accepted(check_size)] | None = None
     magnification: Annotated[float, Range(1 / 64, 128)] | None = None
     center: tuple[Part, Part] = (0.5, 0.5)
-    tinted: bool = False
     grid: bool = True
     values: Literal["bytes", "floats"] = "bytes"
     samples: Annotated[int, OneOf(SAMPLES)] = 1

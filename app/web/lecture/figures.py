@@ -133,7 +133,7 @@ def _photograph(state: AppState) -> dict[str, Any] | None:
     """Return the picture that is laid over a step's images, as JSON; None for none."""
     options = state.options.photograph
     path = path_of(state)
-    if path is None or not options.shown or options.lay != "over":
+    if path is None or not options.shown:
         return None
     pixels = decoded(path, IMAGE).pixels[..., :3]
     return {"src": data_uri(pixels), "opacity": options.opacity}

@@ -92,11 +92,7 @@ def read(given: Given, options: Options) -> CameraSet:
         "camera from world, y down, z forward",
         "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
     )
-    unseen = sorted(lenses.keys() - {image.camera for image in images})
-    notes = (
-        *(f"camera {number} is not used: no image has it" for number in unseen),
-        *(f"{other} is another model: give its folder to see it" for other in others),
-    )
+    notes = tuple(f"{other} is another model: give its folder to see it" for other in others)
     return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
 
 

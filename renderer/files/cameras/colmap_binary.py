@@ -33,7 +33,6 @@ _POINT = np.dtype(
 )
 _TRACK_BYTES = 8
 _AT_ONCE = 1 << 16  # points
-_LONGEST_NAME = 4096
 
 
 def cameras(data: bytes) -> Lenses:
@@ -135,10 +134,9 @@ class _Bytes:
         self.place += size_bytes
 
     def name(self) -> str:
-        end = self._data.find(b"\0", self.place, self.place + _LONGEST_NAME)
+        end = self._data.find(b"\0", self.place)
         if end < 0:
-            problem = f"does not end within {_LONGEST_NAME} bytes"
-            raise LucidaError("NAME", problem, "write it again with COLMAP")
+            raise LucidaError("NAME", "does not end", "copy the file whole")
         name, self.place = self._data[self.place : end], end + 1
         return name.decode("utf-8", "surrogateescape")
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import io
 from codecs import BOM_UTF8
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 import numpy as np
 
-from renderer.camera.checks import LARGEST, number
+from renderer.camera.checks import LARGEST
 from renderer.files.cameras.colmap_lenses import (
     Lenses,
     PointRecords,
@@ -27,7 +27,6 @@ _Number = TypeVar("_Number", int, float)
 
 _CAMERA = ("CAMERA_ID", "MODEL", "WIDTH", "HEIGHT")
 _IMAGE = ("IMAGE_ID", "QW", "QX", "QY", "QZ", "TX", "TY", "TZ", "CAMERA_ID", "NAME")
-_POINT = ("POINT3D_ID", "X", "Y", "Z", "R", "G", "B", "ERROR")
 _SHORT_BYTES = 1000  # a longer line's words are not counted
 
 
@@ -55,11 +54,17 @@ def images(data: bytes) -> list[PosedImage]:
             continue
         with under(f"line {count}", ": "):
             words = _words(line, _IMAGE, len(_IMAGE) - 1)
-            _number(int, "IMAGE_ID", words[0])
-            pose = _numbers(_IMAGE[1:8], words[1:8])
+            pose = [
+                _number(float, field, word)
+                for field, word in zip(_IMAGE[1:8], words[1:8], strict=True)
+            ]
             camera = _number(int, "CAMERA_ID", words[8])
         found.append(checked_image(f"line {count}", pose, camera, words[9]))
-        _check_points(*next(lines, (0, b"")))
+        # A file without the second lines has a pose of ten words here.
+        count, line = next(lines, (0, b""))
+        if len(line) < _SHORT_BYTES and len(line.split()) % 3:
+            remedy = "give each image two lines, of which the second may be empty"
+            raise LucidaError(f"line {count}", "is not X Y POINT3D_ID again and again", remedy)
     return found
 
 
@@ -75,46 +80,7 @@ def points(data: bytes) -> PointRecords:
             return PointRecords(table[:, :3].copy(), colors.astype(np.uint8))
     except (ValueError, UnicodeError):
         pass
-    raise _wrong_point(data)
-
-
-def _wrong_point(data: bytes) -> LucidaError:
-    """Return the error in the first line that loadtxt() rejects, found by reading the lines one by
-    one.
-    """
-    try:
-        for count, line in _lines(data):
-            with under(f"line {count}", ": "):
-                values = _numbers(_POINT[1:], _words(line, _POINT, len(_POINT))[1:8])
-                for field, value in zip(_POINT[1:7], values[:6], strict=True):
-                    number(field, value)
-                    if field in ("R", "G", "B") and not 0 <= value <= 255:
-                        raise LucidaError(field, f"{value:g} is no colour", "give 0 to 255")
-    except LucidaError as error:
-        return error
-    return LucidaError("", "is no list of points", "write it again with COLMAP")
-
-
-def _check_points(count: int, line: bytes) -> None:
-    """Check that a line is X, Y, POINT3D_ID, repeated. Raises LucidaError.
-
-    Checks both ends of the line, and the number of words in a short one: a file without the empty
-    line after each image has a pose here.
-    """
-    if not line:
-        return
-    ends = line.split(None, 3)[:3] + line.rsplit(None, 3)[-3:]
-    try:
-        x, y, point, last_x, last_y, last_point = ends
-        for word in (x, y, last_x, last_y):
-            float(word)
-        whole = int(point) >= -1 and int(last_point) >= -1
-        if whole and (len(line) > _SHORT_BYTES or len(line.split()) % 3 == 0):
-            return
-    except ValueError:
-        pass
-    remedy = "give each image two lines, of which the second may be empty"
-    raise LucidaError(f"line {count}", "is not X Y POINT3D_ID again and again", remedy)
+    raise LucidaError("", "holds a line that is no point", "write it again with COLMAP")
 
 
 def _file(data: bytes) -> io.BytesIO:
@@ -149,7 +115,3 @@ def _number(kind: Callable[[str], _Number], field: str, word: str) -> _Number:
     except ValueError:
         what = "whole number" if kind is int else "number"
         raise LucidaError(field, f"{word!r} is no {what}", "mend it") from None
-
-
-def _numbers(fields: Sequence[str], words: Sequence[str]) -> list[float]:
-    return [_number(float, field, word) for field, word in zip(fields, words, strict=True)]

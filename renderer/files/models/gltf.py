@@ -22,13 +22,12 @@ from renderer.files.models.gltf_file import (
     TRIANGLE_STRIP,
     Accessor,
     Gltf,
-    Node,
     OpenGltf,
     Primitive,
     entry_at,
 )
 from renderer.files.models.gltf_materials import read_materials
-from renderer.files.models.gltf_nodes import PlacedNode, node_matrix, placed_nodes
+from renderer.files.models.gltf_nodes import PlacedNode, placed_nodes
 from renderer.files.models.gltf_numbers import read_numbers, scaled, triangles_of, whole_numbers
 from renderer.files.models.gltf_textures import read_coordinates
 from renderer.files.models.parts import Part, linear_colors
@@ -47,7 +46,6 @@ TYPES = {
     "indices": ("SCALAR",),
 }
 SURFACES = TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN
-INSTANCED = {"TRANSLATION": "VEC3", "ROTATION": "VEC4", "SCALE": "VEC3"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +87,7 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
     file = OpenGltf(path)
     tree = file.tree
     nodes = list(placed_nodes(tree))
-    instances = _instances(file, nodes)
+    instances = _instances(tree, nodes)
     check_count(
         sum(_triangles(tree, entry.primitive) for entry in instances), TRIANGLES, "triangles"
     )
@@ -134,15 +132,14 @@ def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
         yield "points and lines"
 
 
-def _instances(file: OpenGltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
+def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
     """Return every triangle primitive at every node, depth first, in the file's order."""
-    tree, instances = file.tree, list[Instance]()
+    instances: list[Instance] = []
     for placed in nodes:
         number = placed.node.mesh
         if number is None:
             continue
         mesh = entry_at(tree.meshes, number, f"{placed.field}.mesh")
-        matrices = _matrices(file, placed)
         for k, primitive in enumerate(mesh.primitives):
             where = f"meshes[{number}].primitives[{k}]"
             if primitive.mode not in SURFACES:
@@ -152,25 +149,10 @@ def _instances(file: OpenGltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
             if primitive.material is not None:
                 entry_at(tree.materials, primitive.material, f"{where}.material")
             name = placed.node.name or mesh.name
-            instances += [
-                Instance(primitive, name, mesh.name, matrix, where) for matrix in matrices
-            ]
+            instances.append(Instance(primitive, name, mesh.name, placed.matrix, where))
         if len(instances) > OBJECTS:
             raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
     return instances
-
-
-def _matrices(file: OpenGltf, placed: PlacedNode) -> list[NDArray[np.float64]]:
-    """Return world_from_object of each instance of a node's mesh."""
-    if (given := placed.node.extensions.instancing) is None:
-        return [placed.matrix]
-    found = {}
-    for name, kind in INSTANCED.items():
-        if (number := given.attributes.get(name)) is not None:
-            numbers = read_numbers(file, number, (kind,), f"{placed.field}.{name}")
-            found[name.lower()] = scaled(numbers, file, number).tolist()
-    rows = (dict(zip(found, row, strict=True)) for row in zip(*found.values(), strict=False))
-    return [placed.matrix @ node_matrix(Node(**row)) for row in rows]
 
 
 def _accessor(tree: Gltf, number: int | None) -> Accessor | None:

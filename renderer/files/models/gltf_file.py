@@ -27,8 +27,8 @@ Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
 
 TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN = 4, 5, 6
 TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
-LIGHTS, INSTANCING = "KHR_lights_punctual", "EXT_mesh_gpu_instancing"
-READ = (TRANSFORM, WEBP, LIGHTS, INSTANCING, "KHR_mesh_quantization")
+LIGHTS = "KHR_lights_punctual"
+READ = (TRANSFORM, WEBP, LIGHTS, "KHR_mesh_quantization")
 MATERIALS = re.compile(
     "KHR_materials_(?!variants)"
 )  # these change no geometry: gltf_materials.py names what is not shown
@@ -58,16 +58,8 @@ class BufferView(Table):
     byte_stride: Count | None = None
 
 
-class SparsePart(Value, frozen=True):
-    buffer_view: Index
-    byte_offset: Index = 0
-    component_type: int = 0  # of the indices
-
-
 class Sparse(Value, frozen=True):
-    count: Index
-    indices: SparsePart
-    values: SparsePart
+    """Sparse numbers are not read: their presence is an error."""
 
 
 class Accessor(Value, frozen=True):
@@ -165,13 +157,8 @@ class LightIndex(Table):
     light: Index
 
 
-class Instancing(Table):
-    attributes: dict[str, Index]
-
-
 class NodeExtensions(Table):
     light: LightIndex | None = msgspec.field(default=None, name=LIGHTS)
-    instancing: Instancing | None = msgspec.field(default=None, name=INSTANCING)
 
 
 class GltfLight(Table):

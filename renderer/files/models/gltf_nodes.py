@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.files.cameras.rotations import rotation_of
 from renderer.files.models.gltf_file import Gltf, Node, entry_at
 from renderer.system.errors import LucidaError
 
@@ -57,15 +58,8 @@ def node_matrix(node: Node) -> NDArray[np.float64]:
         matrix = np.array(node.matrix).reshape(4, 4).T
         matrix[3] = 0, 0, 0, 1
         return matrix
-    rotation = np.asarray(node.rotation)
-    rotation = rotation / (np.abs(rotation).max() or 1.0)  # so that no square leaves float64
-    x, y, z, w = rotation / (np.linalg.norm(rotation) or 1.0)
+    x, y, z, w = node.rotation
     matrix = np.eye(4)
-    matrix[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    matrix[:3, :3] *= node.scale
+    matrix[:3, :3] = rotation_of([w, x, y, z]) * node.scale
     matrix[:3, 3] = node.translation
     return matrix
