@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
-from renderer.system.errors import one_line, shortened
+from lucida.renderer.system.errors import one_line, shortened
 
 TALKED_ABOUT = 3
 LONGEST = 400  # characters of a text from a file
