@@ -14,6 +14,7 @@ import threading
 from importlib import import_module
 from pathlib import Path
 
+import lucida
 from lucida.renderer.system.errors import LucidaError
 
 _NICENESS = 2  # the window has priority
@@ -58,7 +59,7 @@ def import_path() -> list[str]:
         here = os.path.realpath(os.getcwd())
     except OSError:  # it was deleted
         here = ""
-    root = os.path.realpath(Path(__file__).parents[2])
+    root = os.path.realpath(Path(lucida.__file__).parents[1])
     folders = [os.path.join(here, folder) for folder in sys.path]
     return [
         folder

@@ -43,9 +43,9 @@ def installation(tmp_path: Path) -> Path:
     """Copy the package, which cannot cache beside itself here: the folder's name is taken. Beside
     it lies a module with a kernel that takes no time to compile.
     """
-    package = tmp_path / "installation" / "renderer"
-    source = Path(renderer.__file__).parent
-    shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
+    package = tmp_path / "installation" / "lucida" / "renderer"
+    source = Path(lucida.__file__).parent
+    shutil.copytree(source, package.parent, ignore=shutil.ignore_patterns("__pycache__"))
     (package / "trace" / "__pycache__").write_text("")
     (package.parent / "small_kernel.py").write_text(SMALL_KERNEL)
     return package
