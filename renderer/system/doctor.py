@@ -19,9 +19,9 @@ from concurrent.futures import ThreadPoolExecutor
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib import import_module, metadata
+from importlib.resources import files
 from pathlib import Path
 
-import lucida
 from lucida.renderer.raster.contexts import candidates
 from lucida.renderer.raster.packages import remedy
 from lucida.renderer.system.child import child_command, interpreter
@@ -168,7 +168,7 @@ def _is_on_the_path() -> str:
 
 def _is_not_hidden() -> str:
     """Look for the user's files that a Python started in this folder imports in place of ours."""
-    ours = Path(lucida.__file__).parents[1]
+    ours = Path(str(files("lucida"))).resolve()
     hiding = [
         str(file)
         for file in (Path("lucida.py"), Path("lucida", "__init__.py"))
