@@ -63,9 +63,11 @@ def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
     if tree.animations:
         yield "animations are not used: the cameras are where their nodes are at rest"
     cameras = tree.cameras if isinstance(tree.cameras, list) else []
-    for number in range(len(cameras)):
+    for number, camera in enumerate(cameras):
         if number not in shown:
             yield f"cameras[{number}] is not used: no node of the scene holds it"
+        elif left := [*camera.get("extensions", ()), *["extras"] * bool(camera.get("extras"))]:
+            yield f"cameras[{number}] is shown without {', '.join(left)}"
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:

@@ -101,6 +101,7 @@ def read(given: Given, options: Options) -> CameraSet:
     origin = options.pixel_origin or "corner"
     shared = {name: value for name, value in table.items() if name in _OPTICAL}
     optics: dict[str, _Optics] = {}  # by all the values that determine them
+    disagree = False
     cameras = []
     for i, frame in enumerate(frames):
         if not isinstance(frame, dict):
@@ -110,7 +111,9 @@ def read(given: Given, options: Options) -> CameraSet:
             own = {name: value for name, value in frame.items() if name in _OPTICAL}
             key = repr(own) if own else ""
             if key not in optics:
-                optics[key] = _optics({**shared, **own}, size, origin, options)
+                optical = {**shared, **own}
+                optics[key] = _optics(optical, size, origin, options)
+                disagree = disagree or _disagree(optical)
             name = frame.get("file_path", table.get("file_path", ""))
             cameras.append(_camera(pose, optics[key], name, folder))
         except LucidaError as error:
@@ -120,6 +123,8 @@ def read(given: Given, options: Options) -> CameraSet:
     told += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         told.append("transform_matrix is no rotation, and held as it is")
+    if disagree:
+        told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     notes = notes_on(_unused(table, frames), _HARMLESS, _MEANINGS, _REFUSED)
     notes = (sizing, *notes) if sizing else notes
     return CameraSet("nerf", tuple(cameras), (*told, *notes), notes=notes)
@@ -255,6 +260,15 @@ def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _
         with errors_as("fl_x"):
             check_for_lens(np.diag([fx, fy, 1.0]))
     return _Optics(size, viewport, signs, lens)
+
+
+def _disagree(table: Table) -> bool:
+    """Return True if both forms of the focal length are given and differ by more than 1 %."""
+    angle = table.get("camera_angle_x")
+    if not isinstance(angle, float) or not 0 < angle < math.pi or not {"fl_x", "w"} <= table.keys():
+        return False
+    fx = table["w"] / 2 / math.tan(angle / 2)
+    return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
 
 
 def _half_of_square(table: Table) -> float:

@@ -58,8 +58,16 @@ class BufferView(Table):
     byte_stride: Count | None = None
 
 
+class SparsePart(Value, frozen=True):
+    buffer_view: Index
+    byte_offset: Index = 0
+    component_type: int = 0  # of the indices
+
+
 class Sparse(Value, frozen=True):
-    """Sparse numbers are not read: their presence is an error."""
+    count: Index
+    indices: SparsePart
+    values: SparsePart
 
 
 class Accessor(Value, frozen=True):

@@ -49,12 +49,13 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
     try:
         if len(last) < 3 or len({corner.count("/") for corner in last}) > 1:
             raise ValueError
-        vertices, normals = _rows(lines, "v"), _rows(lines, "vn")
+        (vertices, most), (normals, _) = _rows(lines, "v"), _rows(lines, "vn")
         columns, counts = _corners(lines)
         if vertices.shape[1] < 3 or not _are_within(columns[0], len(vertices)):
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
+    _note_vertices(vertices, most, images)
     places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
     if normals.shape[1] != 3:
@@ -86,6 +87,16 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
     return parts
 
 
+def _note_vertices(vertices: Floats, most: int, images: ModelImages) -> None:
+    """Note numbers behind the coordinates of vertices that are not used: colours that only some
+    have, and weights, which are for curves. most: numbers that a vertex has.
+    """
+    if vertices.shape[1] < 6 <= most:
+        images.note("not read: colours, which only some vertices have", "OBJ")
+    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
+        images.note("not read: the weights of vertices", "OBJ")
+
+
 def _by_coordinates(
     named: list[Named], has_uv: NDArray[np.bool_], images: ModelImages
 ) -> Iterator[Named]:
@@ -107,23 +118,25 @@ def _by_coordinates(
 def _coordinates(lines: Lines) -> Floats:
     """Return texture coordinates, of two numbers or more; none if they cannot be read."""
     with contextlib.suppress(ValueError):
-        found = _rows(lines, "vt")
+        found, _ = _rows(lines, "vt")
         if found.shape[1] >= 2:
             return found
     return np.zeros((0, 0))
 
 
-def _rows(lines: Lines, kind: str) -> Floats:
-    """Return the numbers of all lines of a kind, as many of each as the shortest line has."""
+def _rows(lines: Lines, kind: str) -> tuple[Floats, int]:
+    """Return the numbers of all lines of a kind, as many of each as the shortest line has; and how
+    many the longest one has.
+    """
     text = lines.of(kind)
     begins, counts = numerals.words(text)
     values = numerals.floats(text, begins)
     if not len(counts):
-        return np.zeros((0, 0))
-    width = int(counts.min())
-    if (counts == width).all():
-        return values.reshape(-1, width)
-    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)]
+        return np.zeros((0, 0)), 0
+    width, most = int(counts.min()), int(counts.max())
+    if width == most:
+        return values.reshape(-1, width), most
+    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)], most
 
 
 def _corners(lines: Lines) -> tuple[list[Ints], Ints]:

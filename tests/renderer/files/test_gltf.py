@@ -192,6 +192,21 @@ def test_gltf_modes(mode: int, tmp_path: Path) -> None:
             load_gltf(gltf(primitive | {"mode": other}), tmp_path)
 
 
+@pytest.mark.parametrize("has_view", [True, False])
+def test_gltf_sparse_numbers_are_put_in(has_view: bool, tmp_path: Path) -> None:
+    moved = np.array([[7, 0, 0], [0, 7, 0]], "<f4")
+    blobs = np.array([0, 2], "<u2").tobytes(), moved.tobytes()
+    tree = gltf({"POSITION": AROUND[:3]}, blobs=blobs)
+    indices = {"bufferView": 1, "componentType": 5123}
+    tree["accessors"][0]["sparse"] = {"count": 2, "indices": indices, "values": {"bufferView": 2}}
+    if not has_view:
+        del tree["accessors"][0]["bufferView"]
+    mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
+    np.testing.assert_array_equal(
+        mesh.vertices[mesh.faces], [[[7, 0, 0], AROUND[1] * has_view, [0, 7, 0]]]
+    )
+
+
 def test_a_model_s_scene_flattens(tmp_path: Path) -> None:
     flat = flatten(load_gltf(gltf(), tmp_path))
     np.testing.assert_array_equal(flat.bounds, [[0, 0, 0], [1, 1, 0]])

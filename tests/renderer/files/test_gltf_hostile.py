@@ -15,6 +15,7 @@ from test_scene_hostile import refusal, write
 
 TREE = gltf(nodes=[{"mesh": 0}], scene=0)
 BUFFER = base64.b64decode(TREE["buffers"][0]["uri"].partition(",")[2])
+PRIMITIVE = "meshes.0.primitives.0"
 
 
 def changed(changes: dict[str, Any]) -> dict[str, Any]:
@@ -30,6 +31,16 @@ def changed(changes: dict[str, Any]) -> dict[str, Any]:
         else:
             entry[last] = value
     return tree
+
+
+def sparse(
+    count: int = 3, kind: int = 5123, view: int = 1, values: int = 0, indices_at: int = 0
+) -> dict[str, Any]:
+    """Return the changes for sparse positions. indices_at: where the view of the indices begins."""
+    indices = {"bufferView": view, "componentType": kind}
+    given = {"count": count, "indices": indices, "values": {"bufferView": values}}
+    at = {"bufferViews.1.byteOffset": 36 - indices_at}
+    return {"accessors.0.sparse": given, f"{PRIMITIVE}.indices": None} | at
 
 
 OUTSIDE = "is not in the folder of what names it"
@@ -72,7 +83,10 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"accessors.1.count": 10**7}, "accessors[1]: declares 10000000 elements"),
     ({"accessors.0.count": -1}, "accessors[0].count: expected a whole number >= 0"),
     ({"accessors.0.bufferView": None}, "accessors[0]: has no bufferView"),
-    ({"accessors.0.sparse": {"count": 1}}, "accessors[0]: is sparse, which is not read"),
+    ({"accessors.0.sparse": {"count": 1}}, "accessors[0].sparse.indices: is missing"),
+    (sparse(count=9), "accessors[0].sparse.indices: declares 9 elements"),
+    (sparse(kind=5126), "accessors[0].sparse.indices: declares 3 elements in a view of 6 bytes"),
+    (sparse(indices_at=24), "accessors[0].sparse.indices: names element"),
     ({"accessors.0.type": "VEC9"}, "accessors[0]: is VEC9 of type 5126"),
     ({"accessors.0.componentType": 1}, "accessors[0]: is VEC3 of type 1"),
     ({"accessors.1.componentType": 5126}, "accessors[1]: declares 3 elements in a view of 6"),

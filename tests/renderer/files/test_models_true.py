@@ -232,6 +232,16 @@ def test_bytes_behind_the_triangles_of_an_stl_cost_a_line(tmp_path: Path) -> Non
 LIGHTS = "KHR_lights_punctual"
 
 
+def test_colours_of_some_vertices_and_weights_cost_a_line(tmp_path: Path) -> None:
+    face, rest = "f 1 2 3\n", "v 1 0 0\nv 0 1 0\n"
+    some = loaded(tmp_path, "t.obj", f"v 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0\n{face}")
+    assert note(some) == "OBJ: not read: colours, which only some vertices have"
+    weights = loaded(tmp_path, "t.obj", f"v 0 0 0 0.5\nv 1 0 0 1\nv 0 1 0 1\n{face}")
+    assert note(weights) == "OBJ: not read: the weights of vertices"
+    assert not loaded(tmp_path, "t.obj", f"v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n{face}").notes
+    assert not loaded(tmp_path, "t.obj", f"v 0 0 0\n{rest}{face}").notes
+
+
 def lit(tmp_path: Path, light: dict[str, Any], **node: Any) -> Scene:
     """Load a triangle with a light at (0, 0, 2)."""
     shines = {"extensions": {LIGHTS: {"light": 0}}, "translation": [0.5, 0.5, 2]} | node

@@ -110,3 +110,10 @@ def test_other_lenses_and_axes_of_instant_ngp_are_told(field: str) -> None:
     table = {"camera_angle_x": 0.7, "frames": [{"transform_matrix": POSE}], field: 1}
     with pytest.raises(LucidaError, match=field):
         pasted(json.dumps(table))
+
+
+@pytest.mark.parametrize(("angle", "told"), [(0.6911, True), (1.5708, False), (4.0, False)])
+def test_two_focal_lengths_that_disagree_are_told(angle: float, told: bool) -> None:
+    table = {"camera_angle_x": angle, "fl_x": 50, "w": 100, "h": 100}
+    found = pasted(json.dumps(table | {"frames": [{"transform_matrix": POSE}]}))
+    assert any("camera_angle_x" in phrase for phrase in found.taken) == told
