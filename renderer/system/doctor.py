@@ -19,11 +19,12 @@ from concurrent.futures import ThreadPoolExecutor
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib import import_module, metadata
+from importlib.resources import files
 from pathlib import Path
 
-from renderer.raster.contexts import candidates
-from renderer.raster.packages import remedy
-from renderer.system.child import child_command, interpreter
+from lucida.renderer.raster.contexts import candidates
+from lucida.renderer.raster.packages import remedy
+from lucida.renderer.system.child import child_command, interpreter
 
 TIMEOUT_S = 60.0  # a driver's first compilation of shaders can take long
 
@@ -96,9 +97,9 @@ def _answer(done: subprocess.CompletedProcess[bytes]) -> tuple[bool, str]:
 
 def _draws(backend: str) -> str:
     """Draw an image of one pixel."""
-    from renderer.camera.camera import Camera
-    from renderer.raster import Rasterizer
-    from renderer.scene.model import Scene, SceneObject, Sphere
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.raster import Rasterizer
+    from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
     scene = Scene((SceneObject(Sphere((0, 0, -3))),))
     with Rasterizer(scene, backend=backend) as rasterizer:
@@ -136,7 +137,7 @@ def _shows() -> str:
 def _compiles() -> str:
     import numba
 
-    from renderer.trace.compile.cache_folder import cache_folder, cache_problem
+    from lucida.renderer.trace.compile.cache_folder import cache_folder, cache_problem
 
     affinity = getattr(os, "sched_getaffinity", None)
     cores = len(affinity(0)) if affinity else os.cpu_count() or 1
@@ -167,11 +168,10 @@ def _is_on_the_path() -> str:
 
 def _is_not_hidden() -> str:
     """Look for the user's files that a Python started in this folder imports in place of ours."""
-    ours = Path(__file__).parents[2]
+    ours = Path(str(files("lucida"))).resolve()
     hiding = [
         str(file)
-        for name in ("app", "renderer", "shaders")
-        for file in (Path(f"{name}.py"), Path(name, "__init__.py"))
+        for file in (Path("lucida.py"), Path("lucida", "__init__.py"))
         if file.exists() and not file.resolve().is_relative_to(ours)
     ]
     if hiding:

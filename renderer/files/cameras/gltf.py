@@ -12,17 +12,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.checks import listed
-from renderer.files.cameras.entries import sized
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
-from renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
-from renderer.files.models.gltf_file import Gltf, parse_gltf
-from renderer.files.models.gltf_nodes import placed_nodes
-from renderer.scene.limits import OBJECTS
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.checks import listed
+from lucida.renderer.files.cameras.entries import sized
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
+from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
+from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
+from lucida.renderer.files.models.gltf_nodes import placed_nodes
+from lucida.renderer.scene.limits import OBJECTS
+from lucida.renderer.system.errors import LucidaError
 
 # For a camera without clip planes: in units of the viewport's distance (parallel: its height).
 NEAR, FAR = 1e-3, 1e3
@@ -47,16 +47,12 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
         found = gltf_camera(tree, placed)
         shown.add(placed.node.camera)
-        called = repr(found.name or len(cameras))
         camera, fit = found.camera, not found.has_aspect
         if fit and options.size is not None:
             camera = _as_wide(camera, options.size[0] / options.size[1])
         elif fit:
-            taken.append(
-                f"{called} has no aspectRatio: its yfov is that of an image wider than high"
-            )
-        if found.straightened:
-            taken.append(f"the node of {called} is {found.straightened}, its camera is not")
+            name = found.name or len(cameras)
+            taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
         cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
