@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from renderer.editing.outline import OutlineRow
-    from renderer.files.models.repairs import Repair
     from renderer.scene import Material, Scene, Shape
 
 NAME = "scene"
@@ -73,7 +72,7 @@ def _named(scene: Scene) -> list[str]:
     return lines
 
 
-def contents(scene: Scene, mended: list[Repair]) -> dict[str, Any]:
+def contents(scene: Scene, mended: list[str]) -> dict[str, Any]:
     """Return all contents as JSON values. mended: the repairs made while reading the scene."""
     import numpy as np
 

@@ -15,7 +15,7 @@ from app.instruments.laboratory.view import LaboratoryView
 from app.instruments.mistakes.view import MistakesView
 from app.instruments.objects.view import InspectorView, ObjectsView
 from app.instruments.outside.instrument import Outside
-from app.instruments.poses.instrument import Poses
+from app.instruments.poses.view import PosesView
 from app.instruments.probe.view import ProbeView
 from app.instruments.stepper.instrument import Stepper
 from app.lecture.instrument import LectureInstrument
@@ -35,7 +35,7 @@ INSTRUMENTS: tuple[type[Instrument], ...] = (
     LaboratoryView,
     MistakesView,
     YourCode,
-    Poses,
+    PosesView,
     LectureInstrument,
 )
 

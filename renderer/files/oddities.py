@@ -11,8 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 import trimesh
 
-from renderer.files.models.parts import LARGEST_UV
-from renderer.files.models.repairs import Repair
 from renderer.files.schema import DiskTable, RectangleTable
 from renderer.scene.model import Mesh, Scene
 from renderer.scene.normals import merge_positions
@@ -34,9 +32,9 @@ class Oddity:
     object: int | None = None
 
 
-def oddities(scene: Scene, repairs: Sequence[Repair] = ()) -> tuple[Oddity, ...]:
+def oddities(scene: Scene, repairs: Sequence[str] = ()) -> tuple[Oddity, ...]:
     """Return the oddities of a scene. repairs: those made when its models were read."""
-    found = [_repaired(repair) for repair in repairs]
+    found = [Oddity("repaired", f"was mended as it was read: {repair}") for repair in repairs]
     surfaces = _surfaces(scene)
     known: dict[tuple[int, int], list[tuple[str, str]]] = {}
     for number, entry in enumerate(scene.objects):
@@ -80,18 +78,6 @@ def _surfaces(scene: Scene) -> set[int]:
             found.add(number)
         number += len(entry.objects)
     return found
-
-
-def _repaired(repair: Repair) -> Oddity:
-    counts = (
-        (repair.flat_faces, "face", "without an area, left out"),
-        (repair.repeated_faces, "face", "with another one's corners, left out"),
-        (repair.lost_normals, "normal", "NaN or infinite, flat there"),
-        (repair.lost_places, "texture coordinate", f"NaN or beyond {LARGEST_UV:g}, 0 is taken"),
-    )
-    parts = [f"{_counted(count, what)} {how}" for count, what, how in counts if count]
-    name = f"{repair.name!r}: " if repair.name else ""
-    return Oddity("repaired", f"was mended as it was read: {name}{'; '.join(parts)}")
 
 
 def _counted(count: int, one: str) -> str:

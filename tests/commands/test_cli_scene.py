@@ -80,9 +80,9 @@ def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
     faces = "f 1//2 2//2 3//2\nf 2//2 3//2 1//2\nf 2//2 1//1 4//2\nf 1//2 1//2 4//2\n"
     (tmp_path / "bad.obj").write_text(corners + faces)
     (odd, *rest) = told(capsys, tmp_path / "bad.obj")["odd"]
-    assert odd["kind"] == "repaired" and "1 face without an area, left out" in odd["text"]
-    assert "1 face with another one's corners, left out" in odd["text"]
-    assert "1 normal NaN or infinite" in odd["text"]
+    assert odd["kind"] == "repaired" and "faces without an area, left out: 1" in odd["text"]
+    assert "faces with another one's corners, left out: 1" in odd["text"]
+    assert "normals NaN or infinite, flat there: 1" in odd["text"]
     assert [entry["kind"] for entry in rest] == ["open"]
 
 

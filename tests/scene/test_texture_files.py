@@ -351,4 +351,4 @@ def test_coordinates_that_are_no_numbers_are_told(tmp_path: Path) -> None:
     with repairs() as mended:
         scene = load_scene(tmp_path / "m.obj")
     told = oddities(scene, mended)[0].text
-    assert "2 texture coordinates NaN or beyond 1e+06, 0 is taken" in told
+    assert "texture coordinates NaN or beyond 1e+06, 0 is taken: 2" in told

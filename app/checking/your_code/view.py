@@ -198,18 +198,14 @@ class YourCodeView(Instrument):
         )
         wish, canvas = panel.head(told, report, host.fonts)
         if canvas != options.canvas:
-            host.apply(
-                host.state.with_options(replace(host.state.options.your_code, canvas=canvas))
-            )
+            host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
         self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
-            host.apply(
-                host.state.with_options(replace(host.state.options.your_code, task=clicked.name))
-            )
+            host.edit(replace(host.options.your_code, task=clicked.name))
         self._pictures.follow(host, report)
         marked = marked_pixel(host, report)
         room = imgui.get_content_region_avail()

@@ -36,9 +36,7 @@ class CostsView(Instrument):
             for name in COSTS:
                 follow(imgui.calc_text_size(name).x + 1.5 * imgui.get_frame_height())
                 if radio_button(name, unit == name):
-                    host.apply(
-                        host.state.with_options(replace(host.state.options.costs, against=name))
-                    )
+                    host.edit(replace(host.options.costs, against=name))
         room = imgui.get_content_region_avail()
         if not host.has_tools:
             plots.draw(unit, room)

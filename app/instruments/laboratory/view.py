@@ -134,11 +134,7 @@ class LaboratoryView(Instrument):
             place = np.clip(((mouse.x, mouse.y) - first) / (last - first), 0, 1)
         elif any(steps):
             place = np.clip(place + KEY_STEP * np.array(steps), 0, 1)
-            host.apply(
-                host.state.with_options(
-                    replace(host.state.options.laboratory, point=tuple(place.tolist()))
-                )
-            )
+            host.edit(replace(host.options.laboratory, point=tuple(place.tolist())))
         return float(place[0]), float(place[1])
 
 

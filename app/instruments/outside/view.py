@@ -248,7 +248,7 @@ class OutsideView(Instrument):
         if pixel is not None:
             if self._mouse.clicked():
                 marked = None if host.state.marked == pixel else pixel
-                host.apply(host.state.with_options(replace(host.state.options, marked=marked)))
+                host.edit(replace(host.options, marked=marked))
             elif not was_dragging:
                 host.hover(self.name, pixel)
         return scope if host.state is begun else self._scope(host, size, origin, extent)

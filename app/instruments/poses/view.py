@@ -60,6 +60,10 @@ class PosesView(Instrument):
 
     name = POSES
     title = "Poses"
+    keyboard = (("arrows in Poses", "another camera; Home, End"),)
+    synonyms = {
+        "Poses": "cameras colmap nerf transforms.json reconstruction photographs data set frusta",
+    }
     space = layout.INSTRUMENTS
 
     def __init__(self, views: Sequence[Instrument]) -> None:
@@ -79,7 +83,6 @@ class PosesView(Instrument):
         self._upload = Memo(_upload)
         self._scrolled: int | None = None  # the chosen one that was brought into sight
         self._seen = False
-        self._asked: PoseWish = ""
 
     def give(self, window: Host, poses: PoseSet) -> None:
         """Show the set that the state names."""
@@ -97,10 +100,6 @@ class PosesView(Instrument):
         window.change(state)
         self.give(window, poses)
 
-    def ask(self, wish: PoseWish) -> None:
-        """Ask for what a button or a key would do, in the next frame in which the view is drawn."""
-        self._asked = wish
-
     @property
     def settled(self) -> bool:
         return not self._seen or not (self._reader.busy or self._photographs.busy)
@@ -116,7 +115,6 @@ class PosesView(Instrument):
 
     def unseen(self, host: Host) -> None:
         self._seen = False
-        self._asked = ""
         self._hide()
 
     def draw(self, host: Host) -> None:
@@ -148,8 +146,7 @@ class PosesView(Instrument):
         else:
             wish = panel.waiting(name, self._reader.time_s)
             host.animate()
-        self._grant(host, self._asked or panel.keys() or wish)
-        self._asked = ""
+        self._grant(host, panel.keys() or wish)
         if self.poses is None:
             self._hide()
 

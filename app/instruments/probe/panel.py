@@ -16,7 +16,6 @@ from app.instruments.outside.growing import lit_in
 from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
 from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
 from app.state.app_state import AppState
-from app.state.options.probe import Section
 from app.state.options.shared import Notation, Pixel
 from app.ui import palettes, theme
 from app.ui.checks import checkbox
@@ -32,8 +31,6 @@ from renderer.images.display import encode_srgb
 from renderer.scene.model import Color
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
-SHORT_EM = 24.0  # a ray alone in less width, in which formulas take many rows, is without
-LEFT_OUT = "camera direction", "range"
 MOST_ALSO = 3  # further intersections of an object that are listed
 COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
@@ -41,12 +38,6 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Python", as_python),
     ("Julia", as_julia),
 )
-SECTIONS: dict[Section, str] = {
-    "ray": "Ray",
-    "objects": "Objects along the ray",
-    "hit": "Hit",
-    "colour": "Colour",
-}
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
 
@@ -78,7 +69,6 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(replace(state.options, one_based=one_based))
-    state = _section_field(state)
     pins = state.options.probe.pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -154,22 +144,6 @@ def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: In
     return state.with_options(replace(state.options, marked=(row, column)))
 
 
-def _section_field(state: AppState) -> AppState:
-    names: dict[Section, str] = {"all": "all", **SECTIONS}
-    now = state.options.probe.section
-    widest = button_width(f"Show: {names['all']}")
-    follow(widest)
-    if imgui.button(f"Show: {now}###section", ImVec2(max(widest, button_width(f"Show: {now}")), 0)):
-        imgui.open_popup("section")
-    imgui.set_item_tooltip("which part of the reading is shown")
-    if imgui.begin_popup("section"):
-        for key, text in names.items():
-            if imgui.menu_item(text, "", key == now)[0]:
-                state = state.with_options(replace(state.options.probe, section=key))
-        imgui.end_popup()
-    return state
-
-
 # The reading.
 
 _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
@@ -181,35 +155,21 @@ def reading_panel(
     notation: Notation,
     fonts: Fonts,
     stage: str = "",
-    section: Section = "all",
 ) -> None:
-    """Draw the reading.
-
-    stage: of the growing formula, whose term is pointed out. section: the only one to draw.
-    """
-    alone = section != "all"
-
-    def shown(key: Section) -> bool:
-        return section == key if alone else _section(SECTIONS[key], fonts)
-
+    """Draw the reading. stage: of the growing formula, whose term is pointed out."""
     ray, hit, color = _written(reading, indexing, notation)
-    if shown("ray"):
-        em = imgui.get_font_size()
-        is_short = alone and imgui.get_content_region_avail().x < SHORT_EM * em
-        lines = (
-            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation)))
-            for one in ray
-            if not (is_short and one.key in LEFT_OUT)
+    if _section("Ray", fonts):
+        _lines(
+            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
         )
-        _lines(lines, named=not alone)
     if reading.is_outside:
         wrapped(OUTSIDE, theme.legible(theme.MARK))
         return
-    if shown("objects"):
+    if _section("Objects along the ray", fonts):
         _table(reading, fonts)
-    if reading.hit is not None and shown("hit"):
+    if reading.hit is not None and _section("Hit", fonts):
         _lines(hit)
-    if shown("colour"):
+    if _section("Colour", fonts):
         _lines(color, swatches=reading)
 
 
@@ -220,16 +180,15 @@ def _section(name: str, fonts: Fonts) -> bool:
     return opened
 
 
-def _lines(lines: Iterable[Line], swatches: Reading | None = None, named: bool = True) -> None:
-    """Draw the lines. Names go next to the formulas if there is room, else above them, if named."""
+def _lines(lines: Iterable[Line], swatches: Reading | None = None) -> None:
+    """Draw the lines. Names go next to the formulas if there is room, else above them."""
     size_px = imgui.get_font_size()
     beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
     if not beside:
         for number, line in enumerate(lines):
             if number:
                 imgui.dummy(ImVec2(0, 0))
-            if named:
-                _name(line, swatches)
+            _name(line, swatches)
             imgui.indent(0.6 * size_px)
             _formula(line, size_px)
             imgui.unindent(0.6 * size_px)

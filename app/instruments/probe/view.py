@@ -101,9 +101,7 @@ class ProbeView(Instrument):
         shown = None
         if reading is not None and not reading.is_outside:
             shown = reading.bytes, reading.display
-        section = host.state.options.probe.section
-        if section in ("all", "colour"):
-            panel.color_row(shown, host.fonts)
+        panel.color_row(shown, host.fonts)
         imgui.separator()
         # Formulas keep their rows whether the scrollbar is there or not.
         wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
@@ -119,9 +117,7 @@ class ProbeView(Instrument):
             options, position = host.state.options, host.state.options.outside.formula
             stages = stages_of(host.renderers.camera(host.state))
             stage = stage_at(position, stages) if position is not None else ""
-            panel.reading_panel(
-                reading, options.indexing, options.notation, host.fonts, stage, section
-            )
+            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

@@ -98,7 +98,7 @@ class StepperView(Instrument):
         self._uploads.begin_frame()
         options = host.state.options.stepper
         asked = controls(Asked(options, host.state.options.language), self.playing)
-        host.apply(host.state.with_options(replace(host.state.options, language=asked.language)))
+        host.edit(replace(host.options, language=asked.language))
         wish = self._asked or keys() or asked.wish
         self._asked = ""
         if asked.options != options:

@@ -47,16 +47,12 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
         found = gltf_camera(tree, placed)
         shown.add(placed.node.camera)
-        called = repr(found.name or len(cameras))
         camera, fit = found.camera, not found.has_aspect
         if fit and options.size is not None:
             camera = _as_wide(camera, options.size[0] / options.size[1])
         elif fit:
-            taken.append(
-                f"{called} has no aspectRatio: its yfov is that of an image wider than high"
-            )
-        if found.straightened:
-            taken.append(f"the node of {called} is {found.straightened}, its camera is not")
+            name = found.name or len(cameras)
+            taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
         cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)

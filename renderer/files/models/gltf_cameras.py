@@ -26,7 +26,6 @@ from renderer.system.errors import LucidaError, under
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
 UNCLIPPED = "lucida_unclipped"
-SKEWED = 1e-5  # a node's axes are skewed if the cosine between them is larger
 
 
 Positive = Annotated[float, msgspec.Meta(gt=0)]
@@ -59,13 +58,11 @@ class FoundCamera:
     """A camera of the file.
 
     has_aspect: the viewport has the file's own aspect ratio; otherwise it is 1.
-    straightened: the part of its node's transform that the camera does not have; "" for none.
     """
 
     name: str
     camera: Camera
     has_aspect: bool
-    straightened: str
 
 
 def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ...]:
@@ -94,12 +91,12 @@ def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
         fields = msgspec.convert(given, GltfCamera)
     except msgspec.ValidationError as error:
         raise explained(str(error)).within(field) from None
-    eye, (u, v, w), straightened = _pose(placed)
+    eye, (u, v, w) = _pose(placed)
     name = placed.node.name or fields.name
     with under(field):
         lens, has_aspect = _lens(fields)
         camera = Camera(eye=eye, u=u, v=v, w=w, **lens).orthonormalized()
-    return FoundCamera(name, _unclipped(camera, fields.extras), has_aspect, straightened)
+    return FoundCamera(name, _unclipped(camera, fields.extras), has_aspect)
 
 
 def _lens(fields: GltfCamera) -> tuple[dict[str, Any], bool]:
@@ -136,9 +133,9 @@ def _unclipped(camera: Camera, extras: Any) -> Camera:
     return camera
 
 
-def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64], str]:
-    """Return the eye, the unit directions u, v, w, right-handed, and what was dropped for that: a
-    camera's axes are not scaled, mirrored or skewed like its node.
+def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64]]:
+    """Return the eye, and the unit directions u, v, w, right-handed: a camera's axes are not
+    scaled or mirrored like its node.
     """
     linear = placed.matrix[:3, :3]
     lengths = np.linalg.norm(linear, axis=0)
@@ -146,9 +143,6 @@ def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64], str]:
         problem = "is scaled to nothing, or beyond all numbers, and holds a camera"
         raise LucidaError(placed.field, problem, "give it a scale other than 0")
     axes = (linear / lengths).T
-    mirrored = volume(*axes) < 0
-    if mirrored:
+    if volume(*axes) < 0:
         axes[0] *= -1
-    skewed = np.abs(axes @ axes.T - np.eye(3)).max() > SKEWED
-    left_out = [word for word, is_so in (("mirrored", mirrored), ("skewed", skewed)) if is_so]
-    return placed.matrix[:3, 3].tolist(), axes, " and ".join(left_out)
+    return placed.matrix[:3, 3].tolist(), axes

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from renderer.camera.checks import LARGEST
 from renderer.files.models.polygons import check_corners
-from renderer.files.models.repairs import Repair, note_repair
+from renderer.files.models.repairs import note_repairs
 from renderer.images.display import from_srgb
 from renderer.scene.boxes import extent
 from renderer.scene.model import BRIGHTEST, Material, Mesh
@@ -81,14 +81,14 @@ def build_mesh(part: Part) -> Mesh | None:
     sound, repeats = _visible(positions, faces, merged, part.has_backs)
     keep = sound & ~repeats
     lost = 0 if normals is None else int(np.count_nonzero(~np.isfinite(normals).all(axis=1)))
-    note_repair(
-        Repair(
-            part.name,
-            int(np.count_nonzero(~sound)),
-            int(np.count_nonzero(sound & repeats)),
-            lost,
-            lost_places,
-        )
+    note_repairs(
+        part.name,
+        {
+            "faces without an area, left out": int(np.count_nonzero(~sound)),
+            "faces with another one's corners, left out": int(np.count_nonzero(sound & repeats)),
+            "normals NaN or infinite, flat there": lost,
+            f"texture coordinates NaN or beyond {LARGEST_UV:g}, 0 is taken": lost_places,
+        },
     )
     faces = faces[keep]
     if not len(faces):
