@@ -29,7 +29,7 @@ setup:
 # -P: not what else lies in this folder, a numpy.py for instance.
 run:
 	@sh scripts/setup.sh
-	@$(PYTHON_IN_VENV) -P -m app $(ARGS)
+	@$(PYTHON_IN_VENV) -P -m lucida $(ARGS)
 
 # Two processes more than processors, each with whole files or classes. ARGS="-n 0": all in one process.
 # Nothing may follow: pytest's closing line is the last.
@@ -42,28 +42,28 @@ quick: setup
 	@sh scripts/lint.sh
 	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope $(addprefix tests/,$(QUICK)) $(ARGS)
 
-# What takes too long for each change: random events, mutations and what else is in tests/attack.
+# What takes too long for each change: random events, mutations and what else is in tools/attack.
 attack: setup
-	@$(PYTHON_IN_VENV) -m tests.attack $(ARGS)
+	@$(PYTHON_IN_VENV) -m tools.attack $(ARGS)
 
 # In .venv-bench, which has the peers and sees the packages of .venv.
 bench: setup
-	@$(PYTHON_IN_VENV) -m tests.peer_environment bench
-	@.venv-bench/bin/python -m tests.benchmarks $(ARGS)
+	@$(PYTHON_IN_VENV) -m tools.peer_environment bench
+	@.venv-bench/bin/python -m tools.benchmarks $(ARGS)
 
 # The same for the formats of cameras, in .venv-conformance.
 conformance: setup
-	@$(PYTHON_IN_VENV) -m tests.peer_environment conformance
-	@.venv-conformance/bin/python -m tests.conformance $(ARGS)
+	@$(PYTHON_IN_VENV) -m tools.peer_environment conformance
+	@.venv-conformance/bin/python -m tools.conformance $(ARGS)
 
 install-check: setup
-	@$(PYTHON_IN_VENV) -m tests.installing $(ARGS)
+	@$(PYTHON_IN_VENV) -m tools.installing $(ARGS)
 
 # The widget in a browser, in .venv-notebooks.
 notebooks:
 	@sh scripts/setup.sh tests
-	@$(PYTHON_IN_VENV) -m tests.peer_environment notebooks
-	@.venv-notebooks/bin/python -m tests.notebooks $(ARGS)
+	@$(PYTHON_IN_VENV) -m tools.peer_environment notebooks
+	@.venv-notebooks/bin/python -m tools.notebooks $(ARGS)
 
 pictures: setup
 	@$(PYTHON_IN_VENV) docs/draw_window.py $(ARGS)

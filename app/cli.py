@@ -14,10 +14,10 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from app.commands import COMMANDS, WITHOUT_FILE, scenes, view
-from app.commands.arguments import TRACEBACK_VARIABLE, Parser
-from app.window.process import interrupt_between_imports, open_streams
-from renderer.system.errors import LucidaError, one_line, shortened
+from lucida.app.commands import COMMANDS, WITHOUT_FILE, scenes, view
+from lucida.app.commands.arguments import TRACEBACK_VARIABLE, Parser
+from lucida.app.window.process import interrupt_between_imports, open_streams
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 FAILED = 2
 INTERRUPTED = 128 + signal.SIGINT
@@ -92,8 +92,8 @@ def _check_is_no_command(arguments: list[str]) -> None:
     name = arguments[0] if arguments else ""
     if not re.fullmatch(r"[A-Za-z_][A-Za-z_-]*", name) or os.path.lexists(name):
         return
-    from renderer.files.load import BUILTIN_SCENES
-    from renderer.files.reading import close_matches
+    from lucida.renderer.files.load import BUILTIN_SCENES
+    from lucida.renderer.files.reading import close_matches
 
     commands = [command.NAME for command in COMMANDS]
     close = close_matches(name, [*BUILTIN_SCENES, *commands])

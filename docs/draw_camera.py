@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from renderer import Camera
+from lucida import Camera
 
 SIZE = (860, 430)
 U, V, W, RAY, MARK = "#D55E00", "#009E73", "#0072B2", "#E69F00", "#F0E442"

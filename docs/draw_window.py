@@ -16,15 +16,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from app.instruments.objects.choosing import choose, rows_of
-from app.lecture.reading import BUILTIN, load_lecture
-from app.state.app_state import AppState
-from app.ui import layout
-from app.window.platform import start_platform
-from app.window.start import first_state
-from app.window.viewer import WindowRun, save_png
-from renderer.camera.lenses import Lens
-from renderer.files import load_scene
+from lucida.app.instruments.objects.choosing import choose, rows_of
+from lucida.app.lecture.reading import BUILTIN, load_lecture
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import layout
+from lucida.app.window.platform import start_platform
+from lucida.app.window.start import first_state
+from lucida.app.window.viewer import WindowRun, save_png
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files import load_scene
 
 FOLDER = Path(__file__).parent
 LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are HelloImGui's own

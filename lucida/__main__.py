@@ -1,4 +1,4 @@
-"""`lucida`, and `python -m app`.
+"""`lucida`, and `python -m lucida`.
 
 Runs the process until the command line is imported, which takes a while: Ctrl-C may come earlier.
 """
@@ -16,10 +16,10 @@ def main() -> int:
     # The matrices here are small: waking other threads takes longer than multiplying.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
-        from app.window import process
+        from lucida.app.window import process
 
         process.interrupt_between_imports()
-        from app.cli import main as run
+        from lucida.app.cli import main as run
 
         process.interrupt_after_imports()
         status = run()

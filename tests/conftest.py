@@ -1,7 +1,7 @@
 """Fixtures that several tests share: an OpenGL platform and a rasterizer on it.
 
 A test that needs OpenGL gets it from here. Where there is none it is skipped with the reason; where
-CI is set it fails. LUCIDA_PLATFORMS names the platforms (tests/attack/platforms.py: each of them);
+CI is set it fails. LUCIDA_PLATFORMS names the platforms (tools/attack/platforms.py: each of them);
 otherwise tests run on the first that works.
 """
 
@@ -11,11 +11,11 @@ import sys
 import pytest
 from hypothesis import settings
 
-from renderer.files import BUILTIN_SCENES, load_scene
-from renderer.raster import Rasterizer
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
-from renderer.trace import Tracer
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.raster import Rasterizer
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace import Tracer
 
 settings.register_profile("lucida", deadline=None, derandomize=bool(os.environ.get("CI")))
 settings.load_profile("lucida")

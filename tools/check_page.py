@@ -2,7 +2,7 @@
 
     lucida lecture --export lecture.html && python -m tools.check_page lecture.html
 
-Needs `npm --prefix tests/page install`. Prints a line for each problem; the exit status is 1 if
+Needs `npm --prefix tests/app/web install`. Prints a line for each problem; the exit status is 1 if
 there was any.
 """
 
@@ -15,7 +15,7 @@ from typing import Any
 
 from tests.support.browser import chromium
 
-AXE = Path(__file__).parents[1] / "tests/page/node_modules/axe-core/axe.min.js"
+AXE = Path(__file__).parents[1] / "tests/app/web/node_modules/axe-core/axe.min.js"
 THEMES = ("dark", "light", "contrast")
 SIZES = ((1280, 720), (1920, 1080), (360, 740), (320, 180))  # the last: 1280x720 at 400 %
 STARTS_MS = 400  # until a figure is there

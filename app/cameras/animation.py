@@ -24,12 +24,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.camera import Camera, Floats, Vector
-from renderer.camera.checks import SMALLEST
-from renderer.camera.lenses import Lens
-from renderer.camera.navigation import depth_of
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Floats, Vector
+from lucida.renderer.camera.checks import SMALLEST
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.camera.navigation import depth_of
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 Number = TypeVar("Number", float, Floats)
 

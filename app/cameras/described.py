@@ -10,13 +10,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.cameras.basis import measures
-from renderer.camera.camera import Camera, Size
-from renderer.camera.lenses import Lens
-from renderer.files.cameras import CameraSet, PosedCamera, format_named
-from renderer.files.cameras.distortion import effect, shift_px
-from renderer.scene.model import View
-from renderer.system.errors import one_line
+from lucida.app.cameras.basis import measures
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras import CameraSet, PosedCamera, format_named
+from lucida.renderer.files.cameras.distortion import effect, shift_px
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import one_line
 
 TOLD = 3  # cameras in a file, and sizes, to list
 ROUNDING = 1e-14  # of a vector's largest component: less is rounding

@@ -8,10 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.cameras.basis import with_component
-from app.state.app_state import AppState
-from renderer.camera.camera import Camera
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.basis import with_component
+from lucida.app.state.app_state import AppState
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.system.errors import LucidaError
 
 BASIS = ("u", "v", "w")
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from renderer.camera.camera import Camera, Vector
-from renderer.camera.lenses import Lens
-from renderer.camera.navigation import switched_projection
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.camera.navigation import switched_projection
 
 NO_LENS = "none: a pinhole"
 

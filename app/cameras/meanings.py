@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.camera import Camera, Floats
-from renderer.camera.checks import listed
-from renderer.files.cameras import opencv
-from renderer.files.cameras.given import Options
-from renderer.files.cameras.rigid import rigid
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.checks import listed
+from lucida.renderer.files.cameras import opencv
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.rigid import rigid
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 MOST_CHARACTERS = 4000
 ROUNDED = 5e-3  # error of a rotation that was printed with few digits

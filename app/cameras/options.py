@@ -10,11 +10,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from renderer.system.errors import LucidaError, errors_as, not_together
+from lucida.renderer.system.errors import LucidaError, errors_as, not_together
 
 if TYPE_CHECKING:
-    from renderer.camera.lenses import Lens
-    from renderer.scene.model import View
+    from lucida.renderer.camera.lenses import Lens
+    from lucida.renderer.scene.model import View
 
 CAMERA_FIELDS = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far", "lens")
 CAMERA_OPTIONS = (*CAMERA_FIELDS, "fit", "target", "up", "fov")
@@ -57,7 +57,7 @@ def lens_text(lens: Lens) -> str:
 
 def lens_word(text: str) -> Lens | str:
     """Return the lens of such a word, or NO_LENS."""
-    from renderer.camera.lenses import Lens
+    from lucida.renderer.camera.lenses import Lens
 
     if text == NO_LENS:
         return text
@@ -142,7 +142,7 @@ def _check_beside(given: dict[str, Any]) -> None:
 
 def _looking(view: View, given: dict[str, Any]) -> View:
     """Return the view towards --target or, with --up alone, rotated about its own direction."""
-    from app.cameras.presets import look_at
+    from lucida.app.cameras.presets import look_at
 
     camera = view.camera
     ahead = [eye - back for eye, back in zip(camera.eye, camera.w, strict=True)]
@@ -151,7 +151,7 @@ def _looking(view: View, given: dict[str, Any]) -> View:
 
 def _as_wide(view: View, fov_deg: float) -> View:
     """Return the view with a vertical field of view, set by the viewport's distance."""
-    from renderer.camera.navigation import distance_for
+    from lucida.renderer.camera.navigation import distance_for
 
     camera = view.camera
     if camera.is_parallel:

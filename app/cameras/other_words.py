@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera.camera import Size
-from renderer.camera.checks import Floats
-from renderer.camera.intrinsics import PixelOrigin
-from renderer.files.cameras.entries import ORIGIN_TOLD
-from renderer.scene.model import View
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.intrinsics import PixelOrigin
+from lucida.renderer.files.cameras.entries import ORIGIN_TOLD
+from lucida.renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"
 _DIGITS, _GIVEN_DIGITS = 5, 8

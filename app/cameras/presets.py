@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.camera import Camera, Vector
-from renderer.camera.lenses import Lens
-from renderer.scene.model import View
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side
 MARGIN = 1.1  # of the picture around the framed points

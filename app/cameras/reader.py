@@ -13,18 +13,18 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NoReturn
 
-from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
-from app.cameras.taken import TakenCamera, is_fitted, told_of
-from renderer.camera.camera import Camera
-from renderer.camera.lenses import Lens
-from renderer.files import view_from_toml
-from renderer.files.cameras import FORMATS, PosedCamera, one_of, opengl, read_cameras
-from renderer.files.cameras.given import Given
-from renderer.files.reading import naming
-from renderer.files.tables import parse_toml
-from renderer.files.views import view_from_table
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
+from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files import view_from_toml
+from lucida.renderer.files.cameras import FORMATS, PosedCamera, one_of, opengl, read_cameras
+from lucida.renderer.files.cameras.given import Given
+from lucida.renderer.files.reading import naming
+from lucida.renderer.files.tables import parse_toml
+from lucida.renderer.files.views import view_from_table
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 SOURCE = "clipboard"
 MOST_CHARACTERS = 100_000

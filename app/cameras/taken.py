@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from renderer.files.cameras import CameraSet, PosedCamera, format_named
-from renderer.files.cameras.rigid import UNSEEN_PX
-from renderer.scene.model import View
-from renderer.system.errors import one_line
+from lucida.renderer.files.cameras import CameraSet, PosedCamera, format_named
+from lucida.renderer.files.cameras.rigid import UNSEEN_PX
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import one_line
 
 
 @dataclass(frozen=True)

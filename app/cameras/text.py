@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
-from app.cameras.options import lens_text
-from app.cameras.presets import clip_around
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.lenses import Lens
-from renderer.files import view_to_toml
-from renderer.files.cameras import PosedCamera, opengl, written
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.cameras.options import lens_text
+from lucida.app.cameras.presets import clip_around
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files import view_to_toml
+from lucida.renderer.files.cameras import PosedCamera, opengl, written
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError, one_line
 
 Form = Literal[
     "view file", "command line", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"
@@ -86,7 +86,7 @@ def command_line(view: View, source: str) -> str:
 def python(view: View) -> str:
     """Return a program that makes the camera, and the view if its viewport is fitted."""
     lines = [f"from renderer import Camera{', Lens' if view.camera.lens else ''}"]
-    lines += ["from renderer.scene import View"] * view.fit
+    lines += ["from lucida.renderer.scene import View"] * view.fit
     lines += ["", "camera = Camera("]
     for name, value in _fields(view.camera):
         if isinstance(value, Lens):

@@ -8,12 +8,12 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
-from app.checking.conventions import Conventions
-from app.checking.kinds import KINDS
-from app.checking.tasks import CheckTask
-from app.state.options.shared import Notation
-from app.ui.explaining.symbols import spoken
-from renderer.images.shared_numbers import LUMINANCE
+from lucida.app.checking.conventions import Conventions
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.tasks import CheckTask
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import spoken
+from lucida.renderer.images.shared_numbers import LUMINANCE
 
 _HIT = (
     "Give the ray parameter t of the nearest hit with t > 0: the point is "

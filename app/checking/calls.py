@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from app.state.options.shared import Notation
+from lucida.app.state.options.shared import Notation
 
 Kind = Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
 

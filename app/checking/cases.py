@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.checking.conventions import Conventions, Shot
-from app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
-from renderer.camera.camera import Camera, Size, Vector
-from renderer.system.errors import LucidaError
+from lucida.app.checking.conventions import Conventions, Shot
+from lucida.app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
+from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
 
-    from renderer.scene.model import View
+    from lucida.renderer.scene.model import View
 
 VIEW_SIZE = (8, 6)  # image size for a task's own views
 SIDES = (3, 9)  # of generated images: enough for a fit, with few calls

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Call, Failure, Run, Student
-from app.checking.kinds import KINDS
-from app.checking.kinds.kind import CheckKind
-from app.checking.kinds.values import text_of
-from app.checking.running.told import told_call
-from app.checking.tasks import CheckCase, CheckTask
-from renderer.files.reading import close_matches
+from lucida.app.checking.calls import Call, Failure, Run, Student
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.kinds.kind import CheckKind
+from lucida.app.checking.kinds.values import text_of
+from lucida.app.checking.running.told import told_call
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.renderer.files.reading import close_matches
 
 if TYPE_CHECKING:
-    from app.checking.mistakes.diagnosis import Diagnosis
+    from lucida.app.checking.mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
 ARGUMENT_LETTERS = 400
@@ -106,7 +106,7 @@ def _asked_again(student: Student, result: TaskResult) -> TaskResult:
         np.asarray(given, float), np.asarray([first.answer] * 2, float), equal_nan=True
     ):
         return result
-    from app.checking.mistakes.diagnosis import Diagnosis
+    from lucida.app.checking.mistakes.diagnosis import Diagnosis
 
     told = result.diagnosis or Diagnosis(())
     return replace(result, diagnosis=replace(told, sentences=(CHANGES, *told.sentences)))
@@ -148,7 +148,9 @@ def _diagnosis(
 ) -> Diagnosis | None:
     if task.feedback != "diagnosis":
         return None
-    from app.checking.diagnosed import diagnosis  # loads the mistakes, so only if there are some
+    from lucida.app.checking.diagnosed import (
+        diagnosis,  # loads the mistakes, so only if there are some
+    )
 
     return diagnosis(task, cases, given, wrong)
 

@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera, Size, Vector
 
 Whole = NDArray[np.intp]
 Named = tuple[tuple[str, str], ...]  # (name in the student's program, word)

@@ -9,16 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.kinds.kind import Flags
-from app.checking.kinds.viewing_ray import are_right
-from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.mistakes.ray_diagnosis import diagnose_rays
-from app.checking.mistakes.ray_trial import RayCase
-from app.checking.mistakes.render import render_program, render_values
-from app.checking.mistakes.value_diagnosis import ValueCase, diagnose_by_kind, diagnose_values
-from app.checking.mistakes.value_programs import value_case
-from app.checking.own_words import asked_rays, in_the_tasks_words, programs
-from app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.kinds.kind import Flags
+from lucida.app.checking.kinds.viewing_ray import are_right
+from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.mistakes.ray_diagnosis import diagnose_rays
+from lucida.app.checking.mistakes.ray_trial import RayCase
+from lucida.app.checking.mistakes.render import render_program, render_values
+from lucida.app.checking.mistakes.value_diagnosis import (
+    ValueCase,
+    diagnose_by_kind,
+    diagnose_values,
+)
+from lucida.app.checking.mistakes.value_programs import value_case
+from lucida.app.checking.own_words import asked_rays, in_the_tasks_words, programs
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 MOST = 1000  # of rays that are examined; large images have more
 

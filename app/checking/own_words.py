@@ -9,16 +9,16 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from app.checking.conventions import CAMERA, PAIRS, Conventions
-from app.checking.mistakes.diagnosis import AS_IF
-from app.checking.mistakes.program import Program
-from app.checking.mistakes.rays import RayTask, ray_program
-from app.checking.mistakes.render import render_program
-from app.checking.mistakes.value_programs import value_program
-from app.checking.mistakes.vectors import FUNCTIONS
-from app.checking.ray_words import LETTERS, ray_task
-from app.checking.tasks import CheckTask
-from app.ui.explaining.symbols import arguments, program
+from lucida.app.checking.conventions import CAMERA, PAIRS, Conventions
+from lucida.app.checking.mistakes.diagnosis import AS_IF
+from lucida.app.checking.mistakes.program import Program
+from lucida.app.checking.mistakes.rays import RayTask, ray_program
+from lucida.app.checking.mistakes.render import render_program
+from lucida.app.checking.mistakes.value_programs import value_program
+from lucida.app.checking.mistakes.vectors import FUNCTIONS
+from lucida.app.checking.ray_words import LETTERS, ray_task
+from lucida.app.checking.tasks import CheckTask
+from lucida.app.ui.explaining.symbols import arguments, program
 
 # The parts of a word's value, by their names in the programs.
 _PARTS: Mapping[str, Mapping[str, str]] = {

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from app.checking.conventions import PAIRS, Conventions
-from app.checking.mistakes.rays import EDGES, GRID, SIZES, WORDS, RayTask, has_corners
-from renderer.camera.pixels import Indexing
+from lucida.app.checking.conventions import PAIRS, Conventions
+from lucida.app.checking.mistakes.rays import EDGES, GRID, SIZES, WORDS, RayTask, has_corners
+from lucida.renderer.camera.pixels import Indexing
 
 LETTERS = {"row": "i", "column": "j"}  # names in the table
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 
-from app.checking.conventions import CAMERA, CAMERA_WORDS
-from app.checking.kinds import KINDS
-from app.checking.own_words import functions, shown_name
-from app.checking.tasks import CheckTask
-from renderer.system.errors import visible
+from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.own_words import functions, shown_name
+from lucida.app.checking.tasks import CheckTask
+from lucida.renderer.system.errors import visible
 
 _WIDTH = 96
 _NUMPY = {"atan2": "arctan2 as atan2"}  # names that NumPy has only from version 2 on

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from app.checking.builtin import builtin_tasks
-from app.checking.calls import Limits
-from app.checking.cases import camera_kinds, check_size, check_views
-from app.checking.conventions import (
+from lucida.app.checking.builtin import builtin_tasks
+from lucida.app.checking.calls import Limits
+from lucida.app.checking.cases import camera_kinds, check_size, check_views
+from lucida.app.checking.conventions import (
     CAMERA_WORDS,
     FOCAL_WORDS,
     PAIRS,
@@ -20,19 +20,19 @@ from app.checking.conventions import (
     Conventions,
     Named,
 )
-from app.checking.kinds import KINDS
-from app.checking.kinds.basis import PARTS
-from app.checking.kinds.kind import CheckKind
-from app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
-from app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
-from app.state.options.shared import Notation
-from renderer.files.places import Places, located
-from renderer.files.reading import decode_text, read_file, suggestion
-from renderer.files.tables import parse_toml, to_struct
-from renderer.scene.limits import TOML_BYTES
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError, under
-from renderer.system.file_dependencies import noting
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.kinds.basis import PARTS
+from lucida.app.checking.kinds.kind import CheckKind
+from lucida.app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
+from lucida.app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.files.places import Places, located
+from lucida.renderer.files.reading import decode_text, read_file, suggestion
+from lucida.renderer.files.tables import parse_toml, to_struct
+from lucida.renderer.scene.limits import TOML_BYTES
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError, under
+from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
 WITH_CAMERAS = ("viewing-ray", "render")
@@ -272,8 +272,8 @@ def _check_name(field: str, name: str) -> None:
 
 
 def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
-    from renderer.files.load import BUILTIN_SCENES, load_scene
-    from renderer.files.views import load_view
+    from lucida.renderer.files.load import BUILTIN_SCENES, load_scene
+    from lucida.renderer.files.views import load_view
 
     for number, view in enumerate(views):
         if isinstance(view, dict):
@@ -290,7 +290,7 @@ def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
 
 def camera_view(table: dict[str, Any]) -> View:
     """Return the view of a camera's table. Errors name its fields without "camera."."""
-    from renderer.files.views import view_from_table
+    from lucida.renderer.files.views import view_from_table
 
     try:
         return view_from_table(table)

@@ -9,8 +9,8 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, field
 
-from app.state.options.shared import Notation
-from renderer.files.schema import Numbers3, StrictTable
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.files.schema import Numbers3, StrictTable
 
 Seed = Annotated[int, Meta(ge=0)]
 Side = Annotated[int, Meta(ge=1, le=512)]  # of a task's images

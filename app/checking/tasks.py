@@ -8,13 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-from app.checking.conventions import Conventions
-from app.state.options.shared import Notation
-from renderer.camera.camera import Camera, Size, Vector
-from renderer.images.shared_numbers import LUMINANCE
+from lucida.app.checking.conventions import Conventions
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.images.shared_numbers import LUMINANCE
 
 if TYPE_CHECKING:
-    from renderer.scene.model import View
+    from lucida.renderer.scene.model import View
 
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosis")

@@ -7,18 +7,18 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.cameras.options import add_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import add_view_option
-from app.commands.many import add_workers_options, look_of, make_film
-from app.commands.render import check_effects
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.cameras.options import add_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import add_view_option
+from lucida.app.commands.many import add_workers_options, look_of, make_film
+from lucida.app.commands.render import check_effects
+from lucida.renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from app.cameras.films.paths import Key
-    from renderer.camera.camera import Camera
-    from renderer.scene.focus import Focus
-    from renderer.scene.model import View
+    from lucida.app.cameras.films.paths import Key
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.scene.focus import Focus
+    from lucida.renderer.scene.model import View
 
 NAME = "animate"
 
@@ -91,10 +91,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.cameras.films.encoding import film_writer
-    from app.cameras.films.film import Film
-    from app.cameras.films.frames import Shot
-    from renderer.scene.focus import scene_focus
+    from lucida.app.cameras.films.encoding import film_writer
+    from lucida.app.cameras.films.film import Film
+    from lucida.app.cameras.films.frames import Shot
+    from lucida.renderer.scene.focus import scene_focus
 
     if arguments.renderer == "raster":
         check_effects(arguments)
@@ -114,11 +114,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Camera]:
-    from app.cameras.films.paths import around, dolly_zoom, through, to_parallel
+    from lucida.app.cameras.films.paths import around, dolly_zoom, through, to_parallel
 
     size, keys = arguments.size, None
     if arguments.path is not None:
-        from app.cameras.films.key_file import load_keys
+        from lucida.app.cameras.films.key_file import load_keys
 
         keys = load_keys(arguments.path)
     elif arguments.photographs is not None:
@@ -137,11 +137,11 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
 
 def _photographed(arguments: argparse.Namespace) -> list[Key]:
     """Return a key for each camera of a data set, a second apart."""
-    from app.cameras.films.paths import Key
-    from app.cameras.taken import is_fitted
-    from app.commands.given_camera import say_notes, source_of
-    from renderer.files.cameras import Options, read_cameras
-    from renderer.scene.model import View
+    from lucida.app.cameras.films.paths import Key
+    from lucida.app.cameras.taken import is_fitted
+    from lucida.app.commands.given_camera import say_notes, source_of
+    from lucida.renderer.files.cameras import Options, read_cameras
+    from lucida.renderer.scene.model import View
 
     options = Options(ignore_distortion=arguments.ignore_distortion)
     found = read_cameras(source_of(arguments.photographs), options=options)

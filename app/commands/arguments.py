@@ -14,17 +14,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, NoReturn
 
-from app.cameras.options import with_camera_options
-from app.commands.given_camera import say_changes, viewed
-from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
-from renderer.system.errors import LucidaError, one_line, visible
+from lucida.app.cameras.options import with_camera_options
+from lucida.app.commands.given_camera import say_changes, viewed
+from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
+from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
     from tqdm import tqdm
 
-    from renderer.camera.camera import Camera
-    from renderer.files.cameras import PosedCamera
-    from renderer.scene.model import Scene, View
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.files.cameras import PosedCamera
+    from lucida.renderer.scene.model import Scene, View
 
 DEFAULT_SIZE = (1280, 720)
 BACKENDS = ("auto", "egl", "osmesa")
@@ -61,7 +61,7 @@ def say(*lines: str) -> None:
 
 def size(text: str, rows: tuple[int, int] | None = None) -> tuple[int, int]:
     """Parse `1280x720` as (width, height). rows: as in check_size()."""
-    from renderer.images.frame import check_size
+    from lucida.renderer.images.frame import check_size
 
     width, cross, height = text.lower().partition("x")
     if not (cross and _is_whole(width) and _is_whole(height)):
@@ -174,14 +174,14 @@ def check_is_scene(source: str) -> None:
     scene.
     """
     if source.lower().endswith((".json", ".jsonl")):
-        from app.checking.results.reading import is_results
+        from lucida.app.checking.results.reading import is_results
 
         if is_results(source):
             remedy = f"lucida lecture --results {source} -o class.html"
             raise LucidaError("", "holds a class's answers, not a scene", remedy, source)
     if not source.lower().endswith(".toml"):
         return
-    from app.lecture.reading import is_lecture
+    from lucida.app.lecture.reading import is_lecture
 
     if is_lecture(source):
         raise LucidaError("", "is a lecture, not a scene", f"lucida lecture {source}", source)
@@ -214,10 +214,10 @@ def scene_and_view(
     Sets arguments.size to the image's size.
     posed: the result of own_camera().
     """
-    from renderer.files import load_scene
-    from renderer.files.cameras import PosedCamera
-    from renderer.files.cameras.distortion import without_lens
-    from renderer.scene.model import View
+    from lucida.renderer.files import load_scene
+    from lucida.renderer.files.cameras import PosedCamera
+    from lucida.renderer.files.cameras.distortion import without_lens
+    from lucida.renderer.scene.model import View
 
     # Check for quick mistakes first.
     posed = posed or own_camera(arguments)
@@ -253,8 +253,8 @@ def add_lens_options(parser: argparse.ArgumentParser) -> None:
 
 def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
     """Explain in one line on standard error why an image is empty, and how to aim at the scene."""
-    from renderer.compare.why_black import middle_of, why_nothing_is_hit
-    from renderer.scene import flatten
+    from lucida.renderer.compare.why_black import middle_of, why_nothing_is_hit
+    from lucida.renderer.scene import flatten
 
     flat = flatten(scene)
     aim = ",".join(f"{part:.4g}" for part in middle_of(flat))
@@ -269,7 +269,7 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
 
     If the ray tracer must be compiled, report that once in a line, also without a terminal.
     """
-    from renderer.system import compile_note
+    from lucida.renderer.system import compile_note
 
     start = time.monotonic()
     told = compile_note.note()  # on earlier compilation

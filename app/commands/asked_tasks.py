@@ -6,11 +6,11 @@ import argparse
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from app.checking.calls import Limits, Student
-    from app.checking.tasks import CheckTask
+    from lucida.app.checking.calls import Limits, Student
+    from lucida.app.checking.tasks import CheckTask
 
 WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 
@@ -19,13 +19,13 @@ SIZE = (64, 48)  # of --view's image at most; its aspect ratio is the camera's o
 
 def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
     """Return the tasks and limits of a task file or a course; without one, the built-in tasks."""
-    from app.checking.builtin import BUILTIN
-    from app.checking.calls import Limits
+    from lucida.app.checking.builtin import BUILTIN
+    from lucida.app.checking.calls import Limits
 
     if source is None:
         return list(BUILTIN), Limits()
-    from app.checking.courses import task_path
-    from app.checking.task_file import load_tasks
+    from lucida.app.checking.courses import task_path
+    from lucida.app.checking.task_file import load_tasks
 
     found = load_tasks(task_path(source))
     return list(found.tasks), found.limits
@@ -47,7 +47,7 @@ def named(tasks: list[CheckTask], name: str, field: str = "--task") -> CheckTask
     """Return the task with a name, also with _ for -, or with a function's name. Raises
     LucidaError. field: the argument that has the name.
     """
-    from renderer.files.reading import suggestion
+    from lucida.renderer.files.reading import suggestion
 
     wanted = name.replace("_", "-")
     found = [task for task in tasks if task.name == name]
@@ -74,7 +74,7 @@ def _changed(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[Chec
 
 
 def _sized(task: CheckTask, size: tuple[int, int]) -> CheckTask:
-    from app.checking.cases import check_size
+    from lucida.app.checking.cases import check_size
 
     if task.kind not in WITH_CAMERAS:
         return task
@@ -84,9 +84,9 @@ def _sized(task: CheckTask, size: tuple[int, int]) -> CheckTask:
 
 
 def _with_view(arguments: argparse.Namespace, tasks: list[CheckTask]) -> list[CheckTask]:
-    from app.checking.cases import check_size, check_views
-    from app.commands.given_camera import say_changes, viewed
-    from renderer.scene.model import View
+    from lucida.app.checking.cases import check_size, check_views
+    from lucida.app.commands.given_camera import say_changes, viewed
+    from lucida.renderer.scene.model import View
 
     posed = viewed(arguments)
     assert posed is not None
@@ -134,7 +134,7 @@ def possible(
 
 def _missing(tasks: list[CheckTask], functions: frozenset[str]) -> str:
     """Return what to do if none of the tasks' functions exists."""
-    from renderer.files.reading import close_matches
+    from lucida.renderer.files.reading import close_matches
 
     names = list(dict.fromkeys(task.function for task in tasks))
     plain = {name.replace("_", ""): name for name in names}

@@ -13,22 +13,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.commands import arguments as common
-from app.commands.given_camera import (
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import (
     add_distortion_option,
     say_changes,
     say_notes,
     source_of,
     with_remedy,
 )
-from renderer.system.errors import LucidaError, errors_as, not_together, one_line, visible
+from lucida.renderer.system.errors import LucidaError, errors_as, not_together, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from renderer.files.cameras import CameraSet, Options, PosedCamera
-    from renderer.files.cameras.formats import Format
-    from renderer.files.cameras.given import Given
+    from lucida.renderer.files.cameras import CameraSet, Options, PosedCamera
+    from lucida.renderer.files.cameras.formats import Format
+    from lucida.renderer.files.cameras.given import Given
 
 NAME = "camera"
 
@@ -92,8 +92,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.files.cameras import Options, read_chosen
-    from renderer.files.cameras.saving import save_files
+    from lucida.renderer.files.cameras import Options, read_chosen
+    from lucida.renderer.files.cameras.saving import save_files
 
     # Check for quick mistakes first.
     target = _target(arguments)
@@ -131,7 +131,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCamera | None) -> str:
-    from app.cameras.described import Fact, as_data, as_text, facts
+    from lucida.app.cameras.described import Fact, as_data, as_text, facts
 
     if arguments.json:
         return json.dumps(as_data(found, chosen), indent=2, allow_nan=False)
@@ -144,7 +144,7 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
 
 
 def _format(option: str, name: str) -> Format:
-    from renderer.files.cameras import format_named
+    from lucida.renderer.files.cameras import format_named
 
     with errors_as(option):
         return format_named(name)
@@ -152,7 +152,7 @@ def _format(option: str, name: str) -> Format:
 
 def _target(arguments: argparse.Namespace) -> Format | None:
     """Return the format to write, from --to or OUT's ending; None for none. Raises LucidaError."""
-    from renderer.files.cameras.formats import FORMATS
+    from lucida.renderer.files.cameras.formats import FORMATS
 
     output = arguments.output
     if arguments.to is None and output is None:
@@ -183,7 +183,7 @@ def _of_ending(ending: str) -> str:
 
 def _input(arguments: argparse.Namespace) -> tuple[str, str | int]:
     """Return INPUT's file, and the name or number of its camera."""
-    from renderer.files.cameras import without_choice
+    from lucida.renderer.files.cameras import without_choice
 
     file, which = without_choice(arguments.input)
     for option, value in (("--image", arguments.image), ("--frame", arguments.frame)):
@@ -202,7 +202,7 @@ def _written(
     cameras: Sequence[PosedCamera], target: Format, options: Options, source: Given
 ) -> dict[str, bytes]:
     """Return the files of a format. Raises LucidaError, which names INPUT."""
-    from renderer.files.cameras import written
+    from lucida.renderer.files.cameras import written
 
     try:
         return written(cameras, target.name, options)

@@ -12,20 +12,20 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.commands import arguments as common
-from app.commands.asked_tasks import SIZE, all_tasks, asked_for, named, possible
-from app.commands.check_reports import pictures_of, write_json, write_page
-from app.commands.given_camera import add_view_option
-from renderer.system.errors import LucidaError, not_together, one_line, visible
+from lucida.app.commands import arguments as common
+from lucida.app.commands.asked_tasks import SIZE, all_tasks, asked_for, named, possible
+from lucida.app.commands.check_reports import pictures_of, write_json, write_page
+from lucida.app.commands.given_camera import add_view_option
+from lucida.renderer.system.errors import LucidaError, not_together, one_line, visible
 
 if TYPE_CHECKING:
-    from app.checking.calls import Limits
-    from app.checking.checked import TaskResult
-    from app.checking.reports.pictured import Pictured
-    from app.checking.running.account import Account
-    from app.checking.running.command import CommandStudent
-    from app.checking.running.file import FileStudent
-    from app.checking.tasks import CheckTask
+    from lucida.app.checking.calls import Limits
+    from lucida.app.checking.checked import TaskResult
+    from lucida.app.checking.reports.pictured import Pictured
+    from lucida.app.checking.running.account import Account
+    from lucida.app.checking.running.command import CommandStudent
+    from lucida.app.checking.running.file import FileStudent
+    from lucida.app.checking.tasks import CheckTask
 
 NAME = "check"
 
@@ -129,8 +129,8 @@ def run(arguments: argparse.Namespace) -> int:
     tasks: list[CheckTask] = []
     results: list[TaskResult] = []
     pictures: dict[str, Pictured] = {}
-    from app.checking.checked import check
-    from app.checking.running.program import DISHONEST
+    from lucida.app.checking.checked import check
+    from lucida.app.checking.running.program import DISHONEST
 
     try:
         _check_arguments(arguments)
@@ -173,8 +173,8 @@ def _why(error: LucidaError) -> list[str]:
     """Return the student's own lines for a file that does not run, and its output up to that
     point.
     """
-    from app.checking.reports.told import failure_lines
-    from app.checking.running.file import NotRunnableError
+    from lucida.app.checking.reports.told import failure_lines
+    from lucida.app.checking.running.file import NotRunnableError
 
     if not isinstance(error, NotRunnableError):
         return []
@@ -183,8 +183,8 @@ def _why(error: LucidaError) -> list[str]:
 
 
 def _end(arguments: argparse.Namespace, results: list[TaskResult], tasks: list[CheckTask]) -> int:
-    from app.checking.checked import status_of
-    from app.checking.reports.told import summary
+    from lucida.app.checking.checked import status_of
+    from lucida.app.checking.reports.told import summary
 
     if arguments.json != "-" and len(results) > 1:
         print(summary(results, tasks))
@@ -192,7 +192,7 @@ def _end(arguments: argparse.Namespace, results: list[TaskResult], tasks: list[C
 
 
 def _check_arguments(arguments: argparse.Namespace) -> None:
-    from renderer.system.atomic import check_writable
+    from lucida.renderer.system.atomic import check_writable
 
     if (arguments.file is None) == (arguments.command is None):
         if arguments.file is not None:
@@ -229,8 +229,8 @@ def _account(arguments: argparse.Namespace) -> Account | None:
     """Return the user of the student's program, who can reach neither results nor tasks; None
     without `--as`.
     """
-    from app.checking.courses import task_path
-    from app.checking.running.account import account
+    from lucida.app.checking.courses import task_path
+    from lucida.app.checking.running.account import account
 
     if arguments.user is None:
         return None
@@ -243,10 +243,10 @@ def _account(arguments: argparse.Namespace) -> Account | None:
 
 def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | CommandStudent:
     if arguments.command is not None:
-        from app.checking.running.command import CommandStudent
+        from lucida.app.checking.running.command import CommandStudent
 
         return CommandStudent(arguments.command, limits, _account(arguments))
-    from app.checking.running.file import FileStudent
+    from lucida.app.checking.running.file import FileStudent
 
     path = Path(arguments.file)
     if path.suffix.lower() not in PYTHON:
@@ -256,7 +256,7 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from app.checking.reports.terminal import is_colored, lines
+    from lucida.app.checking.reports.terminal import is_colored, lines
 
     if arguments.json == "-":
         return
@@ -264,8 +264,8 @@ def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:
-    from app.checking.starter import starter
-    from renderer.system.atomic import atomic_write
+    from lucida.app.checking.starter import starter
+    from lucida.renderer.system.atomic import atomic_write
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.starter != "all":

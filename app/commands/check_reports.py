@@ -9,13 +9,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from app.checking.calls import Student
-    from app.checking.checked import TaskResult
-    from app.checking.reports.pictured import Pictured
-    from app.checking.tasks import CheckTask
+    from lucida.app.checking.calls import Student
+    from lucida.app.checking.checked import TaskResult
+    from lucida.app.checking.reports.pictured import Pictured
+    from lucida.app.checking.tasks import CheckTask
 
 
 def write_json(
@@ -27,14 +27,14 @@ def write_json(
 ) -> None:
     if arguments.json is None:
         return
-    from app.checking.reports import gradescope
+    from lucida.app.checking.reports import gradescope
 
     values = gradescope.results(results, tasks, seconds, problem)
     text = json.dumps(values, indent=2, allow_nan=False) + "\n"
     if arguments.json == "-":
         sys.stdout.write(text)
     else:
-        from renderer.system.atomic import atomic_write
+        from lucida.renderer.system.atomic import atomic_write
 
         try:
             with atomic_write(arguments.json) as file:
@@ -48,7 +48,7 @@ def write_json(
 
 
 def pictures_of(student: Student, result: TaskResult) -> dict[str, Pictured]:
-    from app.checking.reports.pictured import pictured
+    from lucida.app.checking.reports.pictured import pictured
 
     found = pictured(student, result)
     return {} if found is None else {result.task.name: found}
@@ -63,8 +63,8 @@ def write_page(
 ) -> None:
     if arguments.html is None:
         return
-    from app.checking.reports.page import page
-    from renderer.system.atomic import atomic_write
+    from lucida.app.checking.reports.page import page
+    from lucida.renderer.system.atomic import atomic_write
 
     text = page(results, tasks, *_without_folders(arguments, problem), pictures)
     with atomic_write(arguments.html) as file:

@@ -6,9 +6,9 @@ import argparse
 import json
 import math
 
-from app.cameras.options import add_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import add_view_option
+from lucida.app.cameras.options import add_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import add_view_option
 
 NAME = "compare"
 
@@ -72,8 +72,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.compare.raster_and_ray import compare
-    from renderer.images import PICTURES, check_image_path, write_picture
+    from lucida.renderer.compare.raster_and_ray import compare
+    from lucida.renderer.images import PICTURES, check_image_path, write_picture
 
     if arguments.output is not None:
         check_image_path(arguments.output, PICTURES)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from app.commands import view
-from app.commands.arguments import Parser
+from lucida.app.commands import view
+from lucida.app.commands.arguments import Parser
 
 NAME = "completion"
 

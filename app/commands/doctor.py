@@ -8,10 +8,10 @@ import json
 import platform
 from typing import TYPE_CHECKING
 
-from app import __version__
+from lucida import __version__
 
 if TYPE_CHECKING:
-    from renderer.system.doctor import Check
+    from lucida.renderer.system.doctor import Check
 
 NAME = "doctor"
 
@@ -33,7 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.system.doctor import can_draw, report
+    from lucida.renderer.system.doctor import can_draw, report
 
     checks = report()
     usable = can_draw(checks)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from app.cameras.options import add_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import add_view_option, with_remedy
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.cameras.options import add_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import add_view_option, with_remedy
+from lucida.renderer.system.errors import LucidaError, one_line
 
 NAME = "export"
 
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.files.export import check_export_path, export_scene
+    from lucida.renderer.files.export import check_export_path, export_scene
 
     check_export_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)

@@ -10,13 +10,13 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from renderer.files.cameras import CameraSet, PosedCamera
-    from renderer.files.cameras.given import Given
+    from lucida.renderer.files.cameras import CameraSet, PosedCamera
+    from lucida.renderer.files.cameras.given import Given
 
     Size = tuple[int, int]
 
@@ -45,7 +45,7 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     """
     if arguments.view is None:
         return None
-    from renderer.files.cameras import Options, read_chosen, without_choice
+    from lucida.renderer.files.cameras import Options, read_chosen, without_choice
 
     file, which = without_choice(arguments.view)
     options = Options(ignore_distortion=arguments.ignore_distortion)
@@ -62,8 +62,8 @@ def say_notes(found: CameraSet, file: str) -> None:
 
 def source_of(file: str) -> Given:
     """Return a file, a folder, or the contents of standard input. Raises LucidaError."""
-    from renderer.files.cameras.given import LARGEST_BYTES, Given, given
-    from renderer.files.reading import check_bytes
+    from lucida.renderer.files.cameras.given import LARGEST_BYTES, Given, given
+    from lucida.renderer.files.reading import check_bytes
 
     if file != STANDARD_INPUT:
         return given(file)
@@ -79,7 +79,7 @@ def with_remedy(error: LucidaError, remedy: str) -> LucidaError:
     """Return an error about a basis that is not orthonormal with this remedy in place of the
     window's; any other error unchanged.
     """
-    from renderer.files.cameras.rigid import REMEDY
+    from lucida.renderer.files.cameras.rigid import REMEDY
 
     if error.remedy != REMEDY:
         return error
@@ -90,7 +90,7 @@ def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> Non
     """Report changes on standard error, a line for each: an ignored lens with its effect, and an
     image whose aspect ratio is not the camera's own. size: of that image.
     """
-    from app.cameras.described import lens_text
+    from lucida.app.cameras.described import lens_text
 
     if told := lens_text(cameras, ignored=True):
         print(f"lucida: {one_line(told)}", file=sys.stderr)

@@ -8,12 +8,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.commands import arguments as common
-from app.commands.view import window_size
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.commands import arguments as common
+from lucida.app.commands.view import window_size
+from lucida.renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from app.lecture.model import Lecture
+    from lucida.app.lecture.model import Lecture
 
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
@@ -115,8 +115,8 @@ def _place(text: str) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.lecture.reading import BUILTIN, BUILTINS, load_lecture
-    from renderer.files.outside import OutsideError
+    from lucida.app.lecture.reading import BUILTIN, BUILTINS, load_lecture
+    from lucida.renderer.files.outside import OutsideError
 
     if arguments.output is not None and arguments.results is None:
         raise LucidaError("-o", "is for --results", "pictures of the steps: --export")
@@ -134,7 +134,7 @@ def run(arguments: argparse.Namespace) -> int:
     except OutsideError as error:
         if arguments.export is not None or arguments.answers is not None:
             raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
-        from app.window.lecturing import ask_lecture
+        from lucida.app.window.lecturing import ask_lecture
 
         return ask_lecture(path, error, arguments.size)
     for note in lecture.notes:
@@ -146,7 +146,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.export is not None:
         if not arguments.export.strip():  # from an unset variable, for instance
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
-        from app.window.lecturing import (
+        from lucida.app.window.lecturing import (
             export_lecture,  # after the quick checks, because it loads the window
         )
 
@@ -159,11 +159,11 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     if arguments.results is not None:
         return _results(arguments, lecture)
-    from app.window.lecturing import run_lecture
+    from lucida.app.window.lecturing import run_lecture
 
     log = None
     if arguments.answers is not None:
-        from app.lecture.answer_log import AnswerLog
+        from lucida.app.lecture.answer_log import AnswerLog
 
         log = AnswerLog(Path(arguments.answers))
     return run_lecture(path, lecture, arguments.size, log, arguments.step)
@@ -171,15 +171,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
     """Write the lecture as one HTML file, or print that as PDF."""
-    from app.web.lecture import pdf
-    from renderer.system.atomic import atomic_write, check_writable
+    from lucida.app.web.lecture import pdf
+    from lucida.renderer.system.atomic import atomic_write, check_writable
 
     target = Path(arguments.export)
     check_writable(target)
     is_pdf = target.suffix.lower() == ".pdf"
     program = pdf.browser() if is_pdf else ""
-    from app.web.lecture.page import page
-    from app.window.lecturing import lecture_stills
+    from lucida.app.web.lecture.page import page
+    from lucida.app.window.lecturing import lecture_stills
 
     with common.progress_bar("export") as progress:
         stills = lecture_stills(lecture, path, arguments.size or STILLS_SIZE, progress)
@@ -194,10 +194,10 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     """Write a page about what a class answered."""
-    from app.checking.results.model import class_results
-    from app.checking.results.page import page
-    from app.checking.results.reading import read_answers
-    from renderer.system.atomic import atomic_write
+    from lucida.app.checking.results.model import class_results
+    from lucida.app.checking.results.page import page
+    from lucida.app.checking.results.reading import read_answers
+    from lucida.renderer.system.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
     if not answers:
@@ -217,10 +217,10 @@ def _check(lecture: Lecture, path: Path, name: str) -> int:
 
     Raises LucidaError for a formula that cannot be typeset, or an answer that is wrong.
     """
-    from app.lecture.hidden_pixels import first_wrong_answer
-    from app.lecture.typesetting import first_mistake
-    from app.ui import formula
-    from renderer.files.places import Places, located
+    from lucida.app.lecture.hidden_pixels import first_wrong_answer
+    from lucida.app.lecture.typesetting import first_mistake
+    from lucida.app.ui import formula
+    from lucida.renderer.files.places import Places, located
 
     mistake = first_mistake(lecture.formulas)
     if mistake is not None:

@@ -8,12 +8,12 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from app.commands import arguments as common
-from renderer.system.errors import one_line
+from lucida.app.commands import arguments as common
+from lucida.renderer.system.errors import one_line
 
 if TYPE_CHECKING:
-    from app.cameras.films.film import Film
-    from app.cameras.films.frames import Look
+    from lucida.app.cameras.films.film import Film
+    from lucida.app.cameras.films.frames import Look
 
 
 def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
@@ -30,7 +30,7 @@ def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
 
 def look_of(arguments: argparse.Namespace) -> Look:
     """Return the settings of the options of add_drawing_options()."""
-    from app.cameras.films.frames import Look
+    from lucida.app.cameras.films.frames import Look
 
     return Look(
         arguments.renderer,
@@ -47,7 +47,7 @@ def make_film(film: Film, arguments: argparse.Namespace, what: str) -> None:
     """Draw what is missing, behind a progress bar. what: the pictures, in words. Raises
     LucidaError.
     """
-    from app.cameras.films.film import begin, make
+    from lucida.app.cameras.films.film import begin, make
 
     done = begin(film)
     if done:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from app.cameras.options import add_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import add_view_option
-from renderer.system.errors import one_line
+from lucida.app.cameras.options import add_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import add_view_option
+from lucida.renderer.system.errors import one_line
 
 NAME = "page"
 
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.web.scene_page import check_page_path, write_scene_page
+    from lucida.app.web.scene_page import check_page_path, write_scene_page
 
     check_page_path(arguments.output)
     scene, view = common.scene_and_view(arguments)

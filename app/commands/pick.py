@@ -6,16 +6,16 @@ import argparse
 import json
 from typing import TYPE_CHECKING
 
-from app.cameras.options import add_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import add_view_option
-from renderer.camera.pixels import Pixel
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.options import add_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import add_view_option
+from lucida.renderer.camera.pixels import Pixel
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.camera.camera import Camera
-    from renderer.images.frame import Frame
-    from renderer.scene.model import Scene
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.images.frame import Frame
+    from lucida.renderer.scene.model import Scene
 
 NAME = "pick"
 
@@ -54,7 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.compare.pixel_report import as_text, picked
+    from lucida.renderer.compare.pixel_report import as_text, picked
 
     posed = common.own_camera(arguments)
     pixel = _pixel(arguments)
@@ -85,11 +85,11 @@ def _drawn(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame
     """Render the whole image, so that the pixel is the same as in a file."""
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
-            from renderer.raster import Rasterizer
+            from lucida.renderer.raster import Rasterizer
 
             with Rasterizer(scene, backend=arguments.backend) as rasterizer:
                 return rasterizer.render(camera, arguments.size, progress=progress)
-        from renderer.trace import Tracer
+        from lucida.renderer.trace import Tracer
 
         with Tracer(scene) as tracer:
             return tracer.render(camera, arguments.size, progress=progress)

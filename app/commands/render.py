@@ -5,16 +5,16 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from app.cameras.options import add_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import add_view_option
-from app.commands.many import add_workers_options
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.cameras.options import add_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import add_view_option
+from lucida.app.commands.many import add_workers_options
+from lucida.renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from renderer.camera.camera import Camera
-    from renderer.images.frame import Frame
-    from renderer.scene.model import Scene
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.images.frame import Frame
+    from lucida.renderer.scene.model import Scene
 
 NAME = "render"
 
@@ -93,13 +93,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.compare.why_black import hits_nothing
-    from renderer.images import check_image_path, write_image
+    from lucida.renderer.compare.why_black import hits_nothing
+    from lucida.renderer.images import check_image_path, write_image
 
     if arguments.renderer != "ray":
         check_effects(arguments)
     if arguments.all:
-        from app.commands.render_many import render_all
+        from lucida.app.commands.render_many import render_all
 
         return render_all(arguments)
     if arguments.format:
@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
     ending = check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
     if is_in_parts(arguments):
-        from app.commands.render_many import render_in_parts
+        from lucida.app.commands.render_many import render_in_parts
 
         return render_in_parts(scene, camera, arguments, ending)
     frame = draw(scene, camera, arguments)
@@ -126,7 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def is_in_parts(arguments: argparse.Namespace) -> bool:
     """Return True for an image that is too large for memory, or for many processes."""
-    from renderer.images.frame import LARGEST_PIXELS
+    from lucida.renderer.images.frame import LARGEST_PIXELS
 
     width, height = arguments.size
     is_large: bool = width * height > LARGEST_PIXELS
@@ -142,15 +142,15 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
     channels = tuple(dict.fromkeys((arguments.channel, "id")))
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
-            from renderer.raster import Rasterizer
-            from renderer.scene import flatten
-            from renderer.scene.precision import check_precision
+            from lucida.renderer.raster import Rasterizer
+            from lucida.renderer.scene import flatten
+            from lucida.renderer.scene.precision import check_precision
 
             check_precision(camera, size, lambda: flatten(scene))
             with Rasterizer(scene, backend=arguments.backend) as rasterizer:
                 given = camera, size, channels, samples, progress, arguments.enlargement
                 return rasterizer.render(*given)
-        from renderer.trace import Tracer
+        from lucida.renderer.trace import Tracer
 
         effects = {"shadows": arguments.shadows, "mirror_depth": arguments.mirrors}
         with Tracer(scene, threads=arguments.threads, **effects) as tracer:

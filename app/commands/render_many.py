@@ -8,21 +8,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from app.cameras.films.encoding import image_writer
-from app.cameras.films.film import Film
-from app.cameras.films.frames import Look, Shot
-from app.cameras.options import with_camera_options
-from app.commands import arguments as common
-from app.commands.given_camera import say_changes, say_notes, source_of
-from app.commands.many import look_of, make_film
-from renderer.camera.camera import Camera, Size
-from renderer.files.cameras import Options, PosedCamera, read_cameras
-from renderer.images.frame import LARGEST_PIXELS, check_size
-from renderer.scene import flatten
-from renderer.scene.model import Scene, View
-from renderer.scene.precision import check_precision
-from renderer.system.atomic import file_stem
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.cameras.films.encoding import image_writer
+from lucida.app.cameras.films.film import Film
+from lucida.app.cameras.films.frames import Look, Shot
+from lucida.app.cameras.options import with_camera_options
+from lucida.app.commands import arguments as common
+from lucida.app.commands.given_camera import say_changes, say_notes, source_of
+from lucida.app.commands.many import look_of, make_film
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.files.cameras import Options, PosedCamera, read_cameras
+from lucida.renderer.images.frame import LARGEST_PIXELS, check_size
+from lucida.renderer.scene import flatten
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.scene.precision import check_precision
+from lucida.renderer.system.atomic import file_stem
+from lucida.renderer.system.errors import LucidaError, one_line
 
 JOINED = (".png", ".exr")  # what is written of an image in parts
 PART_PIXELS = 1 << 21

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from renderer.editing.outline import OutlineRow
-    from renderer.scene import Material, Scene, Shape
+    from lucida.renderer.editing.outline import OutlineRow
+    from lucida.renderer.scene import Material, Scene, Shape
 
 NAME = "scene"
 
@@ -32,7 +32,7 @@ examples:
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    from app.commands.arguments import SCENE_HELP
+    from lucida.app.commands.arguments import SCENE_HELP
 
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
@@ -40,9 +40,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.commands.arguments import check_is_scene, say
-    from renderer.files import load_scene
-    from renderer.files.models.repairs import repairs
+    from lucida.app.commands.arguments import check_is_scene, say
+    from lucida.renderer.files import load_scene
+    from lucida.renderer.files.models.repairs import repairs
 
     check_is_scene(arguments.scene)
     with repairs() as mended:
@@ -57,8 +57,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _named(scene: Scene) -> list[str]:
     """Return a line for each model file that a scene reads, and each camera of its models."""
-    from renderer.files.outside import model_files, outside
-    from renderer.system.errors import one_line, quoted
+    from lucida.renderer.files.outside import model_files, outside
+    from lucida.renderer.system.errors import one_line, quoted
 
     lines = []
     for file in model_files(scene):
@@ -76,10 +76,10 @@ def contents(scene: Scene, mended: list[str]) -> dict[str, Any]:
     """Return all contents as JSON values. mended: the repairs made while reading the scene."""
     import numpy as np
 
-    from renderer.editing.outline import outline
-    from renderer.files.oddities import oddities
-    from renderer.files.views import view_table
-    from renderer.scene.model import triangles_of
+    from lucida.renderer.editing.outline import outline
+    from lucida.renderer.files.oddities import oddities
+    from lucida.renderer.files.views import view_table
+    from lucida.renderer.scene.model import triangles_of
 
     outlined = outline(scene)
     rows = [row for row in outlined if not row.is_light]
@@ -125,8 +125,8 @@ def _bounds(shape: Shape) -> NDArray[np.float64]:
     """
     import numpy as np
 
-    from renderer.editing.moving import object_box
-    from renderer.scene.model import Sphere
+    from lucida.renderer.editing.moving import object_box
+    from lucida.renderer.scene.model import Sphere
 
     if isinstance(shape, Sphere):
         return object_box(shape)
@@ -138,10 +138,10 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
     """Return the lights that are on, in the order of their numbers, then the hidden ones. rows: of
     all.
     """
-    from renderer.editing.changing import fields_of
-    from renderer.files.saving import light_table
-    from renderer.files.schema import LightTable
-    from renderer.scene.material import parse_color
+    from lucida.renderer.editing.changing import fields_of
+    from lucida.renderer.files.saving import light_table
+    from lucida.renderer.files.schema import LightTable
+    from lucida.renderer.scene.material import parse_color
 
     names = [row.name for row in rows if not row.hidden] or [""] * len(scene.lights)
     lights = [
@@ -160,7 +160,7 @@ def _lights(scene: Scene, rows: list[OutlineRow]) -> list[dict[str, Any]]:
 
 def _material(material: Material) -> dict[str, Any]:
     """Return its numbers, and which images it shows."""
-    from renderer.files.saving import IMAGES, material_table
+    from lucida.renderer.files.saving import IMAGES, material_table
 
     table = material_table(replace(material, texture=None, metal=None), Path())
     for name in IMAGES:
@@ -174,8 +174,8 @@ def _material(material: Material) -> dict[str, Any]:
 
 def as_text(told: dict[str, Any]) -> str:
     """Return the same as text."""
-    from app.commands.arguments import counted
-    from renderer.system.errors import one_line, quoted
+    from lucida.app.commands.arguments import counted
+    from lucida.renderer.system.errors import one_line, quoted
 
     objects, lights = told["objects"], told["lights"]
     shining = sum(not light["hidden"] for light in lights)
@@ -218,7 +218,7 @@ def _box(bounds: list[list[float]] | None) -> str:
 
 
 def _color(material: dict[str, Any]) -> str:
-    from renderer.system.errors import one_line
+    from lucida.renderer.system.errors import one_line
 
     images = [f", {k} {one_line(material[k])}" for k in ("texture", "metal") if k in material]
     return f"diffuse {_vector(material['diffuse'])}{''.join(images)}"

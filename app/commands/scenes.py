@@ -18,7 +18,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from renderer.files import BUILTIN_SCENES
+    from lucida.renderer.files import BUILTIN_SCENES
 
     print("\n".join(BUILTIN_SCENES))
     return 0

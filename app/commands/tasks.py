@@ -8,10 +8,10 @@ import textwrap
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from app.commands.arguments import say
+from lucida.app.commands.arguments import say
 
 if TYPE_CHECKING:
-    from app.checking.tasks import CheckTask
+    from lucida.app.checking.tasks import CheckTask
 
 NAME = "tasks"
 WIDTH = 96
@@ -38,8 +38,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.checking.courses import course_names
-    from app.commands.asked_tasks import all_tasks, named
+    from lucida.app.checking.courses import course_names
+    from lucida.app.commands.asked_tasks import all_tasks, named
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.task is not None:
@@ -59,8 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def as_data(task: CheckTask) -> dict[str, Any]:
     """Return a task as JSON values."""
-    from app.checking.kinds import KINDS
-    from app.checking.starter import returned, signature
+    from lucida.app.checking.kinds import KINDS
+    from lucida.app.checking.starter import returned, signature
 
     words, said = KINDS[task.kind].words, task.conventions.explained
     return {
@@ -78,7 +78,7 @@ def as_data(task: CheckTask) -> dict[str, Any]:
 
 def listed(tasks: list[CheckTask]) -> list[str]:
     """Return a line for each task, in columns."""
-    from app.checking.starter import returned, signature
+    from lucida.app.checking.starter import returned, signature
 
     rows = [
         (task.name, f"{task.points:g}", f"{signature(task)} -> {returned(task)}") for task in tasks
@@ -89,7 +89,7 @@ def listed(tasks: list[CheckTask]) -> list[str]:
 
 def described(task: CheckTask) -> list[str]:
     """Return a task with its text and the meanings of its words."""
-    from app.checking.starter import arguments_text, returned, signature
+    from lucida.app.checking.starter import arguments_text, returned, signature
 
     points = "point" if task.points == 1 else "points"
     return [

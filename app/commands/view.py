@@ -7,10 +7,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app import __version__
-from app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
-from app.commands.arguments import SCENE_HELP, size
-from app.commands.given_camera import add_view_option, say_changes, viewed
+from lucida import __version__
+from lucida.app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
+from lucida.app.commands.arguments import SCENE_HELP, size
+from lucida.app.commands.given_camera import add_view_option, say_changes, viewed
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -94,14 +94,14 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from app.commands.arguments import check_is_scene
-    from app.images.photograph.reading import found_photograph, is_photograph
-    from app.instruments.poses.model import PoseSet
-    from app.instruments.poses.reading import is_cameras, open_cameras
-    from app.window.code_files import found_code, is_code
-    from renderer.files.cameras.given import Options
-    from renderer.images import check_image_path
-    from renderer.scene.model import View
+    from lucida.app.commands.arguments import check_is_scene
+    from lucida.app.images.photograph.reading import found_photograph, is_photograph
+    from lucida.app.instruments.poses.model import PoseSet
+    from lucida.app.instruments.poses.reading import is_cameras, open_cameras
+    from lucida.app.window.code_files import found_code, is_code
+    from lucida.renderer.files.cameras.given import Options
+    from lucida.renderer.images import check_image_path
+    from lucida.renderer.scene.model import View
 
     screenshot = None
     if arguments.screenshot is not None:
@@ -129,7 +129,7 @@ def run(arguments: argparse.Namespace) -> int:
     if posed is not None:
         say_changes([posed])
         view = View(posed.camera, posed.fit)
-    from app.window.launch import run_viewer  # loads the window: after the quick checks
+    from lucida.app.window.launch import run_viewer  # loads the window: after the quick checks
 
     return run_viewer(
         source,

@@ -6,18 +6,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from app.images.progressive_ray import RayImage
-from app.images.request import ImageRequest
-from app.ui.background import Background
-from renderer.images.frame import Frame
-from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import Scene
-from renderer.scene.precision import check_precision
-from renderer.system.errors import LucidaError
+from lucida.app.images.progressive_ray import RayImage
+from lucida.app.images.request import ImageRequest
+from lucida.app.ui.background import Background
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.scene.precision import check_precision
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.compare.raster_and_ray import Comparison
-    from renderer.compare.why_black import Darkness
+    from lucida.renderer.compare.raster_and_ray import Comparison
+    from lucida.renderer.compare.why_black import Darkness
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,8 +84,8 @@ class Agreement:
         self._comparing.close()
 
     def _compare(self, request: ImageRequest, raster: Frame, ray: Frame) -> Verdict:
-        from renderer.compare.raster_and_ray import compare_frames
-        from renderer.compare.why_black import darkness
+        from lucida.renderer.compare.raster_and_ray import compare_frames
+        from lucida.renderer.compare.why_black import darkness
 
         scene, camera, size = request.scene, request.camera, request.size
         if self._flat is None or self._flat[0] is not scene:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from app.images.placement import Placement, common_pane, own_size, place
-from app.state.app_state import AppState
-from app.state.options.shared import ImageOptions
-from renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
-from renderer.system.memo import Memo
+from lucida.app.images.placement import Placement, common_pane, own_size, place
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import ImageOptions
+from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
+from lucida.renderer.system.memo import Memo
 
 NEARBY_PX = 4  # by which the halves of a window may differ
 IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it

@@ -9,10 +9,10 @@ import re
 from dataclasses import replace
 from typing import get_args
 
-from app.state.app_state import AppState
-from app.state.options.shared import Channel, Component, ImageOptions, Transfer
-from renderer.images.frame import check_size
-from renderer.system.errors import LucidaError
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Channel, Component, ImageOptions, Transfer
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.system.errors import LucidaError
 
 CHANNELS: dict[Channel, tuple[str, str]] = {
     "color": ("Colour", "the shaded colour of each pixel"),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from app.images.request import ImageRequest
-from app.ui.background import Background
-from renderer.camera.camera import Camera, Size
-from renderer.camera.lens_faces import looked_up_faces
+from lucida.app.images.request import ImageRequest
+from lucida.app.ui.background import Background
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.lens_faces import looked_up_faces
 
 Key = tuple[object, ...]
 

@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import moderngl
 from numpy.typing import NDArray
 
-from app.images.lens_tables import LensTables
-from app.images.request import ImageRequest
-from app.images.window_rasterizer import FAILURES, WindowRasterizer
-from app.state.options.shared import Pixel
-from renderer.images.coarseness import FACTORS, reduced
-from renderer.images.frame import CHANNELS, Frame
-from renderer.raster import Rasterizer
-from renderer.raster.targets import Region, Textures
-from renderer.system.memo import Memo
+from lucida.app.images.lens_tables import LensTables
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.window_rasterizer import FAILURES, WindowRasterizer
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.images.coarseness import FACTORS, reduced
+from lucida.renderer.images.frame import CHANNELS, Frame
+from lucida.renderer.raster import Rasterizer
+from lucida.renderer.raster.targets import Region, Textures
+from lucida.renderer.system.memo import Memo
 
 # Returns the image to draw for a request, and how many times coarser.
 Choice = Callable[[ImageRequest], tuple[ImageRequest, int]]

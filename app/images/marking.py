@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from app.state.options.shared import Pixel
-from renderer.camera.camera import Size
-from renderer.scene.model import View
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.scene.model import View
 
 
 @dataclass(frozen=True)

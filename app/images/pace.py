@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
-from app.images.request import ImageRequest
-from renderer.images.coarseness import STILL_S, Coarseness
+from lucida.app.images.request import ImageRequest
+from lucida.renderer.images.coarseness import STILL_S, Coarseness
 
 BUDGET_S = 1 / 60  # for both images, while anything moves
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import moderngl
 
-from app.images.shown import Held, Picture
-from renderer.raster.resources import Owner
-from renderer.raster.screen_pass import SizedTarget, cover, new_array, plain_state
-from renderer.system.memo import Memo
+from lucida.app.images.shown import Held, Picture
+from lucida.renderer.raster.resources import Owner
+from lucida.renderer.raster.screen_pass import SizedTarget, cover, new_array, plain_state
+from lucida.renderer.system.memo import Memo
 
 
 class Pass:

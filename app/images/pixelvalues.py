@@ -11,10 +11,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from app.state.options.shared import ImageOptions
-from renderer.images.display import LUMINANCE, from_srgb, picture, to_srgb8
-from renderer.images.frame import Frame
-from renderer.images.shared_numbers import FARTHEST_GRAY
+from lucida.app.state.options.shared import ImageOptions
+from lucida.renderer.images.display import LUMINANCE, from_srgb, picture, to_srgb8
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 
 Bytes = NDArray[np.uint8]
 Depths = tuple[float, float] | None  # that are shown white and darkest

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from app.state.bounds import range_of
-from app.state.options.shared import ImageOptions
-from renderer.camera.camera import Size
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.shared import ImageOptions
+from lucida.renderer.camera.camera import Size
 
 LEAST, MOST = range_of(ImageOptions, "magnification")
 # Where the wheel stops: whole numbers, so that all pixels are squares of one size.

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from app.images.request import ImageRequest
-from renderer.camera.camera import Camera
-from renderer.images.coarseness import reduced
-from renderer.images.frame import CHANNELS, Frame
-from renderer.images.samples import Progress, supersampled
-from renderer.scene.model import Scene
+from lucida.app.images.request import ImageRequest
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.coarseness import reduced
+from lucida.renderer.images.frame import CHANNELS, Frame
+from lucida.renderer.images.samples import Progress, supersampled
+from lucida.renderer.scene.model import Scene
 
 if TYPE_CHECKING:  # its import loads the compiler
-    from renderer.trace import TraceJob, Tracer
+    from lucida.renderer.trace import TraceJob, Tracer
 
 # How long an image may still take when something newer is requested: a coarse one is finished, so
 # that steady dragging always shows something new.

@@ -10,12 +10,12 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.images.progressive_ray import LiveTrace
-from app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
-from app.ui.background import Background
-from renderer.editing.documents import are_versions
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida.app.images.progressive_ray import LiveTrace
+from lucida.app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
+from lucida.app.ui.background import Background
+from lucida.renderer.editing.documents import are_versions
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 T = TypeVar("T")
 Range = tuple[float, float]

@@ -13,29 +13,29 @@ from dataclasses import replace
 import moderngl
 from numpy.typing import NDArray
 
-from app.images.agreement import Agreement, Verdict
-from app.images.image_size import ImageSize
-from app.images.pace import Pace
-from app.images.picking import object_on_ray
-from app.images.placement import Placement
-from app.images.progressive_ray import LiveTrace, RayImage
-from app.images.request import ImageRequest
-from app.images.scene_tracer import tracer_for
-from app.images.shown import Picture
-from app.images.textures import ImageTextures
-from app.images.window_rasterizer import FAILURES
-from app.state.app_state import AppState
-from app.state.options.shared import ImageOptions
-from app.ui.background import lower_priority
-from renderer.camera.camera import Camera
-from renderer.compare.why_black import Reason
-from renderer.images.coarseness import reduced
-from renderer.images.frame import Frame
-from renderer.raster import Look
-from renderer.raster.targets import Region
-from renderer.scene.model import View
-from renderer.system import compile_note
-from renderer.system.memo import Memo
+from lucida.app.images.agreement import Agreement, Verdict
+from lucida.app.images.image_size import ImageSize
+from lucida.app.images.pace import Pace
+from lucida.app.images.picking import object_on_ray
+from lucida.app.images.placement import Placement
+from lucida.app.images.progressive_ray import LiveTrace, RayImage
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.scene_tracer import tracer_for
+from lucida.app.images.shown import Picture
+from lucida.app.images.textures import ImageTextures
+from lucida.app.images.window_rasterizer import FAILURES
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import ImageOptions
+from lucida.app.ui.background import lower_priority
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.compare.why_black import Reason
+from lucida.renderer.images.coarseness import reduced
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.raster import Look
+from lucida.renderer.raster.targets import Region
+from lucida.renderer.scene.model import View
+from lucida.renderer.system import compile_note
+from lucida.renderer.system.memo import Memo
 
 NOTE_AFTER_S = 0.3
 

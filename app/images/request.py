@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from renderer.camera.camera import Camera
-from renderer.camera.pixels import ENLARGEMENT
-from renderer.editing.documents import are_versions
-from renderer.scene.model import Scene
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import ENLARGEMENT
+from lucida.renderer.editing.documents import are_versions
+from lucida.renderer.scene.model import Scene
 
 MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
 

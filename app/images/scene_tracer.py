@@ -10,18 +10,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from app.images.request import MIRROR_DEPTH, ImageRequest
-from renderer.scene.model import Scene
+from lucida.app.images.request import MIRROR_DEPTH, ImageRequest
+from lucida.renderer.scene.model import Scene
 
 if TYPE_CHECKING:
-    from renderer.trace import Tracer
+    from lucida.renderer.trace import Tracer
 
 T = TypeVar("T")
 
 
 def tracer_for(request: ImageRequest) -> Tracer:
     """Make the tracer that a request needs; called on the tracing thread."""
-    from renderer.trace import Tracer
+    from lucida.renderer.trace import Tracer
 
     mirror_depth = MIRROR_DEPTH if request.mirrors else 0
     return Tracer(request.scene, shadows=request.shadows, mirror_depth=mirror_depth)
@@ -67,7 +67,7 @@ class SceneTracer:
             self.close()
             return ready
         if self._own is None or self._own[0] is not scene:
-            from renderer.trace import Tracer
+            from lucida.renderer.trace import Tracer
 
             self.close()
             self._own = (scene, Tracer(scene))

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
-from app.images.placement import Placement, Size
-from renderer.raster import Display, Look, Section
-from renderer.raster.resources import new_texture
-from renderer.system.memo import Memo
+from lucida.app.images.placement import Placement, Size
+from lucida.renderer.raster import Display, Look, Section
+from lucida.renderer.raster.resources import new_texture
+from lucida.renderer.system.memo import Memo
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,14 +6,14 @@ import contextlib
 
 import moderngl
 
-from app.images.live_raster import Choice, LiveRaster, RasterImage
-from app.images.placement import Placement
-from app.images.progressive_ray import RayImage
-from app.images.request import ImageRequest
-from app.images.shown import DepthBounds, Picture, ShownImage, whole
-from app.images.window_rasterizer import FAILURES, WindowRasterizer
-from renderer.raster import DepthRange, Look, upload
-from renderer.system.memo import Memo
+from lucida.app.images.live_raster import Choice, LiveRaster, RasterImage
+from lucida.app.images.placement import Placement
+from lucida.app.images.progressive_ray import RayImage
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.shown import DepthBounds, Picture, ShownImage, whole
+from lucida.app.images.window_rasterizer import FAILURES, WindowRasterizer
+from lucida.renderer.raster import DepthRange, Look, upload
+from lucida.renderer.system.memo import Memo
 
 PANE, WHOLE = "pane", "whole"
 ATTEMPTS = 3  # to upload a ray image, one per frame

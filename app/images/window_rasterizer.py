@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import moderngl
 
-from app.images.request import ImageRequest
-from renderer.raster import Prepared, Rasterizer
-from renderer.raster.targets import Textures
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida.app.images.request import ImageRequest
+from lucida.renderer.raster import Prepared, Rasterizer
+from lucida.renderer.raster.targets import Textures
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 # Errors of drawing, which are shown to the user, and do not end the program.
 FAILURES = (LucidaError, moderngl.Error, MemoryError)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from app.lecture.reading import BUILTINS, load_lecture
-from app.lecture.view import LectureView
-from app.ui.action import Action
-from app.ui.host import Host
+from lucida.app.lecture.reading import BUILTINS, load_lecture
+from lucida.app.lecture.view import LectureView
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
 
 
 def _given(window: Host) -> bool:

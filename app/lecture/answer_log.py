@@ -12,10 +12,10 @@ from pathlib import Path
 
 import msgspec
 
-from app.lecture.model import Lecture, Step
-from app.state.kept_lecture import Answers, Judgement
-from renderer.system.atomic import check_writable
-from renderer.system.errors import LucidaError, describe
+from lucida.app.lecture.model import Lecture, Step
+from lucida.app.state.kept_lecture import Answers, Judgement
+from lucida.renderer.system.atomic import check_writable
+from lucida.renderer.system.errors import LucidaError, describe
 
 LONGEST_NAME = 60
 

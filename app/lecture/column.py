@@ -7,24 +7,24 @@ from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.outside.growing import stage_at, stages_of
-from app.lecture.answer_log import AnswerLog
-from app.lecture.answer_note import note
-from app.lecture.exercise import exercise
-from app.lecture.exercises import ChoiceExercise
-from app.lecture.foot import foot_height
-from app.lecture.hiding import HideExercise
-from app.lecture.inheriting import changed_view
-from app.lecture.model import Exercise, Step
-from app.lecture.session import LectureSession
-from app.lecture.slide import TITLE, Slides
-from app.lecture.watching_hidden import HiddenWatch
-from app.state.kept_lecture import Answers
-from app.ui import layout, theme
-from app.ui.host import Host
-from app.ui.lettering import lettering
-from app.ui.messages import wrapped
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.outside.growing import stage_at, stages_of
+from lucida.app.lecture.answer_log import AnswerLog
+from lucida.app.lecture.answer_note import note
+from lucida.app.lecture.exercise import exercise
+from lucida.app.lecture.exercises import ChoiceExercise
+from lucida.app.lecture.foot import foot_height
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.inheriting import changed_view
+from lucida.app.lecture.model import Exercise, Step
+from lucida.app.lecture.session import LectureSession
+from lucida.app.lecture.slide import TITLE, Slides
+from lucida.app.lecture.watching_hidden import HiddenWatch
+from lucida.app.state.kept_lecture import Answers
+from lucida.app.ui import layout, theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.messages import wrapped
+from lucida.renderer.system.errors import LucidaError
 
 CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
 FADE_S = 0.5  # of a text that is added

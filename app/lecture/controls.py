@@ -6,9 +6,9 @@ import time
 
 from imgui_bundle import imgui
 
-from app.lecture.foot import foot
-from app.lecture.session import LectureSession
-from app.ui.host import Host
+from lucida.app.lecture.foot import foot
+from lucida.app.lecture.session import LectureSession
+from lucida.app.ui.host import Host
 
 CONTROLS_S = 2.0  # until controls go after the mouse rests
 DIGITS = 3  # of a step's number

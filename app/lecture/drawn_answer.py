@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from app.instruments.outside.diagram import Item
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.view import OutsideView
-from app.lecture.ghosts import ghosts
-from app.lecture.session import LectureSession
-from app.ui.host import Host
-from renderer.system.memo import Memo
+from lucida.app.instruments.outside.diagram import Item
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.lecture.ghosts import ghosts
+from lucida.app.lecture.session import LectureSession
+from lucida.app.ui.host import Host
+from lucida.renderer.system.memo import Memo
 
 SOURCE = "Lecture"  # of the drawing, in the outside view
 

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.lecture.exercises import ChoiceExercise, TypedExercise
-from app.lecture.hiding import HideExercise
-from app.lecture.model import Exercise
-from app.lecture.slide import Slides
-from app.lecture.text import parse
-from app.state.kept_lecture import Answers, Judgement
-from app.state.options.shared import Notation
-from app.ui import theme
-from app.ui.areas import press_area
-from app.ui.checks import verdict_sign
-from app.ui.explaining import symbols
-from app.ui.formula import vector_colors
-from app.ui.lettering import lettering, underline
-from app.ui.rows import button_width, follow
-from app.ui.theme import Fonts
+from lucida.app.lecture.exercises import ChoiceExercise, TypedExercise
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.model import Exercise
+from lucida.app.lecture.slide import Slides
+from lucida.app.lecture.text import parse
+from lucida.app.state.kept_lecture import Answers, Judgement
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui import theme
+from lucida.app.ui.areas import press_area
+from lucida.app.ui.checks import verdict_sign
+from lucida.app.ui.explaining import symbols
+from lucida.app.ui.formula import vector_colors
+from lucida.app.ui.lettering import lettering, underline
+from lucida.app.ui.rows import button_width, follow
+from lucida.app.ui.theme import Fonts
 
 LETTERS = "ABCDEFGH"
 

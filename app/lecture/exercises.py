@@ -13,16 +13,16 @@ from typing import Any, Literal
 import msgspec
 import numpy as np
 
-from app.checking.mistakes.program import Mistake
-from app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
-from app.lecture.text import escaped
-from app.state.kept_lecture import Judgement
-from app.ui.explaining import symbols
-from app.ui.explaining.arithmetic import text_of, vector, vector_text
-from renderer.camera.camera import Camera, Floats, Ray
-from renderer.camera.pixels import Indexing
-from renderer.files.schema import Numbers3, StrictTable
-from renderer.system.errors import LucidaError
+from lucida.app.checking.mistakes.program import Mistake
+from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
+from lucida.app.lecture.text import escaped
+from lucida.app.state.kept_lecture import Judgement
+from lucida.app.ui.explaining import symbols
+from lucida.app.ui.explaining.arithmetic import text_of, vector, vector_text
+from lucida.renderer.camera.camera import Camera, Floats, Ray
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.files.schema import Numbers3, StrictTable
+from lucida.renderer.system.errors import LucidaError
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
 CORRECT = "Correct."

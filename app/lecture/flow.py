@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from app.lecture.text import (
+from lucida.app.lecture.text import (
     Block,
     Code,
     DisplayedFormula,
@@ -23,7 +23,7 @@ from app.lecture.text import (
     Question,
     Words,
 )
-from app.ui.explaining.breaking import breakable, broken, narrowed
+from lucida.app.ui.explaining.breaking import breakable, broken, narrowed
 
 # In parts of the text's size.
 LEADING = 1.18  # from line to line

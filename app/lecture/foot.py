@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.lecture.session import LectureSession
+from lucida.app.lecture.session import LectureSession
 
 BACK, NEXT = "back", "next"
 END = "End the lecture"

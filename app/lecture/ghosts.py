@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from app.instruments.outside import answers
-from app.instruments.outside.diagram import Item, Role, in_notation
-from app.instruments.outside.second_camera import GivenRay
-from app.lecture.exercises import (
+from lucida.app.instruments.outside import answers
+from lucida.app.instruments.outside.diagram import Item, Role, in_notation
+from lucida.app.instruments.outside.second_camera import GivenRay
+from lucida.app.lecture.exercises import (
     RayExercise,
     VectorExercise,
     Wanted,
@@ -17,10 +17,10 @@ from app.lecture.exercises import (
     is_multiple,
     vectors,
 )
-from app.lecture.model import Exercise
-from app.state.kept_lecture import Judgement
-from app.state.options.shared import Notation
-from renderer.camera.camera import Camera, Floats
+from lucida.app.lecture.model import Exercise
+from lucida.app.state.kept_lecture import Judgement
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.camera.camera import Camera, Floats
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 

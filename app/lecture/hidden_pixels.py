@@ -5,18 +5,18 @@ The tracer is imported on first use, because it loads the compiler.
 
 from __future__ import annotations
 
-from app.lecture.hiding import HideExercise, Ids
-from app.lecture.model import Lecture
-from renderer.camera.camera import Camera
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError, errors_as
+from lucida.app.lecture.hiding import HideExercise, Ids
+from lucida.app.lecture.model import Lecture
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError, errors_as
 
 SIZE = (960, 720)  # of the images that answers are tried in
 
 
 def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
     """Return the ids (height, width) of a traced image. size: (width, height)."""
-    from renderer.trace import Tracer
+    from lucida.renderer.trace import Tracer
 
     with Tracer(scene) as tracer:
         ids: Ids = tracer.render(camera, size, channels=("id",)).channel("id")

@@ -13,16 +13,16 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from app.lecture.text import escaped
-from app.state.kept_lecture import Judgement
-from renderer.camera.camera import Camera
-from renderer.editing.changing import Item, fields_of, set_field
-from renderer.editing.moving import bounds_of, transform
-from renderer.editing.objects import hide
-from renderer.editing.outline import OutlineRow, outline
-from renderer.files.reading import suggestion
-from renderer.scene.model import Scene, View, vector
-from renderer.system.errors import LucidaError
+from lucida.app.lecture.text import escaped
+from lucida.app.state.kept_lecture import Judgement
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.editing.changing import Item, fields_of, set_field
+from lucida.renderer.editing.moving import bounds_of, transform
+from lucida.renderer.editing.objects import hide
+from lucida.renderer.editing.outline import OutlineRow, outline
+from lucida.renderer.files.reading import suggestion
+from lucida.renderer.scene.model import Scene, View, vector
+from lucida.renderer.system.errors import LucidaError
 
 Ids = NDArray[np.int32]
 

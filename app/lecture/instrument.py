@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.lecture.actions import LECTURE
-from app.lecture.view import LectureView
+from lucida.app.lecture.actions import LECTURE
+from lucida.app.lecture.view import LectureView
 
 
 class LectureInstrument(LectureView):

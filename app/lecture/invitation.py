@@ -6,10 +6,10 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from app.lecture.reading import BUILTINS
-from app.ui import theme
-from app.ui.host import Host
-from app.ui.messages import wrapped
+from lucida.app.lecture.reading import BUILTINS
+from lucida.app.ui import theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.messages import wrapped
 
 
 def invitation(host: Host) -> Path | None:

@@ -7,12 +7,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from app.lecture.exercises import AskedExercise
-from app.lecture.hiding import HideExercise
-from app.lecture.text import Block
-from app.state.options import Options
-from renderer.scene.model import Scene, View
-from renderer.system.file_dependencies import Noted
+from lucida.app.lecture.exercises import AskedExercise
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.text import Block
+from lucida.app.state.options import Options
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.system.file_dependencies import Noted
 
 Exercise = AskedExercise | HideExercise
 

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from app.cameras.animation import Passage
-from app.instruments.outside.frustum import plane_corners
-from app.state.app_state import AppState
-from renderer.camera.camera import Camera, Vector
-from renderer.scene.focus import Focus
-from renderer.scene.model import View
+from lucida.app.cameras.animation import Passage
+from lucida.app.instruments.outside.frustum import plane_corners
+from lucida.app.state.app_state import AppState
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.scene.focus import Focus
+from lucida.renderer.scene.model import View
 
 SIZE = 16, 9  # of an image that is not shown
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 
-from app.lecture.text import (
+from lucida.app.lecture.text import (
     Block,
     Code,
     DisplayedFormula,
@@ -15,8 +15,8 @@ from app.lecture.text import (
     Span,
     Words,
 )
-from app.state.options.shared import Notation
-from app.ui.explaining import symbols
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining import symbols
 
 
 @lru_cache(512)

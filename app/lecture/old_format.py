@@ -9,8 +9,8 @@ import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 
-from app.lecture.schema import StepTable
-from app.lecture.text import Block, ItemList, parse
+from lucida.app.lecture.schema import StepTable
+from lucida.app.lecture.text import Block, ItemList, parse
 
 Blocks = tuple[Block, ...]
 FIELDS = ("reveal", "answer", "links", "low", "highlight")

@@ -10,36 +10,36 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from app.checking.task_file import check_known
-from app.lecture import text as texts
-from app.lecture.inheriting import inherited
-from app.lecture.model import Lecture, Step, Written
-from app.lecture.old_format import REMEDY, fields_of, old_builds
-from app.lecture.reading_exercises import exercise_of, pixel_of
-from app.lecture.schema import (
+from lucida.app.checking.task_file import check_known
+from lucida.app.lecture import text as texts
+from lucida.app.lecture.inheriting import inherited
+from lucida.app.lecture.model import Lecture, Step, Written
+from lucida.app.lecture.old_format import REMEDY, fields_of, old_builds
+from lucida.app.lecture.reading_exercises import exercise_of, pixel_of
+from lucida.app.lecture.schema import (
     DEFAULT_VIEWS,
     VIEWS,
     BuildTable,
     LectureFile,
     StepTable,
 )
-from app.lecture.step_options import files_named, options_from_table, with_files
-from app.lecture.written import formulas_written, texts_of
-from app.state.options import Options
-from app.state.options.shared import Notation
-from app.state.removed import without_removed, without_removed_views
-from renderer.camera.pixels import Indexing
-from renderer.files.load import BUILTIN_SCENES, load_scene
-from renderer.files.outside import check_inside, kept_inside
-from renderer.files.places import Places, located
-from renderer.files.reading import decode_text, read_file, suggestion
-from renderer.files.scene_file import scene_from_tables
-from renderer.files.tables import parse_toml, to_struct
-from renderer.files.views import load_view, view_from_table
-from renderer.scene.limits import TOML_BYTES, TRIANGLES
-from renderer.scene.model import Mesh, Scene, View
-from renderer.system.errors import LucidaError, not_together, under
-from renderer.system.file_dependencies import noting
+from lucida.app.lecture.step_options import files_named, options_from_table, with_files
+from lucida.app.lecture.written import formulas_written, texts_of
+from lucida.app.state.options import Options
+from lucida.app.state.options.shared import Notation
+from lucida.app.state.removed import without_removed, without_removed_views
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.files.load import BUILTIN_SCENES, load_scene
+from lucida.renderer.files.outside import check_inside, kept_inside
+from lucida.renderer.files.places import Places, located
+from lucida.renderer.files.reading import decode_text, read_file, suggestion
+from lucida.renderer.files.scene_file import scene_from_tables
+from lucida.renderer.files.tables import parse_toml, to_struct
+from lucida.renderer.files.views import load_view, view_from_table
+from lucida.renderer.scene.limits import TOML_BYTES, TRIANGLES
+from lucida.renderer.scene.model import Mesh, Scene, View
+from lucida.renderer.system.errors import LucidaError, not_together, under
+from lucida.renderer.system.file_dependencies import noting
 
 _FOLDER = Path(__file__).parent / "lectures"
 BUILTIN = _FOLDER / "images-rays-cameras.toml"

@@ -9,9 +9,9 @@ from typing import Any, Literal
 
 from msgspec import field
 
-from app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
-from app.state.options.shared import Notation
-from renderer.files.schema import Numbers3, StrictTable
+from lucida.app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.files.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
 VIEWS = (

@@ -8,17 +8,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.lecture.model import Lecture, Step
-from app.lecture.reading import BUILTIN, load_lecture
-from app.lecture.typesetting import first_mistake
-from app.state.app_state import AppState
-from app.state.kept_lecture import Answers, KeptLecture
-from app.state.paths import restored, stored
-from app.ui.watching import FilesWatch, fingerprint
-from renderer.files.models.models import read_by
-from renderer.files.models.subprocess_reader import ModelReader
-from renderer.system.errors import describe
-from renderer.system.file_dependencies import stamp
+from lucida.app.lecture.model import Lecture, Step
+from lucida.app.lecture.reading import BUILTIN, load_lecture
+from lucida.app.lecture.typesetting import first_mistake
+from lucida.app.state.app_state import AppState
+from lucida.app.state.kept_lecture import Answers, KeptLecture
+from lucida.app.state.paths import restored, stored
+from lucida.app.ui.watching import FilesWatch, fingerprint
+from lucida.renderer.files.models.models import read_by
+from lucida.renderer.files.models.subprocess_reader import ModelReader
+from lucida.renderer.system.errors import describe
+from lucida.renderer.system.file_dependencies import stamp
 
 
 class LectureSession:

@@ -7,16 +7,16 @@ from collections.abc import Iterable
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.instruments.outside.growing import lit_in
-from app.lecture.flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
-from app.lecture.notation import in_notation
-from app.lecture.text import Block
-from app.state.options.shared import Notation
-from app.ui import theme
-from app.ui.formula import lit, vector_colors
-from app.ui.inline_math import inline_math
-from app.ui.lettering import lettering
-from app.ui.theme import Fonts, framebuffer_scale
+from lucida.app.instruments.outside.growing import lit_in
+from lucida.app.lecture.flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
+from lucida.app.lecture.notation import in_notation
+from lucida.app.lecture.text import Block
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui import theme
+from lucida.app.ui.formula import lit, vector_colors
+from lucida.app.ui.inline_math import inline_math
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.theme import Fonts, framebuffer_scale
 
 ASCENT = 0.78  # of the line's height, in all our fonts
 # In parts of the window's type size: a step's title, and its text, as large as fits.

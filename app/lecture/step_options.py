@@ -13,17 +13,17 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from app.checking.task_file import camera_view
-from app.lecture.hiding import HideExercise
-from app.lecture.model import Step
-from app.state.app_state import AppState, is_orthonormal
-from app.state.bounds import check, files_of
-from app.state.options import Options
-from app.state.paths import stored
-from renderer.camera.camera import Camera
-from renderer.files.reading import suggestion
-from renderer.files.tables import to_struct
-from renderer.system.errors import LucidaError, under
+from lucida.app.checking.task_file import camera_view
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.model import Step
+from lucida.app.state.app_state import AppState, is_orthonormal
+from lucida.app.state.bounds import check, files_of
+from lucida.app.state.options import Options
+from lucida.app.state.paths import stored
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files.reading import suggestion
+from lucida.renderer.files.tables import to_struct
+from lucida.renderer.system.errors import LucidaError, under
 
 _types = lru_cache(get_type_hints)  # which takes long
 

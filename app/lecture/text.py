@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 
 class Words(NamedTuple):

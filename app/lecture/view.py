@@ -14,24 +14,24 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.outside.view import OutsideView
-from app.lecture.answer_log import AnswerLog
-from app.lecture.column import Column
-from app.lecture.controls import Controls
-from app.lecture.drawn_answer import DrawnAnswer
-from app.lecture.foot import BACK, END, NEXT
-from app.lecture.invitation import invitation
-from app.lecture.model import Lecture
-from app.lecture.reading import load_lecture
-from app.lecture.session import LectureReread, LectureSession, reread
-from app.lecture.step_options import own, state_of
-from app.state.app_state import AppState
-from app.state.kept_lecture import KeptLecture
-from app.state.session import source_of
-from app.ui import layout
-from app.ui.background import Background
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.lecture.answer_log import AnswerLog
+from lucida.app.lecture.column import Column
+from lucida.app.lecture.controls import Controls
+from lucida.app.lecture.drawn_answer import DrawnAnswer
+from lucida.app.lecture.foot import BACK, END, NEXT
+from lucida.app.lecture.invitation import invitation
+from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.reading import load_lecture
+from lucida.app.lecture.session import LectureReread, LectureSession, reread
+from lucida.app.lecture.step_options import own, state_of
+from lucida.app.state.app_state import AppState
+from lucida.app.state.kept_lecture import KeptLecture
+from lucida.app.state.session import source_of
+from lucida.app.ui import layout
+from lucida.app.ui.background import Background
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
 
 LECTURE = "Lecture"
 # Of a text over a picture: its part of the window's width, and the opacity of its ground.

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.images.progressive_ray import RayImage
-from app.lecture.hidden_pixels import ids_seen
-from app.lecture.hiding import HideExercise
-from app.state.kept_lecture import Judgement
-from app.ui.background import Background
-from app.ui.host import Host
-from renderer.camera.camera import Camera
+from lucida.app.images.progressive_ray import RayImage
+from lucida.app.lecture.hidden_pixels import ids_seen
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.state.kept_lecture import Judgement
+from lucida.app.ui.background import Background
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera
 
 Counted = tuple[HideExercise, Camera, tuple[int, int]]  # for which image pixels were counted
 

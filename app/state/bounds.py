@@ -13,7 +13,7 @@ from functools import cache
 from operator import is_
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 T = TypeVar("T")
 

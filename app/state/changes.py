@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, is_dataclass
 from typing import Any
 
-from app.state.app_state import AppState
+from lucida.app.state.app_state import AppState
 
 WORDS = {
     "pixel_size": "pixel size",

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.state.paths import restored, stored
-from renderer.editing.changing import as_tables, origin_of
-from renderer.editing.documents import is_unsaved
-from renderer.files.saving import relocated
-from renderer.files.scene_file import changed_scene, new_keys
-from renderer.files.tables import VERSION, parse_toml
-from renderer.files.toml_writing import toml_text
-from renderer.scene.model import Scene, View
-from renderer.scene.origin import Keys, Origin, SavedFile
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError
-from renderer.system.file_dependencies import noting, stamp
+from lucida.app.state.paths import restored, stored
+from lucida.renderer.editing.changing import as_tables, origin_of
+from lucida.renderer.editing.documents import is_unsaved
+from lucida.renderer.files.saving import relocated
+from lucida.renderer.files.scene_file import changed_scene, new_keys
+from lucida.renderer.files.tables import VERSION, parse_toml
+from lucida.renderer.files.toml_writing import toml_text
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.scene.origin import Keys, Origin, SavedFile
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.file_dependencies import noting, stamp
 
 MOST_RESCUED = 1000
 

@@ -1,7 +1,7 @@
 """Paths of files as text for any file format, and back.
 
 A name need not be UTF-8. Python then has lone surrogates in it, which JSON and the window's texts
-do not accept. Show paths by renderer.system.errors.one_line(); keep them by stored().
+do not accept. Show paths by lucida.renderer.system.errors.one_line(); keep them by stored().
 """
 
 from __future__ import annotations

@@ -10,17 +10,17 @@ from dataclasses import dataclass, field, replace
 
 import msgspec
 
-from app.state.app_state import AppState
-from app.state.bounds import check
-from app.state.kept_lecture import KeptLecture
-from app.state.kept_scene import KeptScene, kept_scene
-from app.state.options import Options
-from app.state.paths import restored, stored
-from app.state.removed import without_removed
-from renderer.files import BUILTIN_SCENES, load_scene
-from renderer.files.tables import check_integers
-from renderer.scene import Scene, View
-from renderer.system.errors import LucidaError
+from lucida.app.state.app_state import AppState
+from lucida.app.state.bounds import check
+from lucida.app.state.kept_lecture import KeptLecture
+from lucida.app.state.kept_scene import KeptScene, kept_scene
+from lucida.app.state.options import Options
+from lucida.app.state.paths import restored, stored
+from lucida.app.state.removed import without_removed
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.files.tables import check_integers
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.errors import LucidaError
 
 VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is

@@ -12,8 +12,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
 
 SMALLEST_PX, LARGEST_PX = 64, 16384  # sides of a window that somebody could have left
 LARGEST_BYTES = 1 << 20

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from app.state.app_state import AppState
-from app.ui.host import Host
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.host import Host
 
 Key = imgui.Key
 # The keys of a sign. Plus is typed with Shift on many keyboards.

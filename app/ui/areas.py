@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.state.options.shared import Pixel
+from lucida.app.state.options.shared import Pixel
 
 LEAP = 10  # with Shift
 ARROWS = {

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
-from renderer.system.memo import Memo, Parts
+from lucida.renderer.system.memo import Memo, Parts
 
 T = TypeVar("T")
 NICER = 5  # on Linux: background work yields to the window

@@ -8,10 +8,10 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.areas import focused_steps, pixel_from, press_point
-from renderer.images.display import to_srgb8
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.areas import focused_steps, pixel_from, press_point
+from lucida.renderer.images.display import to_srgb8
 
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
 LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels

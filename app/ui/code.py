@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.ui import theme
+from lucida.app.ui import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
 NAMED = ("ray", "hit", "closest")

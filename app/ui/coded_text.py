@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.ui import theme
-from app.ui.lettering import lettering
-from app.ui.theme import Fonts
+from lucida.app.ui import theme
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.theme import Fonts
 
 TICK = "`"
 Measure = Callable[[str, bool], float]  # the width of words, and whether they are code

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 
-from renderer.images.shared_numbers import (
+from lucida.renderer.images.shared_numbers import (
     LUMINANCE,
     SRGB_GAMMA,
     SRGB_LINEAR_SHOWN,

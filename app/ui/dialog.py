@@ -14,12 +14,12 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from app.ui import folders, theme
-from app.ui.background import Background
-from app.ui.checks import checkbox
-from app.ui.folders import FolderContent, starting_points
-from app.ui.messages import box_width
-from renderer.system.errors import one_line
+from lucida.app.ui import folders, theme
+from lucida.app.ui.background import Background
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.folders import FolderContent, starting_points
+from lucida.app.ui.messages import box_width
+from lucida.renderer.system.errors import one_line
 
 Chosen = Callable[[list[str]], None]
 TITLE = "###file dialog"

@@ -9,10 +9,10 @@ from collections.abc import Callable
 import moderngl
 from imgui_bundle import imgui
 
-from app.images.textures import FAILURES
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from app.ui.messages import failure_note
+from lucida.app.images.textures import FAILURES
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.messages import failure_note
 
 
 class FailedViews:

@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.ui import pending, theme, typed
-from app.ui.explaining import notation
-from app.ui.explaining.arithmetic import number
-from app.ui.rows import tip
-from renderer.system.errors import LucidaError
+from lucida.app.ui import pending, theme, typed
+from lucida.app.ui.explaining import notation
+from lucida.app.ui.explaining.arithmetic import number
+from lucida.app.ui.rows import tip
+from lucida.renderer.system.errors import LucidaError
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
 FLT_MAX = 3.4e38

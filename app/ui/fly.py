@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from renderer.camera.navigation import flown
-from renderer.system.errors import LucidaError
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.renderer.camera.navigation import flown
+from lucida.renderer.system.errors import LucidaError
 
 Key = imgui.Key
 

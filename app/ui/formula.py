@@ -15,9 +15,9 @@ from pathlib import Path
 import imgui_bundle
 from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
-from app.ui import theme
-from app.ui.explaining.breaking import breakable
-from app.ui.theme import framebuffer_scale
+from lucida.app.ui import theme
+from lucida.app.ui.explaining.breaking import breakable
+from lucida.app.ui.theme import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
 MOST_EXTENTS = 500

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Protocol
 
 from imgui_bundle import ImVec2
 
-from app.state.app_state import AppState
-from renderer.camera.camera import Camera
+from lucida.app.state.app_state import AppState
+from lucida.renderer.camera.camera import Camera
 
 if TYPE_CHECKING:
-    from app.ui.host import Host
+    from lucida.app.ui.host import Host
 
 
 @dataclass(frozen=True)

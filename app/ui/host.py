@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from typing import Protocol, TypeVar
 
-from app.images.renderers import Renderers
-from app.state.app_state import AppState
-from app.state.bounds import OptionPart
-from app.state.options import Options
-from app.state.options.shared import Pixel
-from app.ui.recent import RecentFiles
-from app.ui.theme import Fonts
-from app.ui.toasts import Toasts
-from renderer.scene import View as SceneView
-from renderer.scene.focus import Focus
+from lucida.app.images.renderers import Renderers
+from lucida.app.state.app_state import AppState
+from lucida.app.state.bounds import OptionPart
+from lucida.app.state.options import Options
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.recent import RecentFiles
+from lucida.app.ui.theme import Fonts
+from lucida.app.ui.toasts import Toasts
+from lucida.renderer.scene import View as SceneView
+from lucida.renderer.scene.focus import Focus
 
 T = TypeVar("T")
 

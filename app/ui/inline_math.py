@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
-from app.ui import formula, theme
-from app.ui.explaining.plain import plain_math
-from app.ui.theme import framebuffer_scale
+from lucida.app.ui import formula, theme
+from lucida.app.ui.explaining.plain import plain_math
+from lucida.app.ui.theme import framebuffer_scale
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,10 +12,10 @@ from typing import ClassVar, TypeVar
 import moderngl
 from imgui_bundle import ImVec2
 
-from app.state.app_state import AppState
-from app.ui.action import Action
-from app.ui.host import Host
-from renderer.camera.camera import Camera
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera
 
 AnInstrument = TypeVar("AnInstrument", bound="Instrument")
 

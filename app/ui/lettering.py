@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from imgui_bundle import ImVec4, imgui
 
-from app.ui import theme
+from lucida.app.ui import theme
 
 
 @contextlib.contextmanager

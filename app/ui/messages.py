@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.ui import theme
-from renderer.system.errors import describe
+from lucida.app.ui import theme
+from lucida.renderer.system.errors import describe
 
 SHOWN_AFTER_S = 0.4  # quick work has no progress bar
 LONG = 40  # letters of an answer

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import moderngl
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.areas import press_area
-from app.ui.canvas import pressed_pixel, walked_pixel
-from app.ui.lettering import fitting_words, lettering
-from app.ui.rows import tip
-from app.ui.theme import Fonts, framebuffer_scale
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.areas import press_area
+from lucida.app.ui.canvas import pressed_pixel, walked_pixel
+from lucida.app.ui.lettering import fitting_words, lettering
+from lucida.app.ui.rows import tip
+from lucida.app.ui.theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3  # of each line
 GAP_EM = 0.7

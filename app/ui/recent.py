@@ -13,11 +13,11 @@ from pathlib import Path
 
 import msgspec
 
-from app.state.paths import restored, stored
-from app.ui.background import Background
-from renderer.files.reading import read_file
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.state.paths import restored, stored
+from lucida.app.ui.background import Background
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError, one_line
 
 MOST = 12
 LAST_S = 5.0  # at the end, for what is being written

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from imgui_bundle import imgui
 
-from app.ui import theme
+from lucida.app.ui import theme
 
 Number = TypeVar("Number", int, float)
 

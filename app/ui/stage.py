@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.state.session import Arrangement
-from app.ui import docks, layout, theme
-from app.ui.failing import FailedViews
-from app.ui.host import Host
-from app.ui.instrument import Instrument
+from lucida.app.state.session import Arrangement
+from lucida.app.ui import docks, layout, theme
+from lucida.app.ui.failing import FailedViews
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
 NARROW = ("Camera", "Lecture")  # whose columns no other view is opened in

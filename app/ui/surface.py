@@ -14,7 +14,7 @@ import glfw
 import moderngl
 import numpy as np
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from app.ui import theme
-from app.ui.messages import box_width, overlay, wrapped
-from renderer.system.errors import one_line
+from lucida.app.ui import theme
+from lucida.app.ui.messages import box_width, overlay, wrapped
+from lucida.renderer.system.errors import one_line
 
 SHOWN_S = 6.0
 MOST = 4

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from app.ui import theme
-from app.ui.explaining.arithmetic import number
-from renderer.system.errors import LucidaError
+from lucida.app.ui import theme
+from lucida.app.ui.explaining.arithmetic import number
+from lucida.renderer.system.errors import LucidaError
 
 
 @dataclass

@@ -8,8 +8,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.raster.resources import check
-from renderer.system.memo import same
+from lucida.renderer.raster.resources import check
+from lucida.renderer.system.memo import same
 
 ENLARGED_PX = 640  # about a texture's width, where a picture's pixels are made larger
 KEPT_FRAMES = 3  # the window may still show a texture in the frame in which it was replaced

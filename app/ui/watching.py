@@ -11,11 +11,11 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
-from renderer.editing.documents import are_versions
-from renderer.files.reading import first_bytes
-from renderer.scene import Scene
-from renderer.scene.limits import TOML_BYTES
-from renderer.system.file_dependencies import Noted, Stamp, noting, stamp
+from lucida.renderer.editing.documents import are_versions
+from lucida.renderer.files.reading import first_bytes
+from lucida.renderer.scene import Scene
+from lucida.renderer.scene.limits import TOML_BYTES
+from lucida.renderer.system.file_dependencies import Noted, Stamp, noting, stamp
 
 LOOK_S = 0.25  # from look to look, however many frames there are
 REST_S = 0.15  # an editor may write a file in several goes: for how long a change must have rested

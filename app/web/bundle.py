@@ -16,7 +16,7 @@ DECLARED = re.compile(r"^(?:async )?(?:function\*?|class|const|let) +(\w+)", re.
 
 def read_module(name: str) -> str:
     """Return the text of a file in app/web/modules."""
-    return files("app.web").joinpath("modules", name).read_text(encoding="utf-8")
+    return files("lucida.app.web").joinpath("modules", name).read_text(encoding="utf-8")
 
 
 def bundle(entry: str) -> str:

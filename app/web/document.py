@@ -14,7 +14,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from app.web.bundle import bundle
+from lucida.app.web.bundle import bundle
 
 _POLICY = (
     "default-src 'none'; script-src '{script}'; style-src '{style}'; img-src data: blob:; "
@@ -30,7 +30,7 @@ def document(title: str, entry: str, body: str, data: Mapping[str, Any], style: 
     that hold them as JSON. style: CSS after that of all pages.
     """
     script = bundle(entry) + _START
-    css = files("app.web").joinpath("page.css").read_text("utf-8") + style
+    css = files("lucida.app.web").joinpath("page.css").read_text("utf-8") + style
     policy = _POLICY.format(script=_hash(script), style=_hash(css))
     values = "".join(
         f'<script type="application/json" id="{escape(name)}">{embedded(value)}</script>\n'

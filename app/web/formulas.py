@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from latex2mathml.converter import convert
 
-from app.instruments.probe.lens_formulas import ANGLES, PANORAMAS
-from renderer.camera.pixels import Indexing
+from lucida.app.instruments.probe.lens_formulas import ANGLES, PANORAMAS
+from lucida.renderer.camera.pixels import Indexing
 
 _ACROSS = r"u\,\mathbf{u} + v\,\mathbf{v}"
 RAY = {

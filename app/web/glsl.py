@@ -10,9 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from renderer.raster.programs import seeing, shading
-from renderer.raster.sources import Constant, ShaderSource
-from renderer.scene.flat import FlatScene
+from lucida.renderer.raster.programs import seeing, shading
+from lucida.renderer.raster.sources import Constant, ShaderSource
+from lucida.renderer.scene.flat import FlatScene
 
 TABLE_SHIFT = 11  # WebGL 2 has textures of at least 2048 texels a side
 HEADER = """#version 300 es

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.png import png_of
-from renderer.images.shared_numbers import TEXEL_BITS
-from renderer.scene.flat import FlatScene
-from renderer.scene.texture import packed_texels
-from renderer.system.errors import LucidaError
+from lucida.renderer.images.png import png_of
+from lucida.renderer.images.shared_numbers import TEXEL_BITS
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.scene.texture import packed_texels
+from lucida.renderer.system.errors import LucidaError
 
 MOST_TRIANGLES = 200_000
 MOST_TEXELS = 8_000_000

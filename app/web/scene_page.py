@@ -6,17 +6,17 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from app.web import ENDINGS
-from app.web.document import document
-from app.web.formulas import templates
-from app.web.glsl import shaders
-from app.web.packing import packed
-from renderer.files.export import check_export_path
-from renderer.files.views import view_table
-from renderer.scene.flat import flatten
-from renderer.scene.focus import scene_focus
-from renderer.scene.model import Scene, View
-from renderer.system.atomic import atomic_write
+from lucida.app.web import ENDINGS
+from lucida.app.web.document import document
+from lucida.app.web.formulas import templates
+from lucida.app.web.glsl import shaders
+from lucida.app.web.packing import packed
+from lucida.renderer.files.export import check_export_path
+from lucida.renderer.files.views import view_table
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.focus import scene_focus
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.system.atomic import atomic_write
 
 SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
 

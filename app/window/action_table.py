@@ -11,11 +11,11 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.lecture.instrument import LectureInstrument
-from app.ui.action import Action, changing, chords_of
-from app.ui.host import Host
-from app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
-from app.window.instruments import INSTRUMENTS
+from lucida.app.lecture.instrument import LectureInstrument
+from lucida.app.ui.action import Action, changing, chords_of
+from lucida.app.ui.host import Host
+from lucida.app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
+from lucida.app.window.instruments import INSTRUMENTS
 
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 

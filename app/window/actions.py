@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.state.app_state import AppState
-from app.state.bounds import range_of
-from app.state.options.shared import Notation, Preferences, Theme
-from app.ui import layout
-from app.ui.action import Action, changing
-from app.ui.explaining import symbols
-from app.ui.host import Host
-from app.window import bookmarks
-from app.window.camera_files import CAMERA_FILES
+from lucida.app.state.app_state import AppState
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.shared import Notation, Preferences, Theme
+from lucida.app.ui import layout
+from lucida.app.ui.action import Action, changing
+from lucida.app.ui.explaining import symbols
+from lucida.app.ui.host import Host
+from lucida.app.window import bookmarks
+from lucida.app.window.camera_files import CAMERA_FILES
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)

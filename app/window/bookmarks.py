@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.cameras.films.key_file import keys_text
-from app.cameras.films.paths import Key
-from app.cameras.lens_choices import KINDS
-from app.state.app_state import AppState
-from app.state.options.shared import MOST_BOOKMARKS, Bookmark
-from app.ui.host import Host
-from renderer.scene import View
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import one_line
+from lucida.app.cameras.films.key_file import keys_text
+from lucida.app.cameras.films.paths import Key
+from lucida.app.cameras.lens_choices import KINDS
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import MOST_BOOKMARKS, Bookmark
+from lucida.app.ui.host import Host
+from lucida.renderer.scene import View
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import one_line
 
 NUMBERS = range(1, MOST_BOOKMARKS + 1)
 

@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from app.cameras.camera_panel.actions import image_size
-from app.cameras.text import CALLED
-from app.ui.action import Action
-from app.ui.host import Host
-from renderer.files.cameras import FORMATS, Options, PosedCamera, written
-from renderer.files.cameras.formats import Format
-from renderer.files.cameras.saving import save_files
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.cameras.camera_panel.actions import image_size
+from lucida.app.cameras.text import CALLED
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
+from lucida.renderer.files.cameras import FORMATS, Options, PosedCamera, written
+from lucida.renderer.files.cameras.formats import Format
+from lucida.renderer.files.cameras.saving import save_files
+from lucida.renderer.system.errors import LucidaError, one_line
 
 MENU = "File/Save camera as"
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import moderngl
 
-from app.ui.surface import Target, copy_pixels
-from renderer.raster.resources import new_texture
+from lucida.app.ui.surface import Target, copy_pixels
+from lucida.renderer.raster.resources import new_texture
 
 MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on
 Size = tuple[int, int]

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from app.ui.background import Background
-from app.ui.surface import Target
-from app.window.clipboard import copy_png
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError
+from lucida.app.ui.background import Background
+from lucida.app.ui.surface import Target
+from lucida.app.window.clipboard import copy_png
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom
 

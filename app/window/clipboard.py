@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 TIMEOUT_S = 10.0
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from renderer.files.reading import check_file, first_bytes
+from lucida.renderer.files.reading import check_file, first_bytes
 
 CODE_ENDING, TASKS_ENDING = ".py", ".toml"
 SNIFFED_BYTES = 1 << 16

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.images.pair.boxes import EntryBox, pixel_box, resolution_box
-from app.images.placement import shown_pixel
-from app.images.renderers import Renderers
-from app.state.app_state import AppState
+from lucida.app.images.pair.boxes import EntryBox, pixel_box, resolution_box
+from lucida.app.images.placement import shown_pixel
+from lucida.app.images.renderers import Renderers
+from lucida.app.state.app_state import AppState
 
 
 class EntryBoxes:

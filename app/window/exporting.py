@@ -10,15 +10,15 @@ import threading
 import time
 from pathlib import Path
 
-from app.ui.background import Background
-from app.ui.messages import TextListing
-from app.web import ENDINGS as PAGES
-from renderer.camera.camera import Camera, Size
-from renderer.files.export import export_scene
-from renderer.files.models.subprocess_reader import CancelledError
-from renderer.scene.model import Scene, View
-from renderer.system.cancelling import cancelled_by
-from renderer.system.errors import describe, one_line
+from lucida.app.ui.background import Background
+from lucida.app.ui.messages import TextListing
+from lucida.app.web import ENDINGS as PAGES
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.files.export import export_scene
+from lucida.renderer.files.models.subprocess_reader import CancelledError
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.system.cancelling import cancelled_by
+from lucida.renderer.system.errors import describe, one_line
 
 Lines = tuple[str, ...]
 NOT_CARRIED = "Not as it is there:"
@@ -61,7 +61,7 @@ class Exports:
         def write() -> Lines:
             with cancelled_by(check):
                 if Path(path).suffix.lower() in PAGES:
-                    from app.web.scene_page import write_scene_page
+                    from lucida.app.web.scene_page import write_scene_page
 
                     write_scene_page(path, scene, View(camera))
                     return ()

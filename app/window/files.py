@@ -15,14 +15,14 @@ from pathlib import Path
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
-from app.images.photograph.reading import PHOTO_ENDINGS
-from app.instruments.poses.reading import CAMERA_ENDINGS
-from app.ui.background import Background
-from app.ui.dialog import FileDialog, FileQuestion
-from app.ui.recent import RecentFiles
-from app.ui.watching import SceneWatch
-from app.window.code_files import CODE_ENDING, TASKS_ENDING
-from app.window.opening import (
+from lucida.app.images.photograph.reading import PHOTO_ENDINGS
+from lucida.app.instruments.poses.reading import CAMERA_ENDINGS
+from lucida.app.ui.background import Background
+from lucida.app.ui.dialog import FileDialog, FileQuestion
+from lucida.app.ui.recent import RecentFiles
+from lucida.app.ui.watching import SceneWatch
+from lucida.app.window.code_files import CODE_ENDING, TASKS_ENDING
+from lucida.app.window.opening import (
     Opened,
     OpenedLecture,
     OpenedScene,
@@ -32,13 +32,13 @@ from app.window.opening import (
     open_tasks,
     reread,
 )
-from renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
-from renderer.files.models.models import MODEL_ENDINGS, read_by
-from renderer.files.models.subprocess_reader import CancelledError, ModelReader
-from renderer.files.outside import LISTED, OutsideError
-from renderer.scene import Scene, View
-from renderer.system.cancelling import cancelled_by
-from renderer.system.errors import describe, one_line
+from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
+from lucida.renderer.files.models.models import MODEL_ENDINGS, read_by
+from lucida.renderer.files.models.subprocess_reader import CancelledError, ModelReader
+from lucida.renderer.files.outside import LISTED, OutsideError
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.cancelling import cancelled_by
+from lucida.renderer.system.errors import describe, one_line
 
 LECTURE_ENDING = ".toml"
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by

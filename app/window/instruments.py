@@ -6,20 +6,20 @@ that draws into another one's view, or shares its mouse, comes after that one.
 
 from __future__ import annotations
 
-from app.cameras.camera_panel.view import CameraView
-from app.checking.your_code.instrument import YourCode
-from app.images.compare.view import CompareView
-from app.images.pair.view import RasterView, RayView
-from app.instruments.costs.view import CostsView
-from app.instruments.laboratory.view import LaboratoryView
-from app.instruments.mistakes.view import MistakesView
-from app.instruments.objects.view import InspectorView, ObjectsView
-from app.instruments.outside.instrument import Outside
-from app.instruments.poses.view import PosesView
-from app.instruments.probe.view import ProbeView
-from app.instruments.stepper.instrument import Stepper
-from app.lecture.instrument import LectureInstrument
-from app.ui.instrument import Instrument
+from lucida.app.cameras.camera_panel.view import CameraView
+from lucida.app.checking.your_code.instrument import YourCode
+from lucida.app.images.compare.view import CompareView
+from lucida.app.images.pair.view import RasterView, RayView
+from lucida.app.instruments.costs.view import CostsView
+from lucida.app.instruments.laboratory.view import LaboratoryView
+from lucida.app.instruments.mistakes.view import MistakesView
+from lucida.app.instruments.objects.view import InspectorView, ObjectsView
+from lucida.app.instruments.outside.instrument import Outside
+from lucida.app.instruments.poses.view import PosesView
+from lucida.app.instruments.probe.view import ProbeView
+from lucida.app.instruments.stepper.instrument import Stepper
+from lucida.app.lecture.instrument import LectureInstrument
+from lucida.app.ui.instrument import Instrument
 
 INSTRUMENTS: tuple[type[Instrument], ...] = (
     CameraView,

@@ -6,17 +6,17 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from app.images.imaging import with_resolution
-from app.images.photograph.model import with_photograph
-from app.instruments.poses.model import PoseSet, with_set, with_set_framed
-from app.state.paths import stored
-from app.window.capture import free_path
-from app.window.platform import Platform, start_platform
-from app.window.start import begin_scene, begin_session, kept
-from app.window.viewer import WindowRun
-from renderer.files import EMPTY_SCENE
-from renderer.scene import View as SceneView
-from renderer.system.atomic import check_writable
+from lucida.app.images.imaging import with_resolution
+from lucida.app.images.photograph.model import with_photograph
+from lucida.app.instruments.poses.model import PoseSet, with_set, with_set_framed
+from lucida.app.state.paths import stored
+from lucida.app.window.capture import free_path
+from lucida.app.window.platform import Platform, start_platform
+from lucida.app.window.start import begin_scene, begin_session, kept
+from lucida.app.window.viewer import WindowRun
+from lucida.renderer.files import EMPTY_SCENE
+from lucida.renderer.scene import View as SceneView
+from lucida.renderer.system.atomic import check_writable
 
 DEFAULT_PICTURE = Path("lucida.png")
 

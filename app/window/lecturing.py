@@ -12,24 +12,24 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.instruments.laboratory.view import LABORATORY, LaboratoryView
-from app.lecture.answer_log import AnswerLog
-from app.lecture.model import Lecture
-from app.state.app_state import AppState
-from app.state.options.shared import Theme
-from app.ui.surface import Target
-from app.window.capture import cut
-from app.window.launch import start_drawing
-from app.window.main_window import MainWindow
-from app.window.platform import start_platform
-from app.window.start import Start, begin_lecture, begin_scene, first_state
-from app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
-from renderer.files.outside import OutsideError
-from renderer.system.atomic import check_writable
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.laboratory.view import LABORATORY, LaboratoryView
+from lucida.app.lecture.answer_log import AnswerLog
+from lucida.app.lecture.model import Lecture
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Theme
+from lucida.app.ui.surface import Target
+from lucida.app.window.capture import cut
+from lucida.app.window.launch import start_drawing
+from lucida.app.window.main_window import MainWindow
+from lucida.app.window.platform import start_platform
+from lucida.app.window.start import Start, begin_lecture, begin_scene, first_state
+from lucida.app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
+from lucida.renderer.files.outside import OutsideError
+from lucida.renderer.system.atomic import check_writable
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from app.web.lecture.page import Still
+    from lucida.app.web.lecture.page import Still
 
 THEMED = {"stepper", "costs", "probe", "mistakes", "poses"}  # views in the theme's colours
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
@@ -132,7 +132,7 @@ def lecture_stills(
     the dark one. path, size: as in export_lecture().
     Needs no display. Raises LucidaError.
     """
-    from app.web.lecture.page import Still
+    from lucida.app.web.lecture.page import Still
 
     lecture = replace(lecture, builds=tuple(replace(one, full=False) for one in lecture.builds))
     stills: list[list[Still]] = [[] for _ in lecture.builds]

@@ -15,40 +15,40 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from app.cameras.presets import framed
-from app.cameras.travel import CameraTransition
-from app.checking.your_code.view import YourCodeView
-from app.images.pair.boxes import asking_pixel, asking_size
-from app.images.pair.view import RASTER
-from app.images.renderers import Renderers
-from app.instruments.outside.view import OutsideView
-from app.lecture.movement import Movement
-from app.lecture.view import LECTURE, LectureView
-from app.state.app_state import AppState, History
-from app.state.bounds import OptionPart
-from app.state.options import Options
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.background import Background
-from app.ui.fly import Fly
-from app.ui.host import T
-from app.ui.instrument import Instrument
-from app.window.action_table import run_shortcuts
-from app.window.entry_boxes import EntryBoxes
-from app.window.files import Files
-from app.window.instruments import make_views
-from app.window.menu_keys import MenuKeys
-from app.window.menus import menu_bar, menu_button
-from app.window.platform import keep_open, on_drop, set_title
-from app.window.playing import Playing
-from app.window.scene_saving import SceneSaving, is_marked, title
-from app.window.session_store import Keeper
-from app.window.shell import Shell
-from app.window.status import Status, is_good_news, status_line, told
-from app.window.taking import take_opened
-from renderer.scene.focus import Focus, object_corners, scene_focus
-from renderer.system.errors import LucidaError
-from renderer.system.memo import Memo
+from lucida.app.cameras.presets import framed
+from lucida.app.cameras.travel import CameraTransition
+from lucida.app.checking.your_code.view import YourCodeView
+from lucida.app.images.pair.boxes import asking_pixel, asking_size
+from lucida.app.images.pair.view import RASTER
+from lucida.app.images.renderers import Renderers
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.lecture.movement import Movement
+from lucida.app.lecture.view import LECTURE, LectureView
+from lucida.app.state.app_state import AppState, History
+from lucida.app.state.bounds import OptionPart
+from lucida.app.state.options import Options
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.background import Background
+from lucida.app.ui.fly import Fly
+from lucida.app.ui.host import T
+from lucida.app.ui.instrument import Instrument
+from lucida.app.window.action_table import run_shortcuts
+from lucida.app.window.entry_boxes import EntryBoxes
+from lucida.app.window.files import Files
+from lucida.app.window.instruments import make_views
+from lucida.app.window.menu_keys import MenuKeys
+from lucida.app.window.menus import menu_bar, menu_button
+from lucida.app.window.platform import keep_open, on_drop, set_title
+from lucida.app.window.playing import Playing
+from lucida.app.window.scene_saving import SceneSaving, is_marked, title
+from lucida.app.window.session_store import Keeper
+from lucida.app.window.shell import Shell
+from lucida.app.window.status import Status, is_good_news, status_line, told
+from lucida.app.window.taking import take_opened
+from lucida.renderer.scene.focus import Focus, object_corners, scene_focus
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.memo import Memo
 
 
 class MainWindow:

@@ -11,17 +11,17 @@ from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras.camera_panel.actions import SCENE_VIEW, go_to_view
-from app.lecture.view import LECTURE
-from app.state.app_state import History
-from app.state.changes import change
-from app.ui import layout, theme
-from app.ui.action import Action
-from app.ui.host import Host
-from app.ui.stage import Stage
-from app.window import bookmarks
-from app.window.action_table import ACTIONS, MENUS
-from renderer.files import SCENE_NAMES
+from lucida.app.cameras.camera_panel.actions import SCENE_VIEW, go_to_view
+from lucida.app.lecture.view import LECTURE
+from lucida.app.state.app_state import History
+from lucida.app.state.changes import change
+from lucida.app.ui import layout, theme
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
+from lucida.app.ui.stage import Stage
+from lucida.app.window import bookmarks
+from lucida.app.window.action_table import ACTIONS, MENUS
+from lucida.renderer.files import SCENE_NAMES
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0

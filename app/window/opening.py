@@ -11,22 +11,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeVar
 
-from app.checking.task_file import load_tasks
-from app.images.photograph.reading import found_photograph, is_photograph
-from app.instruments.poses.model import PoseSet
-from app.instruments.poses.reading import is_cameras, open_cameras
-from app.lecture.model import Lecture
-from app.lecture.reading import is_lecture, load_lecture
-from app.window.code_files import found_code, is_code, is_tasks
-from renderer.files import SCENE_NAMES, load_scene, load_view
-from renderer.files.models.models import read_by
-from renderer.files.models.subprocess_reader import ModelReader
-from renderer.files.outside import OutsideError, kept_inside
-from renderer.files.reading import first_bytes
-from renderer.raster import Prepared, prepare
-from renderer.scene import Scene, View
-from renderer.system.cancelling import check_cancelled
-from renderer.system.errors import LucidaError, describe
+from lucida.app.checking.task_file import load_tasks
+from lucida.app.images.photograph.reading import found_photograph, is_photograph
+from lucida.app.instruments.poses.model import PoseSet
+from lucida.app.instruments.poses.reading import is_cameras, open_cameras
+from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.reading import is_lecture, load_lecture
+from lucida.app.window.code_files import found_code, is_code, is_tasks
+from lucida.renderer.files import SCENE_NAMES, load_scene, load_view
+from lucida.renderer.files.models.models import read_by
+from lucida.renderer.files.models.subprocess_reader import ModelReader
+from lucida.renderer.files.outside import OutsideError, kept_inside
+from lucida.renderer.files.reading import first_bytes
+from lucida.renderer.raster import Prepared, prepare
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.cancelling import check_cancelled
+from lucida.renderer.system.errors import LucidaError, describe
 
 SNIFFED_BYTES = 1 << 20
 T = TypeVar("T")

@@ -9,9 +9,9 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from app.ui import theme
-from app.ui.messages import box_width, overlay, top_center
-from app.window.palette_search import Entry, found
+from lucida.app.ui import theme
+from lucida.app.ui.messages import box_width, overlay, top_center
+from lucida.app.window.palette_search import Entry, found
 
 SHOWN_ROWS = 12
 REMEMBERED = 50

@@ -8,16 +8,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from app.cameras.camera_panel.actions import go_to_view
-from app.lecture.view import LectureView
-from app.ui.action import Action
-from app.ui.host import Host
-from app.ui.stage import Stage
-from app.window.action_table import ACTIONS
-from app.window.bookmarks import recall
-from app.window.instruments import INSTRUMENTS
-from app.window.palette_search import Entry
-from renderer.files import SCENE_NAMES
+from lucida.app.cameras.camera_panel.actions import go_to_view
+from lucida.app.lecture.view import LectureView
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
+from lucida.app.ui.stage import Stage
+from lucida.app.window.action_table import ACTIONS
+from lucida.app.window.bookmarks import recall
+from lucida.app.window.instruments import INSTRUMENTS
+from lucida.app.window.palette_search import Entry
+from lucida.renderer.files import SCENE_NAMES
 
 # The words of other programs and of other books, by names of actions and titles of views.
 OWN = {

@@ -23,9 +23,9 @@ from imgui_bundle import ImVec2, imgui  # before glfw, so that both use the same
 import glfw
 import moderngl
 
-from app.window.key_names import give_key
-from app.window.keys import KeyFrames
-from renderer.system.errors import LucidaError, one_line
+from lucida.app.window.key_names import give_key
+from lucida.app.window.keys import KeyFrames
+from lucida.renderer.system.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
 _LOCKED = int(imgui.ImFontFlags_.lock_baked_sizes)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
-from app.lecture.movement import Movement
-from app.state.app_state import AppState
+from lucida.app.lecture.movement import Movement
+from lucida.app.state.app_state import AppState
 
 
 class Playing:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from app.ui import layout
+from lucida.app.ui import layout
 
 ARRANGING_FRAMES = 3  # until a layout's dock spaces exist again
 RESTORING_FRAMES = 5  # at a start, until the layout of the session is there

@@ -11,15 +11,21 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.state.app_state import AppState
-from app.ui.background import Background
-from app.ui.host import Host
-from app.window.files import Files
-from renderer.editing.documents import ChangedOnDiskError, file_of, is_unsaved, save, suggested_file
-from renderer.files.outside import outside_files
-from renderer.files.rewriting import CommentsLostError
-from renderer.scene import Scene, View
-from renderer.system.errors import describe, one_line
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.background import Background
+from lucida.app.ui.host import Host
+from lucida.app.window.files import Files
+from lucida.renderer.editing.documents import (
+    ChangedOnDiskError,
+    file_of,
+    is_unsaved,
+    save,
+    suggested_file,
+)
+from lucida.renderer.files.outside import outside_files
+from lucida.renderer.files.rewriting import CommentsLostError
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.errors import describe, one_line
 
 OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
 SAVE_AS = "Save as a new file..."

@@ -15,11 +15,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.state.session import LARGEST_BYTES, NewerVersionError, Session, from_bytes, to_bytes
-from app.ui.background import Background
-from renderer.files.reading import read_file
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError
+from lucida.app.state.session import LARGEST_BYTES, NewerVersionError, Session, from_bytes, to_bytes
+from lucida.app.ui.background import Background
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
 
 MOST_WINDOWS = 16
 QUIET_S = 2.0  # after the last change, before a session is saved

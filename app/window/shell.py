@@ -11,33 +11,33 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
-from app import __version__
-from app.cameras.camera_panel.actions import image_size
-from app.images.renderers import Renderers
-from app.instruments.objects.choosing import choose, chosen
-from app.lecture.view import LectureView
-from app.state.app_state import AppState
-from app.state.session import Session, session_of
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from app.ui.messages import listing_box, loading_box, message_box
-from app.ui.stage import Stage
-from app.ui.surface import Target
-from app.ui.theme import Fonts
-from app.ui.toasts import Toasts
-from app.web import ENDINGS as PAGES
-from app.window.capture import Captures, Rect
-from app.window.exporting import Exports
-from app.window.files import Files
-from app.window.palette import CommandPalette
-from app.window.palette_entries import entries
-from app.window.platform import toggle_full_screen
-from app.window.proportion import Proportion
-from app.window.session_store import Keeper
-from app.window.shortcut_sheet import help_sheet
-from renderer.files.export import ENDINGS
-from renderer.system.atomic import file_stem
-from renderer.system.errors import LucidaError, describe
+from lucida import __version__
+from lucida.app.cameras.camera_panel.actions import image_size
+from lucida.app.images.renderers import Renderers
+from lucida.app.instruments.objects.choosing import choose, chosen
+from lucida.app.lecture.view import LectureView
+from lucida.app.state.app_state import AppState
+from lucida.app.state.session import Session, session_of
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.messages import listing_box, loading_box, message_box
+from lucida.app.ui.stage import Stage
+from lucida.app.ui.surface import Target
+from lucida.app.ui.theme import Fonts
+from lucida.app.ui.toasts import Toasts
+from lucida.app.web import ENDINGS as PAGES
+from lucida.app.window.capture import Captures, Rect
+from lucida.app.window.exporting import Exports
+from lucida.app.window.files import Files
+from lucida.app.window.palette import CommandPalette
+from lucida.app.window.palette_entries import entries
+from lucida.app.window.platform import toggle_full_screen
+from lucida.app.window.proportion import Proportion
+from lucida.app.window.session_store import Keeper
+from lucida.app.window.shortcut_sheet import help_sheet
+from lucida.renderer.files.export import ENDINGS
+from lucida.renderer.system.atomic import file_stem
+from lucida.renderer.system.errors import LucidaError, describe
 
 EXPORTED = "glTF .glb, page .html"
 

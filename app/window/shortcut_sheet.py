@@ -11,11 +11,11 @@ from collections.abc import Sequence
 
 from imgui_bundle import imgui
 
-from app.ui import theme
-from app.ui.lettering import lettering
-from app.ui.messages import wrapped
-from app.window.action_table import ACTIONS, MENUS, MOUSE
-from app.window.instruments import INSTRUMENTS
+from lucida.app.ui import theme
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.messages import wrapped
+from lucida.app.window.action_table import ACTIONS, MENUS, MOUSE
+from lucida.app.window.instruments import INSTRUMENTS
 
 COLUMN_EM = 24.0
 MOST_COLUMNS = 4

@@ -13,21 +13,21 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui
 
-from app.instruments.poses.model import PoseSet
-from app.lecture.model import Lecture
-from app.lecture.session import LectureSession
-from app.lecture.step_options import own, state_of
-from app.state.app_state import AppState
-from app.state.kept_lecture import KeptLecture
-from app.state.options import Options
-from app.state.session import Session
-from app.window.opening import Opened, Use, opened_scene
-from app.window.session_store import Keeper, SessionFile, take_place
-from renderer.files import BUILTIN_SCENES, load_scene
-from renderer.files.models.models import ModelFile, read_by, read_model
-from renderer.files.models.subprocess_reader import is_large
-from renderer.scene import Scene, View
-from renderer.system.errors import LucidaError, describe, one_line
+from lucida.app.instruments.poses.model import PoseSet
+from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.session import LectureSession
+from lucida.app.lecture.step_options import own, state_of
+from lucida.app.state.app_state import AppState
+from lucida.app.state.kept_lecture import KeptLecture
+from lucida.app.state.options import Options
+from lucida.app.state.session import Session
+from lucida.app.window.opening import Opened, Use, opened_scene
+from lucida.app.window.session_store import Keeper, SessionFile, take_place
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.files.models.models import ModelFile, read_by, read_model
+from lucida.renderer.files.models.subprocess_reader import is_large
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.errors import LucidaError, describe, one_line
 
 ChangeView = Callable[[View], View]
 UNKEPT = "This session will not be kept: the settings folder cannot be written to."

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.agreement import Verdict
-from app.ui import theme
-from app.ui.lettering import fitting_words
-from renderer.camera.pixels import Indexing, Pixel
-from renderer.system.errors import describe
+from lucida.app.images.agreement import Verdict
+from lucida.app.ui import theme
+from lucida.app.ui.lettering import fitting_words
+from lucida.renderer.camera.pixels import Indexing, Pixel
+from lucida.renderer.system.errors import describe
 
 VERDICTS = "agree", "disagree"  # what begins so is about both images
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it

@@ -10,15 +10,15 @@ from dataclasses import replace
 from functools import partial
 from typing import Literal, Protocol
 
-from app.checking.your_code.view import YourCodeView
-from app.images.photograph.model import with_photograph
-from app.instruments.objects.editing import with_scene
-from app.instruments.poses.model import PoseSet
-from app.instruments.poses.view import PosesView
-from app.lecture.view import LectureView
-from app.state.app_state import AppState
-from app.ui.host import Host
-from app.window.opening import (
+from lucida.app.checking.your_code.view import YourCodeView
+from lucida.app.images.photograph.model import with_photograph
+from lucida.app.instruments.objects.editing import with_scene
+from lucida.app.instruments.poses.model import PoseSet
+from lucida.app.instruments.poses.view import PosesView
+from lucida.app.lecture.view import LectureView
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.host import Host
+from lucida.app.window.opening import (
     Opened,
     OpenedCode,
     OpenedLecture,
@@ -28,12 +28,12 @@ from app.window.opening import (
     OpenedTasks,
     OpenedView,
 )
-from renderer.editing.documents import are_versions, is_unsaved
-from renderer.editing.objects import add, model_table
-from renderer.files import EMPTY_SCENE, SCENE_NAMES, load_scene
-from renderer.files.models.models import ModelFile, read_by
-from renderer.scene import Scene, View
-from renderer.system.errors import LucidaError, one_line
+from lucida.renderer.editing.documents import are_versions, is_unsaved
+from lucida.renderer.editing.objects import add, model_table
+from lucida.renderer.files import EMPTY_SCENE, SCENE_NAMES, load_scene
+from lucida.renderer.files.models.models import ModelFile, read_by
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.errors import LucidaError, one_line
 
 READ_AGAIN = "Read it again"
 ADD, OPEN = "Add it to the scene", "Open it instead"

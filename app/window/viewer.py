@@ -14,22 +14,22 @@ from typing import Any
 import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
-from app.instruments.poses.view import PosesView
-from app.state.app_state import AppState
-from app.state.paths import is_unicode
-from app.state.session import source_of
-from app.state.settings import kept_whole, settings_file
-from app.ui import layout, theme
-from app.ui.focus_frame import FocusFrame
-from app.ui.focusing import Focusing
-from app.ui.instrument import Instrument
-from app.ui.surface import Target
-from app.window.canvas import WindowCanvas
-from app.window.clicks import ClickTime
-from app.window.keys import KeyFrames
-from app.window.main_window import MainWindow
-from app.window.memory import FreedMemory
-from app.window.platform import (
+from lucida.app.instruments.poses.view import PosesView
+from lucida.app.state.app_state import AppState
+from lucida.app.state.paths import is_unicode
+from lucida.app.state.session import source_of
+from lucida.app.state.settings import kept_whole, settings_file
+from lucida.app.ui import layout, theme
+from lucida.app.ui.focus_frame import FocusFrame
+from lucida.app.ui.focusing import Focusing
+from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.surface import Target
+from lucida.app.window.canvas import WindowCanvas
+from lucida.app.window.clicks import ClickTime
+from lucida.app.window.keys import KeyFrames
+from lucida.app.window.main_window import MainWindow
+from lucida.app.window.memory import FreedMemory
+from lucida.app.window.platform import (
     Platform,
     begin_letters,
     create_context,
@@ -39,15 +39,15 @@ from app.window.platform import (
     show_window,
     take_keys,
 )
-from app.window.scene_saving import title
-from app.window.session_store import settings_folder
-from app.window.signals import ended_by_signals
-from app.window.start import Start
-from renderer.files import SCENE_NAMES
-from renderer.images.png import write_png
-from renderer.system import compile_note
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError
+from lucida.app.window.scene_saving import title
+from lucida.app.window.session_store import settings_folder
+from lucida.app.window.signals import ended_by_signals
+from lucida.app.window.start import Start
+from lucida.renderer.files import SCENE_NAMES
+from lucida.renderer.images.png import write_png
+from lucida.renderer.system import compile_note
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
 
 DEFAULT_SIZE = (1280, 720)
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer

@@ -7,8 +7,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from renderer.camera.checks import SMALLEST, Floats, Vector, listed, numbers, three
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import SMALLEST, Floats, Vector, listed, numbers, three
+from lucida.renderer.system.errors import LucidaError
 
 Basis = tuple[Vector, Vector, Vector]
 

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pyrr import matrix44
 
-from renderer.camera import image_plane
-from renderer.camera.basis import inverse, looking_at, orthonormal
-from renderer.camera.checks import (
+from lucida.renderer.camera import image_plane
+from lucida.renderer.camera.basis import inverse, looking_at, orthonormal
+from lucida.renderer.camera.checks import (
     Floats,
     Vector,
     check_basis,
@@ -32,17 +32,17 @@ from renderer.camera.checks import (
     positive,
     volume,
 )
-from renderer.camera.image_plane import Projected, Ray, Size
-from renderer.camera.intrinsics import (
+from lucida.renderer.camera.image_plane import Projected, Ray, Size
+from lucida.renderer.camera.intrinsics import (
     Intrinsics,
     as_camera_from_world,
     camera_fields,
     check_for_lens,
     decomposed,
 )
-from renderer.camera.lenses import Lens, check_lens
-from renderer.images.frame import DISPLAY, check_size
-from renderer.system.errors import LucidaError, not_together
+from lucida.renderer.camera.lenses import Lens, check_lens
+from lucida.renderer.images.frame import DISPLAY, check_size
+from lucida.renderer.system.errors import LucidaError, not_together
 
 # The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
 # float32: with a nearer plane, the rest of a long triangle might be behind the eye.

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 Vector = tuple[float, float, float]
 Floats = NDArray[np.float64]

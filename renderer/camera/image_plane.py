@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.checks import Floats, arrays_text
-from renderer.camera.lenses import Lens
+from lucida.renderer.camera.checks import Floats, arrays_text
+from lucida.renderer.camera.lenses import Lens
 
 Size = tuple[int, int]
 Viewport = tuple[float, float, float, float]

@@ -14,8 +14,8 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.checks import LARGEST, Floats, listed
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import LARGEST, Floats, listed
+from lucida.renderer.system.errors import LucidaError
 
 PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]

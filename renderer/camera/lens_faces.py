@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.image_plane import LARGEST_KEPT
-from renderer.camera.lenses import Lens
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.image_plane import LARGEST_KEPT
+from lucida.renderer.camera.lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces

@@ -15,9 +15,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera.camera import Camera, Vector
-from renderer.camera.checks import LARGEST
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.checks import LARGEST
+from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]

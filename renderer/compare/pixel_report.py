@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from renderer.camera.camera import Camera
-from renderer.camera.pixels import Indexing, Pixel
-from renderer.images import to_srgb8
-from renderer.images.frame import Frame
-from renderer.scene.model import Scene
-from renderer.system.errors import one_line
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import Indexing, Pixel
+from lucida.renderer.images import to_srgb8
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import one_line
 
 
 def picked(

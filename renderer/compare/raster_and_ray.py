@@ -17,11 +17,17 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera
-from renderer.camera.pixels import ENLARGEMENT, Indexing, Pixel
-from renderer.compare.why_black import hits_nothing, why_nothing_is_hit
-from renderer.compare.why_different import CAUSES, DEPTH_RELATIVE, NORMAL, Differing, explained
-from renderer.images.difference import (
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import ENLARGEMENT, Indexing, Pixel
+from lucida.renderer.compare.why_black import hits_nothing, why_nothing_is_hit
+from lucida.renderer.compare.why_different import (
+    CAUSES,
+    DEPTH_RELATIVE,
+    NORMAL,
+    Differing,
+    explained,
+)
+from lucida.renderer.images.difference import (
     CAUSE_COLORS,
     SHADING_COLOR,
     UNEXPLAINED_COLOR,
@@ -29,12 +35,12 @@ from renderer.images.difference import (
     most,
     signed_difference,
 )
-from renderer.images.display import encode_srgb
-from renderer.images.frame import CHANNELS, Frame
-from renderer.images.shared_numbers import MUTED, SRGB_SLOPE
-from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import Scene
-from renderer.scene.precision import check_precision
+from lucida.renderer.images.display import encode_srgb
+from lucida.renderer.images.frame import CHANNELS, Frame
+from lucida.renderer.images.shared_numbers import MUTED, SRGB_SLOPE
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.scene.precision import check_precision
 
 COLOR = 2 / 255  # after the display transform
 
@@ -207,8 +213,8 @@ def compare(
     enlargement: of a lens's faces, see Rasterizer.draw(). Raises LucidaError for a camera that sees
     too little or too much for float32.
     """
-    from renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
-    from renderer.trace import Tracer
+    from lucida.renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
+    from lucida.renderer.trace import Tracer
 
     flat = flatten(scene)
     check_precision(camera, size, lambda: flat)

@@ -15,13 +15,20 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import NEAREST, Camera, Floats
-from renderer.camera.lens_faces import Face
-from renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
-from renderer.scene.boxes import corners_of
-from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
-from renderer.scene.positions import world_corners
-from renderer.scene.sampling import between, gloss, on_spheres, on_triangles, opacity, sampled
+from lucida.renderer.camera.camera import NEAREST, Camera, Floats
+from lucida.renderer.camera.lens_faces import Face
+from lucida.renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
+from lucida.renderer.scene.boxes import corners_of
+from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+from lucida.renderer.scene.positions import world_corners
+from lucida.renderer.scene.sampling import (
+    between,
+    gloss,
+    on_spheres,
+    on_triangles,
+    opacity,
+    sampled,
+)
 
 Ints = NDArray[np.integer]
 Bools = NDArray[np.bool_]

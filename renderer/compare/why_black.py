@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.images.display import encode_srgb
-from renderer.images.frame import Frame
-from renderer.scene.boxes import corners_of
-from renderer.scene.flat import FlatScene
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.display import encode_srgb
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.boxes import corners_of
+from lucida.renderer.scene.flat import FlatScene
 
 DARK = 1.5 / 255  # a display value; an image below it looks black
 NO_LIGHT = 1e-6  # linear: invisible at any usual exposure

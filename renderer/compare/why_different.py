@@ -24,9 +24,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Floats
-from renderer.camera.lens_faces import looked_up_faces
-from renderer.compare.seen_surfaces import (
+from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.lens_faces import looked_up_faces
+from lucida.renderer.compare.seen_surfaces import (
     TOLERANCE_PX,
     Bools,
     Numbers,
@@ -37,8 +37,8 @@ from renderer.compare.seen_surfaces import (
     quiet,
     slope_of,
 )
-from renderer.images.frame import Frame
-from renderer.scene.flat import FlatScene
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.flat import FlatScene
 
 CAUSES = ("edge", "pattern", "clip", "lookup")
 HALF_TEXEL_PX = 0.5**0.5 + TOLERANCE_PX  # from a texel's middle to its corner

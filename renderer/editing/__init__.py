@@ -10,7 +10,7 @@
 A scene is an immutable value: edits return a new one, and undo keeps the old one.
 """
 
-from renderer.editing.changing import (
+from lucida.renderer.editing.changing import (
     Item,
     as_tables,
     fields_of,
@@ -21,10 +21,16 @@ from renderer.editing.changing import (
     set_scene_field,
     table_of,
 )
-from renderer.editing.documents import ChangedOnDiskError, file_of, is_unsaved, save, suggested_file
-from renderer.editing.materials import set_material, set_single_sided
-from renderer.editing.moving import bounds_of, matrix_of, transform
-from renderer.editing.objects import (
+from lucida.renderer.editing.documents import (
+    ChangedOnDiskError,
+    file_of,
+    is_unsaved,
+    save,
+    suggested_file,
+)
+from lucida.renderer.editing.materials import set_material, set_single_sided
+from lucida.renderer.editing.moving import bounds_of, matrix_of, transform
+from lucida.renderer.editing.objects import (
     LIGHTS,
     SHAPES,
     add,
@@ -35,7 +41,7 @@ from renderer.editing.objects import (
     new_table,
     rename,
 )
-from renderer.editing.outline import OutlineRow, outline
+from lucida.renderer.editing.outline import OutlineRow, outline
 
 __all__ = [
     "LIGHTS",

@@ -18,15 +18,15 @@ from typing import Any
 
 import numpy as np
 
-from renderer.files.reading import full_path
-from renderer.files.saving import light_table, scene_tables
-from renderer.files.scene_file import changed_scene, new_keys
-from renderer.files.schema import AnyLight, LightTable, MeshTable, ModelTable, SphereTable
-from renderer.files.tables import to_struct
-from renderer.scene.model import Scene
-from renderer.scene.origin import FileEntry, ItemKind, Keys, Origin, SavedFile
-from renderer.system.errors import LucidaError, under
-from renderer.system.file_dependencies import noting, stamp
+from lucida.renderer.files.reading import full_path
+from lucida.renderer.files.saving import light_table, scene_tables
+from lucida.renderer.files.scene_file import changed_scene, new_keys
+from lucida.renderer.files.schema import AnyLight, LightTable, MeshTable, ModelTable, SphereTable
+from lucida.renderer.files.tables import to_struct
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.scene.origin import FileEntry, ItemKind, Keys, Origin, SavedFile
+from lucida.renderer.system.errors import LucidaError, under
+from lucida.renderer.system.file_dependencies import noting, stamp
 
 Item = int  # the key of an object or of a light
 Kind = ItemKind

@@ -9,17 +9,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from renderer.editing.changing import as_tables, origin_of
-from renderer.files.load import SCENE_NAMES
-from renderer.files.reading import full_path, read_file
-from renderer.files.saving import file_tables, relocated, scene_text
-from renderer.files.scene_file import changed_scene
-from renderer.scene.limits import TOML_BYTES
-from renderer.scene.model import Scene, View
-from renderer.scene.origin import SavedFile
-from renderer.system.atomic import atomic_write, file_stem
-from renderer.system.errors import LucidaError
-from renderer.system.file_dependencies import stamp
+from lucida.renderer.editing.changing import as_tables, origin_of
+from lucida.renderer.files.load import SCENE_NAMES
+from lucida.renderer.files.reading import full_path, read_file
+from lucida.renderer.files.saving import file_tables, relocated, scene_text
+from lucida.renderer.files.scene_file import changed_scene
+from lucida.renderer.scene.limits import TOML_BYTES
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.scene.origin import SavedFile
+from lucida.renderer.system.atomic import atomic_write, file_stem
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.file_dependencies import stamp
 
 
 class ChangedOnDiskError(LucidaError):

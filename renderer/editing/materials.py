@@ -10,7 +10,7 @@ import copy
 from collections.abc import Sequence
 from typing import Any
 
-from renderer.editing.changing import (
+from lucida.renderer.editing.changing import (
     Item,
     as_tables,
     entry_of,
@@ -20,8 +20,8 @@ from renderer.editing.changing import (
     set_field,
     with_listed,
 )
-from renderer.files.saving import material_table
-from renderer.scene.model import Scene
+from lucida.renderer.files.saving import material_table
+from lucida.renderer.scene.model import Scene
 
 
 def set_material(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Scene:

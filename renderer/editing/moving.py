@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.editing.changing import (
+from lucida.renderer.editing.changing import (
     Item,
     Table,
     as_tables,
@@ -25,11 +25,16 @@ from renderer.editing.changing import (
     plain,
     with_changed,
 )
-from renderer.files.schema import DirectionalLightTable, MeshTable, PointLightTable, SphereTable
-from renderer.scene.boxes import extent, world_boxes
-from renderer.scene.model import Scene, Shape, Sphere
-from renderer.scene.shapes import placement
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.schema import (
+    DirectionalLightTable,
+    MeshTable,
+    PointLightTable,
+    SphereTable,
+)
+from lucida.renderer.scene.boxes import extent, world_boxes
+from lucida.renderer.scene.model import Scene, Shape, Sphere
+from lucida.renderer.scene.shapes import placement
+from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from renderer.editing.changing import (
+from lucida.renderer.editing.changing import (
     Item,
     Kind,
     Table,
@@ -18,9 +18,9 @@ from renderer.editing.changing import (
     set_field,
     with_listed,
 )
-from renderer.files.scene_file import new_keys
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.scene_file import new_keys
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 SHAPES = ("sphere", "box", "rectangle", "disk", "cylinder", "cone", "torus")
 LIGHTS = ("point", "directional")
@@ -111,8 +111,8 @@ def duplicate(
 
     Copies share the arrays, but have names of their own.
     """
-    from renderer.editing.moving import transform
-    from renderer.scene.shapes import placement
+    from lucida.renderer.editing.moving import transform
+    from lucida.renderer.scene.shapes import placement
 
     scene = as_tables(scene)
     tables, taken = [], _names(scene)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from renderer.editing.changing import Item, as_tables, fields_of, listed, origin_of
-from renderer.files.schema import ModelTable
-from renderer.scene.model import Scene, Sphere, triangles_of
-from renderer.system.errors import LucidaError
+from lucida.renderer.editing.changing import Item, as_tables, fields_of, listed, origin_of
+from lucida.renderer.files.schema import ModelTable
+from lucida.renderer.scene.model import Scene, Sphere, triangles_of
+from lucida.renderer.system.errors import LucidaError
 
 
 @dataclass(frozen=True)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from renderer.files.models.model_kinds import check_kind
-from renderer.files.models.models import MODEL_ENDINGS, model_scene
-from renderer.files.reading import absence, close_matches, full_path, path_of, suggestion
-from renderer.files.scene_file import read_scene_file
-from renderer.scene.model import Scene
-from renderer.scene.origin import Origin
-from renderer.system.errors import LucidaError
-from renderer.system.file_dependencies import Noted, noting
+from lucida.renderer.files.models.model_kinds import check_kind
+from lucida.renderer.files.models.models import MODEL_ENDINGS, model_scene
+from lucida.renderer.files.reading import absence, close_matches, full_path, path_of, suggestion
+from lucida.renderer.files.scene_file import read_scene_file
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.scene.origin import Origin
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.file_dependencies import Noted, noting
 
 BUILTIN_SCENES = (
     "still-life",

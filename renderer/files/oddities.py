@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import trimesh
 
-from renderer.files.schema import DiskTable, RectangleTable
-from renderer.scene.model import Mesh, Scene
-from renderer.scene.normals import merge_positions
+from lucida.renderer.files.schema import DiskTable, RectangleTable
+from lucida.renderer.scene.model import Mesh, Scene
+from lucida.renderer.scene.normals import merge_positions
 
 _LEAST_HEIGHT = 1e-9  # of a triangle, relative to its mesh's size
 _SURFACES = (RectangleTable, DiskTable)  # open by design

@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator
 from contextvars import ContextVar
 from pathlib import Path
 
-from renderer.scene.model import Scene
-from renderer.system.cancelling import during
-from renderer.system.errors import LucidaError
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.cancelling import during
+from lucida.renderer.system.errors import LucidaError
 
 LISTED = 8  # files that an error names
 

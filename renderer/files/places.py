@@ -9,7 +9,7 @@ import re
 import tomllib
 from bisect import bisect_left
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 Path = tuple[str | int, ...]
 

@@ -9,8 +9,8 @@ import stat
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from renderer.system.errors import LucidaError
-from renderer.system.file_dependencies import note, noted_so_far
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.file_dependencies import note, noted_so_far
 
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 IMAGE_ENDINGS = (

@@ -16,11 +16,11 @@ from typing import Any
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from renderer.files.places import Path, Places
-from renderer.files.tables import parse_toml
-from renderer.files.toml_writing import entries, key_text, value_text
-from renderer.scene.origin import Keys
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.places import Path, Places
+from lucida.renderer.files.tables import parse_toml
+from lucida.renderer.files.toml_writing import entries, key_text, value_text
+from lucida.renderer.scene.origin import Keys
+from lucida.renderer.system.errors import LucidaError
 
 LISTS = ("objects", "lights")
 MARK = "\ufeff"

@@ -13,14 +13,14 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from renderer.files.load import BUILTIN_SCENES
-from renderer.files.reading import full_path
-from renderer.files.rewriting import CommentsLostError, rewritten
-from renderer.files.tables import VERSION
-from renderer.files.toml_writing import toml_text
-from renderer.files.views import view_table
-from renderer.scene import framing
-from renderer.scene.model import (
+from lucida.renderer.files.load import BUILTIN_SCENES
+from lucida.renderer.files.reading import full_path
+from lucida.renderer.files.rewriting import CommentsLostError, rewritten
+from lucida.renderer.files.tables import VERSION
+from lucida.renderer.files.toml_writing import toml_text
+from lucida.renderer.files.views import view_table
+from lucida.renderer.scene import framing
+from lucida.renderer.scene.model import (
     DirectionalLight,
     Material,
     PointLight,
@@ -29,9 +29,9 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.origin import Origin
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.scene.origin import Origin
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError, under
 
 IMAGES = ("texture", "metal")  # fields of a material that name files
 

@@ -9,12 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from renderer.camera.camera import Camera
-from renderer.files.outside import check_inside
-from renderer.files.reading import check_count, decode_text, naming, read_file, suggestion
-from renderer.files.scene_images import SceneImages
-from renderer.files.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
-from renderer.files.schema import (
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files.outside import check_inside
+from lucida.renderer.files.reading import check_count, decode_text, naming, read_file, suggestion
+from lucida.renderer.files.scene_images import SceneImages
+from lucida.renderer.files.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
+from lucida.renderer.files.schema import (
     AnyLight,
     AnyObject,
     DirectionalLightTable,
@@ -25,18 +25,18 @@ from renderer.files.schema import (
     SceneFile,
     SphereTable,
 )
-from renderer.files.tables import parse_toml, to_struct
-from renderer.files.views import transformed_view, view_from_table
-from renderer.scene import framing, shapes
-from renderer.scene.limits import (
+from lucida.renderer.files.tables import parse_toml, to_struct
+from lucida.renderer.files.views import transformed_view, view_from_table
+from lucida.renderer.scene import framing, shapes
+from lucida.renderer.scene.limits import (
     LIGHTS,
     OBJECTS,
     TOML_BYTES,
     TRIANGLES,
     VIEWS,
 )
-from renderer.scene.material import parse_color
-from renderer.scene.model import (
+from lucida.renderer.scene.material import parse_color
+from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
     Material,
@@ -49,9 +49,9 @@ from renderer.scene.model import (
     View,
     triangles_of,
 )
-from renderer.scene.origin import FileEntry, Keys, Origin, SavedFile
-from renderer.system.cancelling import check_cancelled
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.scene.origin import FileEntry, Keys, Origin, SavedFile
+from lucida.renderer.system.cancelling import check_cancelled
+from lucida.renderer.system.errors import LucidaError, under
 
 SPLIT = "give at most {}, or split the scene"
 _keys = itertools.count(1)

@@ -12,14 +12,14 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from renderer.files.reading import suggestion
-from renderer.files.schema import MetalTable, TextureTable
-from renderer.files.texture_images import Bytes, read_image
-from renderer.scene.limits import TEXTURES
-from renderer.scene.metal import EVERYWHERE, Metal
-from renderer.scene.model import Material
-from renderer.scene.texture import WRAPS, Texture
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.files.reading import suggestion
+from lucida.renderer.files.schema import MetalTable, TextureTable
+from lucida.renderer.files.texture_images import Bytes, read_image
+from lucida.renderer.scene.limits import TEXTURES
+from lucida.renderer.scene.metal import EVERYWHERE, Metal
+from lucida.renderer.scene.model import Material
+from lucida.renderer.scene.texture import WRAPS, Texture
+from lucida.renderer.system.errors import LucidaError, under
 
 Made = TypeVar("Made", bound=Texture | Metal)
 

@@ -10,9 +10,9 @@ from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import Any
 
-from renderer.files.models.models import ModelFile, load_model, read_model
-from renderer.files.models.repairs import repairs
-from renderer.files.schema import (
+from lucida.renderer.files.models.models import ModelFile, load_model, read_model
+from lucida.renderer.files.models.repairs import repairs
+from lucida.renderer.files.schema import (
     BoxTable,
     ConeTable,
     CylinderTable,
@@ -23,12 +23,12 @@ from renderer.files.schema import (
     RectangleTable,
     TorusTable,
 )
-from renderer.scene import shapes
-from renderer.scene.limits import SEGMENTS
-from renderer.scene.model import Material, Mesh, SceneObject
-from renderer.scene.origin import FileEntry
-from renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
-from renderer.system.errors import LucidaError
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.limits import SEGMENTS
+from lucida.renderer.scene.model import Material, Mesh, SceneObject
+from lucida.renderer.scene.origin import FileEntry
+from lucida.renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
+from lucida.renderer.system.errors import LucidaError
 
 # For each shape the function that makes it, the one that adds texture coordinates, and its number
 # of triangles per segment (and side of a tube).

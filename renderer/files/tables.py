@@ -11,9 +11,9 @@ from typing import Any, Literal, get_args, get_origin
 
 import msgspec
 
-from renderer.files.reading import suggestion
-from renderer.scene.limits import KEY_PARTS
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.reading import suggestion
+from lucida.renderer.scene.limits import KEY_PARTS
+from lucida.renderer.system.errors import LucidaError
 
 VERSION = 1  # of the formats of scene and view files: their key `lucida`
 

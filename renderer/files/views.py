@@ -6,16 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from renderer.camera.camera import Camera, Floats
-from renderer.camera.lenses import MODELS, Lens
-from renderer.files.reading import decode_text, naming, path_of, read_file
-from renderer.files.schema import CameraFields, LookAtFields, ViewFile
-from renderer.files.tables import VERSION, parse_toml, to_struct
-from renderer.files.toml_writing import toml_text
-from renderer.scene.limits import TOML_BYTES
-from renderer.scene.model import View
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError, not_together, under
+from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.lenses import MODELS, Lens
+from lucida.renderer.files.reading import decode_text, naming, path_of, read_file
+from lucida.renderer.files.schema import CameraFields, LookAtFields, ViewFile
+from lucida.renderer.files.tables import VERSION, parse_toml, to_struct
+from lucida.renderer.files.toml_writing import toml_text
+from lucida.renderer.scene.limits import TOML_BYTES
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError, not_together, under
 
 _CAMERA = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
 LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFields away

@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.checks import number
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import number
+from lucida.renderer.system.errors import LucidaError
 
 CHANNELS = ("color", "depth", "normal", "id", "primitive")
-DISPLAY = "renderer.notebook.display"  # stands above all that it displays, so imported by name
+DISPLAY = (
+    "lucida.renderer.notebook.display"  # stands above all that it displays, so imported by name
+)
 LARGEST_SIDE = 16384
 LARGEST_PIXELS = 1 << 26
 

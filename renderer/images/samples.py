@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.images.frame import Frame
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.system.errors import LucidaError
 
 MOST_SAMPLES = 64
 

@@ -6,12 +6,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from renderer.camera.camera import Camera
-    from renderer.notebook.widget import Explorer
-    from renderer.scene import Scene
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.notebook.widget import Explorer
+    from lucida.renderer.scene import Scene
 
 INSTALL = "pip install 'camera-lucida[notebook]'"
 
@@ -30,7 +30,7 @@ def explore(
     LucidaError, also if anywidget is not installed.
     """
     try:
-        from renderer.notebook.widget import Explorer
+        from lucida.renderer.notebook.widget import Explorer
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("anywidget", "ipywidgets", "traitlets"):
             raise

@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.images import picture
-from renderer.images.display import depth_gray
-from renderer.images.frame import CHANNELS, Frame
-from renderer.images.png import png_of
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images import picture
+from lucida.renderer.images.display import depth_gray
+from lucida.renderer.images.frame import CHANNELS, Frame
+from lucida.renderer.images.png import png_of
 
 if TYPE_CHECKING:
-    from renderer.scene import Scene
+    from lucida.renderer.scene import Scene
 
 _SCENE_SIZE = (320, 240)
 _BAR = 16  # width of a colour bar, in pixels
@@ -150,8 +150,8 @@ def _projected(points: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.nd
 
 def scene_html(scene: Scene) -> str:
     """Return a picture of a scene from its own view, by the ray tracer, and its contents."""
-    from renderer.editing import outline
-    from renderer.trace import Tracer
+    from lucida.renderer.editing import outline
+    from lucida.renderer.trace import Tracer
 
     with Tracer(scene) as tracer:
         frame = tracer.render(scene.view.for_size(_SCENE_SIZE), _SCENE_SIZE, channels=("color",))

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Vector
-from renderer.camera.lenses import MODELS, USUAL, coefficient_range, with_coefficient
-from renderer.camera.navigation import depth_of, distance_for, zoomed_viewport
-from renderer.scene.focus import Focus
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.lenses import MODELS, USUAL, coefficient_range, with_coefficient
+from lucida.renderer.camera.navigation import depth_of, distance_for, zoomed_viewport
+from lucida.renderer.scene.focus import Focus
 
 
 @dataclass(frozen=True)

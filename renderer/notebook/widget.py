@@ -19,24 +19,24 @@ import anywidget
 import traitlets
 from PIL import Image
 
-from renderer.camera import navigation
-from renderer.camera.camera import Camera, Size, Vector, check_camera
-from renderer.camera.pixels import Indexing, Pixel
-from renderer.compare.pixel_report import as_rows, picked
-from renderer.files import load_scene
-from renderer.files.views import view_from_table, view_table
-from renderer.images import picture
-from renderer.images.coarseness import Coarseness, reduced
-from renderer.images.frame import CHANNELS, Frame, check_size
-from renderer.images.png import write_png
-from renderer.notebook.sliders import sliders_of, target_of, with_number
-from renderer.scene import Scene
-from renderer.scene.focus import scene_focus
-from renderer.scene.model import View
-from renderer.system import compile_note
-from renderer.system.errors import LucidaError
-from renderer.system.memo import Memo
-from renderer.trace import TraceJob, Tracer
+from lucida.renderer.camera import navigation
+from lucida.renderer.camera.camera import Camera, Size, Vector, check_camera
+from lucida.renderer.camera.pixels import Indexing, Pixel
+from lucida.renderer.compare.pixel_report import as_rows, picked
+from lucida.renderer.files import load_scene
+from lucida.renderer.files.views import view_from_table, view_table
+from lucida.renderer.images import picture
+from lucida.renderer.images.coarseness import Coarseness, reduced
+from lucida.renderer.images.frame import CHANNELS, Frame, check_size
+from lucida.renderer.images.png import write_png
+from lucida.renderer.notebook.sliders import sliders_of, target_of, with_number
+from lucida.renderer.scene import Scene
+from lucida.renderer.scene.focus import scene_focus
+from lucida.renderer.scene.model import View
+from lucida.renderer.system import compile_note
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.memo import Memo
+from lucida.renderer.trace import TraceJob, Tracer
 
 MOVING_S = 0.03  # what an image in motion may take: 15 a second, with the way to the browser
 PATIENCE_S = 0.25  # then the browser is told to ask again

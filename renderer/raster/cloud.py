@@ -13,9 +13,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.raster.programs import set_uniform
-from renderer.raster.resources import Owner, check, new_texture
-from renderer.raster.sources import link
+from lucida.renderer.raster.programs import set_uniform
+from lucida.renderer.raster.resources import Owner, check, new_texture
+from lucida.renderer.raster.sources import link
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]

@@ -14,10 +14,10 @@ from typing import Any
 
 import moderngl
 
-from renderer.raster.current import found_library, load_egl, load_osmesa, nothing_current
-from renderer.raster.packages import remedy
-from renderer.system.child import check_not_forked
-from renderer.system.errors import LucidaError
+from lucida.renderer.raster.current import found_library, load_egl, load_osmesa, nothing_current
+from lucida.renderer.raster.packages import remedy
+from lucida.renderer.system.child import check_not_forked
+from lucida.renderer.system.errors import LucidaError
 
 BACKENDS = ("auto", "egl", "osmesa")
 # From the headers of OSMesa and GL.

@@ -9,9 +9,9 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from renderer.images.shared_numbers import FARTHEST
-from renderer.raster.resources import Owner
-from renderer.raster.screen_pass import SizedTarget, Target, cover, new_array, plain_state
+from lucida.renderer.images.shared_numbers import FARTHEST
+from lucida.renderer.raster.resources import Owner
+from lucida.renderer.raster.screen_pass import SizedTarget, Target, cover, new_array, plain_state
 
 SIDE = 16  # of the blocks in range.frag
 

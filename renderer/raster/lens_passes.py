@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import moderngl
 
-from renderer.camera.camera import Camera
-from renderer.camera.lens_faces import looked_up_faces
-from renderer.raster.scene_data import SceneData
-from renderer.raster.setup import RasterView
-from renderer.raster.targets import Targets
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lens_faces import looked_up_faces
+from lucida.renderer.raster.scene_data import SceneData
+from lucida.renderer.raster.setup import RasterView
+from lucida.renderer.raster.targets import Targets
 
 
 def draw_passes(camera: Camera, enlargement: int, data: SceneData, targets: Targets) -> None:

@@ -8,9 +8,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Size
-from renderer.camera.lens_faces import Face
-from renderer.raster.resources import Owner, new_texture
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.lens_faces import Face
+from lucida.renderer.raster.resources import Owner, new_texture
 
 
 class Lookup(NamedTuple):

@@ -13,20 +13,20 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera
-from renderer.raster.cloud import PREMULTIPLIED, CloudPicture
-from renderer.raster.display import exposure_factor
-from renderer.raster.lines import BLENDING, Layer, LineRenderer
-from renderer.raster.resources import Owner
-from renderer.raster.screen_pass import (
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.raster.cloud import PREMULTIPLIED, CloudPicture
+from lucida.renderer.raster.display import exposure_factor
+from lucida.renderer.raster.lines import BLENDING, Layer, LineRenderer
+from lucida.renderer.raster.resources import Owner
+from lucida.renderer.raster.screen_pass import (
     SizedTarget,
     cover,
     new_array,
     plain_state,
     set_uniforms,
 )
-from renderer.raster.targets import Textures
-from renderer.system.memo import Memo
+from lucida.renderer.raster.targets import Textures
+from lucida.renderer.system.memo import Memo
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]

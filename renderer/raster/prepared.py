@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Floats
-from renderer.images.shared_numbers import (
+from lucida.renderer.camera.camera import Floats
+from lucida.renderer.images.shared_numbers import (
     CHECKERED,
     OBJECT_TEXELS,
     ROW_CELLS,
@@ -20,8 +20,8 @@ from renderer.images.shared_numbers import (
     ROW_DIFFUSE,
     ROW_WORLD,
 )
-from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene, flatten, same_meshes
-from renderer.scene.model import Scene, check_scene
+from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene, flatten, same_meshes
+from lucida.renderer.scene.model import Scene, check_scene
 
 
 class SceneSetup(NamedTuple):

@@ -8,10 +8,10 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from renderer.images.shared_numbers import CHECKERED
-from renderer.raster.resources import Owner
-from renderer.raster.sources import Constant, link
-from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+from lucida.renderer.images.shared_numbers import CHECKERED
+from lucida.renderer.raster.resources import Owner
+from lucida.renderer.raster.sources import Constant, link
+from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 
 # The samplers' texture units, the same in all programs. Those of different kinds never share one.
 SAMPLERS = (

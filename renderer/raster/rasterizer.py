@@ -16,21 +16,21 @@ from typing import Any
 
 import moderngl
 
-from renderer.camera.camera import Camera, check_camera
-from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS
-from renderer.images.frame import Frame, check_channels, check_size
-from renderer.images.samples import Progress, check_samples, supersampled
-from renderer.raster.contexts import check_process, is_inherited, open_platform
-from renderer.raster.lens_passes import draw_passes
-from renderer.raster.prepared import Prepared, prepare
-from renderer.raster.programs import Programs
-from renderer.raster.resources import Owner, check
-from renderer.raster.scene_data import SceneData
-from renderer.raster.screen_pass import plain_state
-from renderer.raster.targets import Region, Targets, Textures
-from renderer.scene.flat import same_places
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, check_camera
+from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS
+from lucida.renderer.images.frame import Frame, check_channels, check_size
+from lucida.renderer.images.samples import Progress, check_samples, supersampled
+from lucida.renderer.raster.contexts import check_process, is_inherited, open_platform
+from lucida.renderer.raster.lens_passes import draw_passes
+from lucida.renderer.raster.prepared import Prepared, prepare
+from lucida.renderer.raster.programs import Programs
+from lucida.renderer.raster.resources import Owner, check
+from lucida.renderer.raster.scene_data import SceneData
+from lucida.renderer.raster.screen_pass import plain_state
+from lucida.renderer.raster.targets import Region, Targets, Textures
+from lucida.renderer.scene.flat import same_places
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 

@@ -7,7 +7,7 @@ from typing import Any, Protocol, TypeVar
 import moderngl
 import numpy as np
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 
 class Resource(Protocol):

@@ -11,13 +11,13 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from renderer.camera.camera import Floats
-from renderer.images.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
-from renderer.raster.lens_targets import Lookup
-from renderer.raster.prepared import Prepared
-from renderer.raster.programs import UNITS, Programs, set_uniform
-from renderer.raster.resources import Owner, check
-from renderer.raster.setup import (
+from lucida.renderer.camera.camera import Floats
+from lucida.renderer.images.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
+from lucida.renderer.raster.lens_targets import Lookup
+from lucida.renderer.raster.prepared import Prepared
+from lucida.renderer.raster.programs import UNITS, Programs, set_uniform
+from lucida.renderer.raster.resources import Owner, check
+from lucida.renderer.raster.setup import (
     CAMERA_BLOCK,
     RasterView,
     camera_block,
@@ -28,8 +28,8 @@ from renderer.raster.setup import (
     sphere_rows,
     triangle_rows,
 )
-from renderer.raster.tables import TABLE_WIDTH, Table
-from renderer.scene.flat import FlatScene
+from lucida.renderer.raster.tables import TABLE_WIDTH, Table
+from lucida.renderer.scene.flat import FlatScene
 
 BOX_VERTICES = 36
 MARGIN = 1024  # pixels around the image, or half its size; Mesa 22.3 loses triangles with 4096

@@ -24,9 +24,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import NEAREST, Camera, Floats
-from renderer.camera.lens_faces import Face
-from renderer.images.shared_numbers import (
+from lucida.renderer.camera.camera import NEAREST, Camera, Floats
+from lucida.renderer.camera.lens_faces import Face
+from lucida.renderer.images.shared_numbers import (
     ROW_ANCHOR,
     ROW_CELLS,
     ROW_FROM_NEAR,
@@ -34,9 +34,9 @@ from renderer.images.shared_numbers import (
     ROW_INSIDE,
     SPHERE_TEXELS,
 )
-from renderer.raster.prepared import SceneSetup
-from renderer.scene.flat import FlatScene
-from renderer.scene.positions import lights_from, near_point
+from lucida.renderer.raster.prepared import SceneSetup
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.scene.positions import lights_from, near_point
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 TINY = 1e-30

@@ -13,8 +13,8 @@ from typing import Any
 
 import moderngl
 
-from renderer.images import shared_numbers
-from renderer.system.errors import LucidaError
+from lucida.renderer.images import shared_numbers
+from lucida.renderer.system.errors import LucidaError
 
 _INCLUDE = re.compile(r'\s*#\s*include\s+"([^"]+)"\s*$')
 _NAME = re.compile(r"\b[A-Z][A-Z0-9_]*\b")

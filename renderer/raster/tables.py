@@ -12,9 +12,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.shared_numbers import TABLE_SHIFT
-from renderer.raster.resources import new_texture
-from renderer.system.errors import LucidaError
+from lucida.renderer.images.shared_numbers import TABLE_SHIFT
+from lucida.renderer.raster.resources import new_texture
+from lucida.renderer.system.errors import LucidaError
 
 TABLE_WIDTH = 1 << TABLE_SHIFT
 

@@ -10,9 +10,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.raster.lens_targets import LensTargets
-from renderer.raster.resources import Owner, check, new_texture
-from renderer.system.errors import LucidaError
+from lucida.renderer.raster.lens_targets import LensTargets
+from lucida.renderer.raster.resources import Owner, check, new_texture
+from lucida.renderer.system.errors import LucidaError
 
 Region = tuple[int, int, int, int]
 

@@ -8,9 +8,9 @@
 Knows nothing of renderers, pixels or windows.
 """
 
-from renderer.scene import shapes
-from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import (
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import (
     Checker,
     Color,
     DirectionalLight,
@@ -23,8 +23,8 @@ from renderer.scene.model import (
     Sphere,
     View,
 )
-from renderer.scene.origin import Origin
-from renderer.scene.texture import Texture
+from lucida.renderer.scene.origin import Origin
+from lucida.renderer.scene.texture import Texture
 
 __all__ = [
     "Checker",

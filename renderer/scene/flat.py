@@ -22,11 +22,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.checks import arrays_text
-from renderer.images.shared_numbers import CHECKERED
-from renderer.scene.boxes import extent, world_boxes
-from renderer.scene.flat_textures import TextureArrays, on_sphere, texture_arrays
-from renderer.scene.model import (
+from lucida.renderer.camera.checks import arrays_text
+from lucida.renderer.images.shared_numbers import CHECKERED
+from lucida.renderer.scene.boxes import extent, world_boxes
+from lucida.renderer.scene.flat_textures import TextureArrays, on_sphere, texture_arrays
+from lucida.renderer.scene.model import (
     Checker,
     Mesh,
     PointLight,
@@ -35,7 +35,7 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]

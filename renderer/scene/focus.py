@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Vector
-from renderer.scene.boxes import corners_of, extent
-from renderer.scene.model import Scene, SceneObject, Sphere
+from lucida.renderer.camera.camera import Vector
+from lucida.renderer.scene.boxes import corners_of, extent
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
 

@@ -8,10 +8,10 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera
-from renderer.scene.focus import object_corners
-from renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.focus import object_corners
+from lucida.renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
+from lucida.renderer.system.errors import LucidaError
 
 MATERIAL = Material(diffuse=(0.62, 0.62, 0.62), specular=(0.1, 0.1, 0.1), shininess=40.0)
 AMBIENT = (0.1, 0.1, 0.1)

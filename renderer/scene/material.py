@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from renderer.camera.checks import number, numbers
-from renderer.images.display import from_srgb
-from renderer.scene.metal import Metal, reflectances
-from renderer.scene.texture import WHITE, Texture
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import number, numbers
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.scene.metal import Metal, reflectances
+from lucida.renderer.scene.texture import WHITE, Texture
+from lucida.renderer.system.errors import LucidaError
 
 Color = tuple[float, float, float]
 

@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.checks import number
-from renderer.images.display import from_srgb
-from renderer.scene.texture import packed_light
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import number
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.scene.texture import packed_light
+from lucida.renderer.system.errors import LucidaError
 
 DIELECTRIC = 0.04  # what anything but a metal reflects head on
 # The diffuse part of a metal's base colour: it replaces the reflection of surroundings, which a

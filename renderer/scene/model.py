@@ -14,17 +14,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera.camera import Camera
-from renderer.camera.checks import LARGEST, volume
-from renderer.images.frame import DISPLAY
-from renderer.scene.material import BRIGHTEST as BRIGHTEST
-from renderer.scene.material import Checker as Checker
-from renderer.scene.material import Color as Color
-from renderer.scene.material import Material, color, length, vector
-from renderer.scene.material import without_metal as without_metal
-from renderer.scene.origin import Origin
-from renderer.scene.texture import is_final
-from renderer.system.errors import LucidaError, one_line, shortened
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import LARGEST, volume
+from lucida.renderer.images.frame import DISPLAY
+from lucida.renderer.scene.material import BRIGHTEST as BRIGHTEST
+from lucida.renderer.scene.material import Checker as Checker
+from lucida.renderer.scene.material import Color as Color
+from lucida.renderer.scene.material import Material, color, length, vector
+from lucida.renderer.scene.material import without_metal as without_metal
+from lucida.renderer.scene.origin import Origin
+from lucida.renderer.scene.texture import is_final
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 Floats32 = NDArray[np.float32]
 

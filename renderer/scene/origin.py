@@ -11,8 +11,8 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, Literal
 
-from renderer.scene.material import Material
-from renderer.system.file_dependencies import Noted
+from lucida.renderer.scene.material import Material
+from lucida.renderer.system.file_dependencies import Noted
 
 ItemKind = Literal["objects", "lights"]
 Keys = tuple[tuple[int, ...], tuple[int, ...]]  # of a scene's objects, and of its lights

@@ -10,10 +10,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.scene.boxes import corners_of
-from renderer.scene.flat import FlatScene
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.scene.boxes import corners_of
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.system.errors import LucidaError
 
 # GL clips in float32: an edge made by clipping has an error of 2^-24 of the clipped length, and is
 # 1024 pixels outside the image (MARGIN, renderer/raster/scene_data.py).

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene.model import Mesh
-from renderer.scene.normals import face_normals
+from lucida.renderer.scene.model import Mesh
+from lucida.renderer.scene.normals import face_normals
 
 Floats = NDArray[np.float64]
 CAP = 1 - 1e-6  # of a unit normal along y, from which on a face is an end of a cylinder or a cone

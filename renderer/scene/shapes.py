@@ -14,10 +14,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene.limits import SEGMENTS
-from renderer.scene.material import length, vector
-from renderer.scene.model import Mesh
-from renderer.system.errors import LucidaError
+from lucida.renderer.scene.limits import SEGMENTS
+from lucida.renderer.scene.material import length, vector
+from lucida.renderer.scene.model import Mesh
+from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.checks import number, numbers
-from renderer.images.display import from_srgb
-from renderer.images.shared_numbers import TEXEL_BITS
-from renderer.scene.limits import TEXTURE_SIDE
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import number, numbers
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.images.shared_numbers import TEXEL_BITS
+from lucida.renderer.scene.limits import TEXTURE_SIDE
+from lucida.renderer.system.errors import LucidaError
 
 WRAPS = ("repeat", "mirror", "clamp")  # by number
 LARGEST_SCALE = 1e5

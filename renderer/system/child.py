@@ -14,7 +14,7 @@ import threading
 from importlib import import_module
 from pathlib import Path
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 _NICENESS = 2  # the window has priority
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "

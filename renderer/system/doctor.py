@@ -21,9 +21,9 @@ from dataclasses import dataclass
 from importlib import import_module, metadata
 from pathlib import Path
 
-from renderer.raster.contexts import candidates
-from renderer.raster.packages import remedy
-from renderer.system.child import child_command, interpreter
+from lucida.renderer.raster.contexts import candidates
+from lucida.renderer.raster.packages import remedy
+from lucida.renderer.system.child import child_command, interpreter
 
 TIMEOUT_S = 60.0  # a driver's first compilation of shaders can take long
 
@@ -96,9 +96,9 @@ def _answer(done: subprocess.CompletedProcess[bytes]) -> tuple[bool, str]:
 
 def _draws(backend: str) -> str:
     """Draw an image of one pixel."""
-    from renderer.camera.camera import Camera
-    from renderer.raster import Rasterizer
-    from renderer.scene.model import Scene, SceneObject, Sphere
+    from lucida.renderer.camera.camera import Camera
+    from lucida.renderer.raster import Rasterizer
+    from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
     scene = Scene((SceneObject(Sphere((0, 0, -3))),))
     with Rasterizer(scene, backend=backend) as rasterizer:
@@ -136,7 +136,7 @@ def _shows() -> str:
 def _compiles() -> str:
     import numba
 
-    from renderer.trace.compile.cache_folder import cache_folder, cache_problem
+    from lucida.renderer.trace.compile.cache_folder import cache_folder, cache_problem
 
     affinity = getattr(os, "sched_getaffinity", None)
     cores = len(affinity(0)) if affinity else os.cpu_count() or 1

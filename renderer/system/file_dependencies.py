@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextvars import ContextVar
 from pathlib import Path
 
-from renderer.system.cancelling import during
+from lucida.renderer.system.cancelling import during
 
 Stamp = tuple[int, int, int]  # differs between two versions of a file
 Noted = dict[Path, Stamp | None]  # by absolute path; None for a missing file

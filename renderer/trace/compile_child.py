@@ -6,8 +6,8 @@ import gc
 import os
 import sys
 
-from renderer.system.child import end_with_parent
-from renderer.trace.parts import compile_part
+from lucida.renderer.system.child import end_with_parent
+from lucida.renderer.trace.parts import compile_part
 
 
 def main(*parts: str) -> None:
@@ -36,8 +36,8 @@ def can_fork() -> bool:
 
 def import_compiler() -> None:
     """Import all modules that compilation, or loading from the cache, needs."""
-    from renderer.trace.reference_engine import ReferenceEngine  # noqa: F401
-    from renderer.trace.tiles.engine import PacketEngine  # noqa: F401
+    from lucida.renderer.trace.reference_engine import ReferenceEngine  # noqa: F401
+    from lucida.renderer.trace.tiles.engine import PacketEngine  # noqa: F401
 
 
 def _fork(part: str) -> int:
@@ -53,7 +53,7 @@ def _fork(part: str) -> int:
 
 def _compile(part: str) -> int:
     """Compile a part. Return the exit status."""
-    from renderer.trace.compile.compiled import is_cached
+    from lucida.renderer.trace.compile.compiled import is_cached
 
     compile_part(part)
     return 0 if is_cached() else 1

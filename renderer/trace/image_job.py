@@ -11,12 +11,12 @@ import threading
 import time
 from typing import Any
 
-from renderer.camera.camera import Camera
-from renderer.images.frame import Frame
-from renderer.system.child import check_not_forked
-from renderer.trace.arguments.buffers import Buffers
-from renderer.trace.arguments.image import Image, Rows, new_image, to_frame
-from renderer.trace.threads.thread_pool import DONE, cancel, new_control
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.system.child import check_not_forked
+from lucida.renderer.trace.arguments.buffers import Buffers
+from lucida.renderer.trace.arguments.image import Image, Rows, new_image, to_frame
+from lucida.renderer.trace.threads.thread_pool import DONE, cancel, new_control
 
 
 class Task:

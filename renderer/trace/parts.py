@@ -16,10 +16,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from renderer.scene.model import Mesh, Scene, SceneObject
-from renderer.trace.image_job import Task
-from renderer.trace.ray_batch import RayBatch
-from renderer.trace.tiles.variants import Variant, variant_of
+from lucida.renderer.scene.model import Mesh, Scene, SceneObject
+from lucida.renderer.trace.image_job import Task
+from lucida.renderer.trace.ray_batch import RayBatch
+from lucida.renderer.trace.tiles.variants import Variant, variant_of
 
 
 def parts_of(method: str, effects: bool, scene: Scene, task: Task | RayBatch) -> tuple[str, ...]:
@@ -41,11 +41,11 @@ def compile_part(part: str) -> None:
     """Compile a part, or load it from the cache, by running it on nothing. Imports numba."""
     import numpy as np
 
-    from renderer.scene.flat import flatten
-    from renderer.trace.bvh.instances import Instances
-    from renderer.trace.reference_engine import ReferenceEngine
-    from renderer.trace.threads.thread_pool import Team
-    from renderer.trace.tiles.engine import PacketEngine
+    from lucida.renderer.scene.flat import flatten
+    from lucida.renderer.trace.bvh.instances import Instances
+    from lucida.renderer.trace.reference_engine import ReferenceEngine
+    from lucida.renderer.trace.threads.thread_pool import Team
+    from lucida.renderer.trace.tiles.engine import PacketEngine
 
     alone, nothing = Team(1), Scene(())
     triangle = SceneObject(Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)))

@@ -35,7 +35,7 @@ _HOME = {
 def __getattr__(name: str) -> Callable[..., Any]:
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    module = import_module(f"renderer.trace.reference.{_HOME[name]}")
+    module = import_module(f"lucida.renderer.trace.reference.{_HOME[name]}")
     function: Callable[..., Any] = getattr(module, name)
     globals()[name] = function  # later lookups bypass this function
     return function

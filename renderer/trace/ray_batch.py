@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 
 class RayBatch:

@@ -5,14 +5,14 @@ Same interface as tiles/engine.py.
 
 from __future__ import annotations
 
-from renderer.camera.camera import Camera
-from renderer.scene.flat import flatten
-from renderer.scene.model import Scene
-from renderer.trace.arguments.image import Image, Rows, new_image
-from renderer.trace.arguments.view import KernelView
-from renderer.trace.bvh.binary import tree_of_scene
-from renderer.trace.reference.kernel import trace_image
-from renderer.trace.threads.thread_pool import Control, Team, cancelled_control
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.trace.arguments.image import Image, Rows, new_image
+from lucida.renderer.trace.arguments.view import KernelView
+from lucida.renderer.trace.bvh.binary import tree_of_scene
+from lucida.renderer.trace.reference.kernel import trace_image
+from lucida.renderer.trace.threads.thread_pool import Control, Team, cancelled_control
 
 
 class ReferenceEngine:

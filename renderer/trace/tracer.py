@@ -15,17 +15,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera.camera import Camera, check_camera
-from renderer.images.frame import Frame, check_channels, check_size
-from renderer.images.samples import check_samples, supersampled
-from renderer.scene.model import Scene, check_scene
-from renderer.system.errors import LucidaError
-from renderer.trace.arguments.buffers import Buffers
-from renderer.trace.arguments.image import Rows
-from renderer.trace.image_job import Task, TraceJob
-from renderer.trace.ray_batch import RayBatch
-from renderer.trace.threads.thread_pool import check_threads
-from renderer.trace.worker import Worker
+from lucida.renderer.camera.camera import Camera, check_camera
+from lucida.renderer.images.frame import Frame, check_channels, check_size
+from lucida.renderer.images.samples import check_samples, supersampled
+from lucida.renderer.scene.model import Scene, check_scene
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace.arguments.buffers import Buffers
+from lucida.renderer.trace.arguments.image import Rows
+from lucida.renderer.trace.image_job import Task, TraceJob
+from lucida.renderer.trace.ray_batch import RayBatch
+from lucida.renderer.trace.threads.thread_pool import check_threads
+from lucida.renderer.trace.worker import Worker
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 METHODS = ("packets", "reference")

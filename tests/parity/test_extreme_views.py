@@ -10,11 +10,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from renderer import Camera, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.scene import shapes
-from renderer.scene.flat import flatten
-from renderer.scene.model import Checker, Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from lucida import Camera, Tracer
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import (
+    Checker,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+    Sphere,
+)
 
 SIZE = (48, 36)
 

@@ -13,15 +13,15 @@ from agreeing import agree
 from scenes import ODD, crowd, moved, placed
 from trace_reference import ball, reference
 
-from app.images.picking import object_on_ray
-from app.instruments.probe.model import Probe
-from app.instruments.stepper import loop_parts
-from renderer import Camera, Rasterizer, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.scene import shapes
-from renderer.scene.flat import flatten
-from renderer.scene.focus import scene_focus
-from renderer.scene.model import (
+from lucida import Camera, Rasterizer, Tracer
+from lucida.app.images.picking import object_on_ray
+from lucida.app.instruments.probe.model import Probe
+from lucida.app.instruments.stepper import loop_parts
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.focus import scene_focus
+from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
     Material,

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from scenes import crowd
 
-from renderer import Camera, Rasterizer, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.compare.why_black import darkness
-from renderer.files import BUILTIN_SCENES, load_scene
-from renderer.scene.flat import flatten
-from renderer.scene.model import (
+from lucida import Camera, Rasterizer, Tracer
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.compare.why_black import darkness
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import (
     Checker,
     Material,
     Mesh,
@@ -24,7 +24,7 @@ from renderer.scene.model import (
     SceneObject,
     Sphere,
 )
-from tests.attack.random_scenes import random_camera
+from tools.attack.random_scenes import random_camera
 
 CAMERAS = int(os.environ.get("LUCIDA_PARITY_CAMERAS", "60"))
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.attack import random_views
-from tests.attack.random_views import Task, main
+from tools.attack import random_views
+from tools.attack.random_views import Task, main
 
 
 def test_some_views_agree(capsys):

@@ -8,12 +8,19 @@ from agreeing import agree
 from scenes import moved, placed
 from trace_reference import reference
 
-from app.instruments.probe.model import Probe
-from renderer import Camera, Rasterizer, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.images.frame import Frame
-from renderer.scene.flat import flatten
-from renderer.scene.model import DirectionalLight, Material, Mesh, PointLight, Scene, SceneObject
+from lucida import Camera, Rasterizer, Tracer
+from lucida.app.instruments.probe.model import Probe
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import (
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+)
 
 SIZE = (33, 33)
 LIGHTS = (PointLight((0.5, 1, 0.5)), DirectionalLight((-1, -1, -2), (0.5, 0.4, 0.3)))

@@ -11,15 +11,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from textured import WHITE, noise, wall
 
-from app.instruments.probe.crossings import Index
-from app.instruments.probe.model import Probe
-from renderer import Camera, Rasterizer, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.scene.flat import flatten
-from renderer.scene.metal import METAL_DIFFUSE, Metal
-from renderer.scene.model import DirectionalLight, Material, Mesh, PointLight, Scene, SceneObject
-from renderer.scene.shapes import torus
-from renderer.scene.texture import Texture
+from lucida import Camera, Rasterizer, Tracer
+from lucida.app.instruments.probe.crossings import Index
+from lucida.app.instruments.probe.model import Probe
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.metal import METAL_DIFFUSE, Metal
+from lucida.renderer.scene.model import (
+    DirectionalLight,
+    Material,
+    Mesh,
+    PointLight,
+    Scene,
+    SceneObject,
+)
+from lucida.renderer.scene.shapes import torus
+from lucida.renderer.scene.texture import Texture
 
 SIZE = (96, 64)
 LIGHTS = (PointLight((4, 5, 3), (0.8, 0.7, 0.6)), DirectionalLight((-1, -2, -1), (0.3, 0.3, 0.5)))

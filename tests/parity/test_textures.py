@@ -8,15 +8,15 @@ from agreeing import agree
 from scenes import moved
 from textured import WHITE, floor, lit, noise, on_ball, on_wall, slopes, wall
 
-from app.instruments.probe.model import Probe
-from renderer import Camera, Rasterizer, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.compare.seen_surfaces import Surfaces, View
-from renderer.images.display import from_srgb
-from renderer.scene.flat import flatten
-from renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
-from renderer.scene.sampling import between, sampled
-from renderer.scene.texture import WRAPS, Texture, packed_texels
+from lucida import Camera, Rasterizer, Tracer
+from lucida.app.instruments.probe.model import Probe
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.compare.seen_surfaces import Surfaces, View
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from lucida.renderer.scene.sampling import between, sampled
+from lucida.renderer.scene.texture import WRAPS, Texture, packed_texels
 
 SIZE = (96, 64)
 SKEWED = Camera(u=(1.1, 0.2, 0.1), v=(-0.1, 0.9, 0.2), w=(0.05, -0.1, 1.0))

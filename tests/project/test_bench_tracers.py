@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.benchmarks import embree, measure, run
-from tests.benchmarks.cameras import easy_views
-from tests.benchmarks.lucida import Lucida
-from tests.benchmarks.meshes import bumpy_sphere
-from tests.benchmarks.processes import TracerProcess
-from tests.benchmarks.scenes import Subject
+from tools.benchmarks import embree, measure, run
+from tools.benchmarks.cameras import easy_views
+from tools.benchmarks.lucida import Lucida
+from tools.benchmarks.meshes import bumpy_sphere
+from tools.benchmarks.processes import TracerProcess
+from tools.benchmarks.scenes import Subject
 
 SIZE = (48, 27)
 BALL = Subject("ball", *bumpy_sphere(300))

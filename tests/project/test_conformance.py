@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from renderer.files.cameras import FORMATS
-from tests.conformance import cameras, report, run
-from tests.conformance.measured import Checked, Job, PeerMissing, measured, needed
+from lucida.renderer.files.cameras import FORMATS
 from tests.support.format_cameras import centred_camera, skewed_camera, straight_camera
+from tools.conformance import cameras, report, run
+from tools.conformance.measured import Checked, Job, PeerMissing, measured, needed
 
 ROOT = Path(__file__).parents[2]
 PAGES = {name: (ROOT / name).read_text("utf-8") for name in ("README.md", "docs/cameras.md")}
@@ -64,7 +64,7 @@ class TestCameras:
 class TestRun:
     @pytest.mark.parametrize("name", NAMES)
     def test_each_format_has_a_check(self, name):
-        assert callable(import_module(f"tests.conformance.formats.{name}").check)
+        assert callable(import_module(f"tools.conformance.formats.{name}").check)
 
     @pytest.mark.parametrize("name", ["view", "nerf"])
     def test_those_that_need_no_program(self, name):
@@ -75,7 +75,7 @@ class TestRun:
         def broken(job):
             raise ValueError("out of luck\nand more")
 
-        monkeypatch.setattr("tests.conformance.formats.nerf.check", broken)
+        monkeypatch.setattr("tools.conformance.formats.nerf.check", broken)
         found = run.outcome("nerf", 1)
         assert (found.met, found.problem) == (False, "ValueError: out of luck")
         assert "out of luck" in capsys.readouterr().err

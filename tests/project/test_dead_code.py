@@ -14,8 +14,8 @@ from collections.abc import Iterator
 
 from test_layers import MODULES, ROOT
 
-from renderer.files.cameras import FORMATS
-from renderer.images.frame import DISPLAY
+from lucida.renderer.files.cameras import FORMATS
+from lucida.renderer.images.frame import DISPLAY
 
 # What is found by its name, and by whom.
 FOUND = {
@@ -33,7 +33,7 @@ FOUND = {
 REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callable"}
 
 # Modules that are loaded by name: what they define is asked of what comes.
-LOADED = {f"renderer.files.cameras.{entry.name}" for entry in FORMATS} | {DISPLAY}
+LOADED = {f"lucida.renderer.files.cameras.{entry.name}" for entry in FORMATS} | {DISPLAY}
 
 
 def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:
@@ -87,7 +87,9 @@ def used() -> frozenset[tuple[str, str]]:
     by_python = {use for module, tree in trees().items() for use in uses(module, tree)}
     shaders = (path for path in ROOT.glob("shaders/**/*.*") if path.suffix != ".py")
     words = {word for path in shaders for word in re.findall(r"\w+", path.read_text("latin-1"))}
-    return frozenset(by_python | {("renderer.images.shared_numbers", word) for word in words})
+    return frozenset(
+        by_python | {("lucida.renderer.images.shared_numbers", word) for word in words}
+    )
 
 
 def test_what_a_module_defines_is_used() -> None:

@@ -15,8 +15,8 @@ pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="POSIX's fork")
 # Prints what becomes of each call in a forked process; one that hangs is ended by an alarm.
 SCRIPT = """
 import os, signal, sys, time
-from renderer import Camera, LucidaError, Rasterizer, Tracer
-from renderer.scene.model import Scene, SceneObject, Sphere
+from lucida import Camera, LucidaError, Rasterizer, Tracer
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
 scene, camera = Scene((SceneObject(Sphere((0, 0, -3))),)), Camera()
 

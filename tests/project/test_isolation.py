@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from renderer.raster.contexts import candidates
-from renderer.system import child, compile_note, doctor
-from renderer.trace.compile.cache_folder import cache_folder
+from lucida.renderer.raster.contexts import candidates
+from lucida.renderer.system import child, compile_note, doctor
+from lucida.renderer.trace.compile.cache_folder import cache_folder
 
 ROOT = Path(__file__).parents[2]
 LIMIT_S = 280  # the first rendering compiles the tracer
@@ -108,19 +108,19 @@ def test_the_traps_work(tmp_path: Path) -> None:
     ],
 )
 def test_commands_import_nothing_from_the_current_folder(here: Here, line: str) -> None:
-    here.run("-m", "app", *line.split())
+    here.run("-m", "lucida", *line.split())
 
 
 def test_the_first_trace_was_compiled_by_other_processes(here: Here) -> None:
     cache = here.folder.parent / "cache"
     if not list(cache.rglob("*.done")):
-        here.run("-m", "app", "render", "spheres", "-o", "a.png", "--renderer", "ray")
+        here.run("-m", "lucida", "render", "spheres", "-o", "a.png", "--renderer", "ray")
     assert len(list(cache.rglob("*.done"))) == 3
     assert list(cache.rglob(f"{MISSING}*.nbc"))
 
 
 def test_the_doctor_tells_the_truth_there(here: Here) -> None:
-    told = here.run("-m", "app", "doctor", "--json")
+    told = here.run("-m", "lucida", "doctor", "--json")
     *checks, imports = json.loads(told)["checks"]
     for name in (candidates()[0], "tracer"):
         (check,) = (check for check in checks if check["name"] == name)
@@ -134,7 +134,7 @@ def test_python_m_app_leaves_the_current_folder_at_once(here: Here, tmp_path: Pa
     (tmp_path / "argparse.py").write_text(f"open({str(here.ran)!r}, 'a').write('argparse ')\n")
     folder, here.folder = here.folder, tmp_path
     try:
-        assert "spheres" in here.run("-m", "app", "scenes", safe=False)
+        assert "spheres" in here.run("-m", "lucida", "scenes", safe=False)
     finally:
         here.folder = folder
 
@@ -142,7 +142,7 @@ def test_python_m_app_leaves_the_current_folder_at_once(here: Here, tmp_path: Pa
 def test_a_python_that_a_library_starts_does_not_search_there_either(here: Here) -> None:
     script = (
         "import subprocess, sys\n"
-        "from app.__main__ import main\n"
+        "from lucida.app.__main__ import main\n"
         "sys.argv[1:] = ['scenes']\n"
         "main()\n"
         "print(subprocess.run([sys.executable, '-c', 'import ctypes, json']).returncode)\n"
@@ -157,8 +157,8 @@ def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_no
         "-c",
         "import sys\n"
         "from pathlib import Path\n"
-        "from renderer.system import doctor\n"
-        "from renderer.files.models import subprocess_reader as apart\n"
+        "from lucida.renderer.system import doctor\n"
+        "from lucida.renderer.files.models import subprocess_reader as apart\n"
         "apart.read_model = None\n"  # not in this process
         "sys.path.insert(0, '')\n"
         "print(len(apart.ModelReader().read(Path('models/large.obj')).objects))\n"

@@ -17,28 +17,28 @@ SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
 # it is within, and imports from its own layer and from those before it; local imports count, and
 # those that are only for types.
 LAYERS = (
-    ("renderer.system",),
-    ("renderer.camera.checks", "renderer.camera.pixels", "renderer.images"),
-    ("renderer.camera", "renderer.images.samples"),
-    ("renderer.scene",),
-    ("renderer.files",),
-    ("renderer.editing",),
-    ("renderer.raster",),
-    ("renderer.trace.compile",),
-    ("renderer.trace.vector",),
-    ("renderer.trace.arguments", "renderer.trace.threads"),
-    ("renderer.trace.reference",),
-    ("renderer.trace.bvh",),
-    ("renderer.trace.rays",),
-    ("renderer.trace.tiles",),
-    ("renderer.trace",),
-    ("renderer.compare",),
-    ("renderer.notebook", "renderer.system.doctor"),
+    ("lucida.renderer.system",),
+    ("lucida.renderer.camera.checks", "lucida.renderer.camera.pixels", "lucida.renderer.images"),
+    ("lucida.renderer.camera", "lucida.renderer.images.samples"),
+    ("lucida.renderer.scene",),
+    ("lucida.renderer.files",),
+    ("lucida.renderer.editing",),
+    ("lucida.renderer.raster",),
+    ("lucida.renderer.trace.compile",),
+    ("lucida.renderer.trace.vector",),
+    ("lucida.renderer.trace.arguments", "lucida.renderer.trace.threads"),
+    ("lucida.renderer.trace.reference",),
+    ("lucida.renderer.trace.bvh",),
+    ("lucida.renderer.trace.rays",),
+    ("lucida.renderer.trace.tiles",),
+    ("lucida.renderer.trace",),
+    ("lucida.renderer.compare",),
+    ("lucida.renderer.notebook", "lucida.renderer.system.doctor"),
     ("renderer", "app"),
-    ("app.state",),
-    ("app.ui", "app.images", "app.cameras"),
-    ("app.instruments", "app.lecture", "app.checking", "app.web"),
-    ("app.window", "app.commands", "app.cli", "app.__main__"),
+    ("lucida.app.state",),
+    ("lucida.app.ui", "lucida.app.images", "lucida.app.cameras"),
+    ("lucida.app.instruments", "lucida.app.lecture", "lucida.app.checking", "lucida.app.web"),
+    ("lucida.app.window", "lucida.app.commands", "lucida.app.cli", "lucida.app.__main__"),
 )
 LAYER = {name: number for number, names in enumerate(LAYERS) for name in names}
 
@@ -49,7 +49,7 @@ FORBIDDEN = {
     "renderer/images": ["moderngl", "numba"],
     # Parity means something only between renderers that share no code below the flat scene.
     "renderer/raster": ["numba"],
-    "renderer/trace": ["renderer.raster", "moderngl"],
+    "renderer/trace": ["lucida.renderer.raster", "moderngl"],
     "app/commands": ["glfw", "imgui_bundle", "moderngl", "numba"],
 }
 
@@ -179,7 +179,7 @@ def test_the_window_s_library_is_loaded_first(path):
 def test_the_check_sees_every_form_of_import():
     source = "import a.b\nfrom c import d\ndef f():\n    from . import e\n    from ..g import h"
     found = set(imports(ROOT / "renderer" / "scene" / "x.py", source))
-    assert found == {"a.b", "c.d", "renderer.scene.e", "renderer.g.h"}
+    assert found == {"a.b", "c.d", "lucida.renderer.scene.e", "renderer.g.h"}
 
 
 def test_every_file_says_what_it_is_for():

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from numba.core import config
 
-from renderer.system.errors import LucidaError
-from renderer.system.private_folder import private_folder
-from renderer.trace.compile import cache_folder, compiled
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.private_folder import private_folder
+from lucida.renderer.trace.compile import cache_folder, compiled
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="POSIX's owners and rights")
@@ -199,7 +199,7 @@ def test_the_command_line_says_it_in_one_line(mine: Path) -> None:
     line = "render canonical -o a.png --renderer ray --size 8x8"
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_CACHE_DIR": str(mine / "shared")}
     done = subprocess.run(
-        [sys.executable, "-P", "-m", "app", *line.split()],
+        [sys.executable, "-P", "-m", "lucida", *line.split()],
         cwd=mine, env=environment, capture_output=True, text=True, timeout=250,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

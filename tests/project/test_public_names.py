@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-import renderer
-from renderer import (
+import lucida
+from lucida import (
     Camera,
     LucidaError,
     Rasterizer,
@@ -15,8 +15,8 @@ from renderer import (
     load_view,
     read_cameras,
 )
-from renderer.images.frame import check_size
-from renderer.scene.model import Scene
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.scene.model import Scene
 
 SIZE = (8, 6)
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from textured import saved, slopes
 
-from app.commands import COMMANDS, view
-from app.commands.arguments import Parser
-from renderer.files import view_from_toml
-from renderer.files.scene_file import scene_from_toml
+from lucida.app.commands import COMMANDS, view
+from lucida.app.commands.arguments import Parser
+from lucida.renderer.files import view_from_toml
+from lucida.renderer.files.scene_file import scene_from_toml
 
 ROOT = Path(__file__).parents[2]
 PAGES = {

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app import __version__
+from lucida import __version__
 
 ROOT = Path(__file__).parents[2]
 # Files of all these kinds are our own, under LICENSE: a font or a model would bring its own.

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from renderer import Camera, Rasterizer, Tracer
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.scene.flat import flatten
-from renderer.scene.model import Scene
+from lucida import Camera, Rasterizer, Tracer
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Scene
 
 
 def agree(scene: Scene, camera: Camera, size=(96, 64)):

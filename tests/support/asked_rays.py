@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.checking.mistakes.ray_trial import RayCase
-from app.checking.mistakes.rays import WORDS, RayTask
-from renderer.camera.camera import Camera
-from renderer.camera.pixels import Indexing
+from lucida.app.checking.mistakes.ray_trial import RayCase
+from lucida.app.checking.mistakes.rays import WORDS, RayTask
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import Indexing
 
 KINDS = ("orthonormal", "off-axis", "skewed", "left-handed")
 PIXEL = {"i", "j", "width", "height"}

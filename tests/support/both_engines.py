@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from renderer.images.frame import Frame
-from renderer.scene.flat import flatten
-from renderer.scene.model import Scene
-from renderer.trace.arguments.image import new_image, to_frame
-from renderer.trace.reference_engine import ReferenceEngine
-from renderer.trace.threads.thread_pool import Team, new_control
-from renderer.trace.tiles.engine import PacketEngine
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.trace.arguments.image import new_image, to_frame
+from lucida.renderer.trace.reference_engine import ReferenceEngine
+from lucida.renderer.trace.threads.thread_pool import Team, new_control
+from lucida.renderer.trace.tiles.engine import PacketEngine
 
 
 class Both:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.lecture.model import Lecture
-from app.lecture.reading import BUILTINS, load_lecture
+from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.reading import BUILTINS, load_lecture
 
 
 def both_lectures() -> Lecture:

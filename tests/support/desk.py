@@ -197,7 +197,7 @@ class Program:
         self._log = home / "program.log"
         with self._log.open("w") as log:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "app", *arguments],
+                [sys.executable, "-m", "lucida", *arguments],
                 cwd=home,
                 env=environment,
                 stdout=log,

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer import Camera, Frame
-from renderer.scene.model import Material, Mesh, SceneObject
+from lucida import Camera, Frame
+from lucida.renderer.scene.model import Material, Mesh, SceneObject
 
 SIZE = (32, 24)
 CAMERA = Camera(viewport=(-0.5, 0.5, -0.375, 0.375))  # one pixel is 1/32 of a unit at t = 1

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.lenses import Lens
-from renderer.files.cameras import CameraSet, PosedCamera, read_cameras
-from renderer.files.cameras.given import Given, Options
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras import CameraSet, PosedCamera, read_cameras
+from lucida.renderer.files.cameras.given import Given, Options
 
 
 def skewed_camera(random: np.random.Generator, projection: str = "perspective") -> Camera:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from renderer.files import load_scene
-from renderer.scene import Scene
+from lucida.renderer.files import load_scene
+from lucida.renderer.scene import Scene
 
 CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
 TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}

@@ -10,11 +10,11 @@ from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
-from renderer import Camera, LucidaError
-from renderer.files.cameras import CameraSet, PosedCamera, formats
-from renderer.files.cameras.distortion import lens_of
-from renderer.files.cameras.formats import Format
-from renderer.files.cameras.given import Given, Options
+from lucida import Camera, LucidaError
+from lucida.renderer.files.cameras import CameraSet, PosedCamera, formats
+from lucida.renderer.files.cameras.distortion import lens_of
+from lucida.renderer.files.cameras.formats import Format
+from lucida.renderer.files.cameras.given import Given, Options
 
 TAKEN = ("camera-to-world, y up, z back", "whole numbers at the pixels' corners")
 
@@ -60,7 +60,7 @@ def install(monkeypatch: Any) -> None:
     herd.recognises, herd.read, herd.write = recognises, read, write  # type: ignore[attr-defined]
     den.recognises, den.write = lambda given: False, write_den  # type: ignore[attr-defined]
     for module in (herd, den):
-        monkeypatch.setitem(sys.modules, f"renderer.files.cameras.{module.__name__}", module)
+        monkeypatch.setitem(sys.modules, f"lucida.renderer.files.cameras.{module.__name__}", module)
     own = (
         Format("herd", "cameras in a herd", "herd", (".herd",)),
         Format("den", "a den", "-", ("",)),

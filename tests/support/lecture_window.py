@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from window_driver import Driver
 
-from app.lecture.model import Lecture
-from app.lecture.reading import load_lecture
-from app.lecture.view import LECTURE, LectureView
+from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.reading import load_lecture
+from lucida.app.lecture.view import LECTURE, LectureView
 
 SMALL = """\
 title = "Small"

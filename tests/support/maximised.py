@@ -8,7 +8,7 @@ from typing import Generic
 from option_changes import with_options
 from window_driver import Driver
 
-from app.ui.instrument import AnInstrument
+from lucida.app.ui.instrument import AnInstrument
 
 
 @dataclass(frozen=True)

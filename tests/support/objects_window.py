@@ -12,11 +12,11 @@ from option_changes import with_options
 from outside_window import place
 from window_driver import IMAGES, Driver, Key
 
-from app.instruments.objects.choosing import chosen, rows_of
-from app.instruments.objects.handles import frame_of, length_px
-from app.instruments.outside.view import OUTSIDE
-from renderer.editing.changing import ids_of
-from renderer.scene.model import Sphere
+from lucida.app.instruments.objects.choosing import chosen, rows_of
+from lucida.app.instruments.objects.handles import frame_of, length_px
+from lucida.app.instruments.outside.view import OUTSIDE
+from lucida.renderer.editing.changing import ids_of
+from lucida.renderer.scene.model import Sphere
 
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 SCENE = """# A ball that is kept as it is written.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from app.window.opening import Opened
+from lucida.app.window.opening import Opened
 
 T = TypeVar("T")
 

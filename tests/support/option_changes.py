@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.state.app_state import AppState
+from lucida.app.state.app_state import AppState
 
 
 def with_options(state: AppState, **changes: Any) -> AppState:

@@ -6,10 +6,10 @@ import numpy as np
 from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver
 
-from app.instruments.outside.mouse import Scope
-from app.instruments.outside.projected import Strokes
-from app.instruments.outside.screen import OutsideScreen
-from app.instruments.outside.view import OUTSIDE, OutsideView
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.projected import Strokes
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
 
 IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
 

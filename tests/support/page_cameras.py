@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Vector
-from renderer.camera.lenses import Lens
-from renderer.files.views import view_table
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.views import view_table
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 from tests.support.browser import Page
 
 LENSES = (

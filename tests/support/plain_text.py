@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.lecture.text import Block, Code, DisplayedFormula, ItemList, Line, Words
+from lucida.app.lecture.text import Block, Code, DisplayedFormula, ItemList, Line, Words
 
 
 def plain_text(blocks: tuple[Block, ...]) -> str:

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from renderer.editing import changing, materials, moving, objects
-from renderer.editing.outline import Item, outline
-from renderer.scene import Scene, flatten
-from renderer.scene.shapes import placement
-from renderer.system.errors import LucidaError
+from lucida.renderer.editing import changing, materials, moving, objects
+from lucida.renderer.editing.outline import Item, outline
+from lucida.renderer.scene import Scene, flatten
+from lucida.renderer.scene.shapes import placement
+from lucida.renderer.system.errors import LucidaError
 
 Random = np.random.Generator
 

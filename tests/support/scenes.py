@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer.scene.model import (
+from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
     Material,

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 from window_driver import Driver, Key
 
-from app.images.pair.view import RASTER
-from app.images.placement import Placement
-from renderer.images.display import picture
+from lucida.app.images.pair.view import RASTER
+from lucida.app.images.placement import Placement
+from lucida.renderer.images.display import picture
 
 ALT, CTRL, SHIFT = int(Key.mod_alt), int(Key.mod_ctrl), int(Key.mod_shift)
 MENU = "//##MainMenuBar/Image"

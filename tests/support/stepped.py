@@ -9,10 +9,10 @@ from typing import Any
 
 from option_changes import with_options
 
-from app.window import viewer
-from app.window.platform import start_platform
-from app.window.start import begin_session
-from app.window.viewer import WindowRun
+from lucida.app.window import viewer
+from lucida.app.window.platform import start_platform
+from lucida.app.window.start import begin_session
+from lucida.app.window.viewer import WindowRun
 
 WAIT_S = 0.03
 

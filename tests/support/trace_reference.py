@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.images.frame import Frame
-from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import (
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
     Material,
@@ -25,11 +25,11 @@ from renderer.scene.model import (
     Shape,
     Sphere,
 )
-from renderer.scene.positions import world_vertices
-from renderer.trace.bvh.binary import tree_of_scene
-from renderer.trace.reference.kernel import viewing_ray
-from renderer.trace.reference.traverse import Tree, closest_hit
-from renderer.trace.threads.thread_pool import Team
+from lucida.renderer.scene.positions import world_vertices
+from lucida.renderer.trace.bvh.binary import tree_of_scene
+from lucida.renderer.trace.reference.kernel import viewing_ray
+from lucida.renderer.trace.reference.traverse import Tree, closest_hit
+from lucida.renderer.trace.threads.thread_pool import Team
 
 LIGHTS = (PointLight((4, 5, 3), (0.8, 0.7, 0.6)), DirectionalLight((-1, -2, -1), (0.3, 0.3, 0.5)))
 

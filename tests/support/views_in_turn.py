@@ -8,10 +8,10 @@ from typing import get_args, get_type_hints
 from option_changes import with_options
 from window_driver import Driver
 
-from app.instruments.laboratory.view import LABORATORY
-from app.state.app_state import AppState
-from app.state.options.laboratory import LaboratoryOptions
-from app.state.paths import stored
+from lucida.app.instruments.laboratory.view import LABORATORY
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.laboratory import LaboratoryOptions
+from lucida.app.state.paths import stored
 
 PAGES = get_args(get_type_hints(LaboratoryOptions)["page"])
 

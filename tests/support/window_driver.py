@@ -29,18 +29,18 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from PIL import Image
 
-from app.images.pair import image_view
-from app.images.pair.view import RASTER, RAY
-from app.instruments.outside import mouse as outside_mouse
-from app.state.app_state import AppState, History
-from app.ui import toasts
-from app.ui.surface import Target
-from app.ui.theme import framebuffer_scale
-from app.window import main_window, viewer
-from app.window.canvas import WindowCanvas
-from app.window.platform import start_platform
-from app.window.viewer import WindowRun
-from renderer.files import load_scene
+from lucida.app.images.pair import image_view
+from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.instruments.outside import mouse as outside_mouse
+from lucida.app.state.app_state import AppState, History
+from lucida.app.ui import toasts
+from lucida.app.ui.surface import Target
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.app.window import main_window, viewer
+from lucida.app.window.canvas import WindowCanvas
+from lucida.app.window.platform import start_platform
+from lucida.app.window.viewer import WindowRun
+from lucida.renderer.files import load_scene
 
 SIZE = (1100, 720)
 # On a slow or busy machine a turn of the wheel takes long: no picture may depend on that.

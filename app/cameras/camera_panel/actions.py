@@ -12,18 +12,18 @@ from functools import partial
 
 from imgui_bundle import imgui
 
-from app.cameras.lens_choices import LENS_PRESETS, LensPreset
-from app.cameras.meanings import Meaning, matrix_in, meanings
-from app.cameras.presets import PRESETS, Preset, framed, preset_view
-from app.cameras.reader import read_copied
-from app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
-from app.state.app_state import AppState, is_orthonormal
-from app.ui.action import Action, changing
-from app.ui.host import Host
-from renderer.camera.camera import Camera, Size
-from renderer.camera.navigation import switched_projection
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.lens_choices import LENS_PRESETS, LensPreset
+from lucida.app.cameras.meanings import Meaning, matrix_in, meanings
+from lucida.app.cameras.presets import PRESETS, Preset, framed, preset_view
+from lucida.app.cameras.reader import read_copied
+from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
+from lucida.app.state.app_state import AppState, is_orthonormal
+from lucida.app.ui.action import Action, changing
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.navigation import switched_projection
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 SCENE_VIEW = "Scene's view"
 SQUARE = (1, 1)  # an image before the first layout

@@ -9,8 +9,8 @@ import math
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.cameras.basis import Measures
-from app.ui import rows, theme
+from lucida.app.cameras.basis import Measures
+from lucida.app.ui import rows, theme
 
 USUAL = 1e-6  # the largest deviation of a length, a determinant, or an angle in radians
 SINGULAR = 1e-9

@@ -8,11 +8,11 @@ from functools import partial
 
 from imgui_bundle import imgui
 
-from app.cameras.camera_panel.actions import go_to_lens, take_lens_off
-from app.cameras.camera_panel.projection import PanelContext
-from app.cameras.camera_panel.sections import Wish
-from app.cameras.editing import Draft, edit_field
-from app.cameras.lens_choices import (
+from lucida.app.cameras.camera_panel.actions import go_to_lens, take_lens_off
+from lucida.app.cameras.camera_panel.projection import PanelContext
+from lucida.app.cameras.camera_panel.sections import Wish
+from lucida.app.cameras.editing import Draft, edit_field
+from lucida.app.cameras.lens_choices import (
     KINDS,
     LENS_PRESETS,
     NO_LENS,
@@ -21,13 +21,13 @@ from app.cameras.lens_choices import (
     of_model,
     with_lens,
 )
-from app.state.app_state import AppState
-from app.ui import rows
-from app.ui.explaining.symbols import spoken
-from app.ui.fields import Scale
-from app.ui.formula import Formula, formula
-from renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
-from renderer.system.errors import LucidaError
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import rows
+from lucida.app.ui.explaining.symbols import spoken
+from lucida.app.ui.fields import Scale
+from lucida.app.ui.formula import Formula, formula
+from lucida.renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
+from lucida.renderer.system.errors import LucidaError
 
 MODEL = "How the lens maps directions to the image plane."
 OFF = "Take the lens off: the distance and the viewport that the scene came with."

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
 
-from app.cameras.basis import measures
-from app.cameras.camera_panel.actions import go_home, go_to_canonical, switch_projection
-from app.cameras.camera_panel.basis_numbers import basis_readout
-from app.cameras.camera_panel.lens_section import lens_section
-from app.cameras.camera_panel.projection import PanelContext, component, projection_numbers
-from app.cameras.camera_panel.sections import (
+from lucida.app.cameras.basis import measures
+from lucida.app.cameras.camera_panel.actions import go_home, go_to_canonical, switch_projection
+from lucida.app.cameras.camera_panel.basis_numbers import basis_readout
+from lucida.app.cameras.camera_panel.lens_section import lens_section
+from lucida.app.cameras.camera_panel.projection import PanelContext, component, projection_numbers
+from lucida.app.cameras.camera_panel.sections import (
     Sections,
     Wish,
     copy_section,
@@ -25,12 +25,12 @@ from app.cameras.camera_panel.sections import (
     presets_section,
     words_section,
 )
-from app.cameras.editing import BASIS, Draft
-from app.state.app_state import AppState
-from app.ui import pending, rows, theme
-from app.ui.checks import checkbox, radio_button
-from app.ui.explaining.symbols import spoken, vector
-from app.ui.fields import Scale
+from lucida.app.cameras.editing import BASIS, Draft
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import pending, rows, theme
+from lucida.app.ui.checks import checkbox, radio_button
+from lucida.app.ui.explaining.symbols import spoken, vector
+from lucida.app.ui.fields import Scale
 
 ROLES = {
     "eye": ("e", "", "The eye: where all viewing rays start (perspective)."),

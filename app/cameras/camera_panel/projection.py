@@ -9,17 +9,17 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec4, imgui
 
-from app.cameras.editing import Draft, edit_component, edit_field
-from app.cameras.presets import clip_around
-from app.state.app_state import AppState
-from app.ui import rows, theme
-from app.ui.checks import checkbox
-from app.ui.explaining.symbols import program, spoken
-from app.ui.fields import Scale, number_field, short_number
-from renderer.camera.camera import Camera, Size, Vector
-from renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
-from renderer.scene.focus import Focus
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.editing import Draft, edit_component, edit_field
+from lucida.app.cameras.presets import clip_around
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import rows, theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.explaining.symbols import program, spoken
+from lucida.app.ui.fields import Scale, number_field, short_number
+from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
+from lucida.renderer.scene.focus import Focus
+from lucida.renderer.system.errors import LucidaError
 
 VIEWPORT = (
     ("left", "The viewport's left edge, in units of u."),

@@ -12,20 +12,20 @@ from typing import Any, NamedTuple
 
 from imgui_bundle import imgui
 
-from app.cameras.camera_panel.actions import copy, form_name, go_to_preset, go_to_view, paste
-from app.cameras.camera_panel.projection import PanelContext
-from app.cameras.other_words import TOLD, other_words
-from app.cameras.presets import PRESETS, look_at
-from app.cameras.text import FORMATS_OF, FORMS, Form
-from app.state.app_state import AppState
-from app.ui import pending, rows, theme
-from app.ui.checks import checkbox, radio_button
-from app.ui.explaining.symbols import vector
-from app.ui.fields import Scale
-from app.ui.host import Host
-from renderer.camera.camera import Size, Vector
-from renderer.camera.intrinsics import PixelOrigin
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.camera_panel.actions import copy, form_name, go_to_preset, go_to_view, paste
+from lucida.app.cameras.camera_panel.projection import PanelContext
+from lucida.app.cameras.other_words import TOLD, other_words
+from lucida.app.cameras.presets import PRESETS, look_at
+from lucida.app.cameras.text import FORMATS_OF, FORMS, Form
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import pending, rows, theme
+from lucida.app.ui.checks import checkbox, radio_button
+from lucida.app.ui.explaining.symbols import vector
+from lucida.app.ui.fields import Scale
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Size, Vector
+from lucida.renderer.camera.intrinsics import PixelOrigin
+from lucida.renderer.system.errors import LucidaError
 
 FORM_NOTES: dict[Form, str] = {
     "view file": "VIEW.toml, for --view, for scene files, and to open.",

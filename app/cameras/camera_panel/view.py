@@ -11,18 +11,18 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.cameras.camera_panel.actions import CAMERA as ACTIONS
-from app.cameras.camera_panel.actions import EDIT, image_size
-from app.cameras.camera_panel.panel import PanelOutcome, camera_panel
-from app.cameras.camera_panel.projection import PanelContext
-from app.cameras.camera_panel.sections import Sections
-from app.cameras.editing import Draft
-from app.images.picking import is_quick, nearest_hit
-from app.state.app_state import AppState
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from renderer.camera.camera import Vector
-from renderer.scene.model import Scene
+from lucida.app.cameras.camera_panel.actions import CAMERA as ACTIONS
+from lucida.app.cameras.camera_panel.actions import EDIT, image_size
+from lucida.app.cameras.camera_panel.panel import PanelOutcome, camera_panel
+from lucida.app.cameras.camera_panel.projection import PanelContext
+from lucida.app.cameras.camera_panel.sections import Sections
+from lucida.app.cameras.editing import Draft
+from lucida.app.images.picking import is_quick, nearest_hit
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.renderer.camera.camera import Vector
+from lucida.renderer.scene.model import Scene
 
 CAMERA = "Camera"
 

@@ -13,12 +13,12 @@ from typing import BinaryIO
 
 from PIL import Image
 
-from app.cameras.films.workers import PACKAGE
-from renderer.camera.camera import Size
-from renderer.images import join_exrs
-from renderer.images.png import join_pngs
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.films.workers import PACKAGE
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.images import join_exrs
+from lucida.renderer.images.png import join_pngs
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
 
 # Writes a file of these pictures, and yields the finished part.
 Writer = Callable[[Path, Sequence[Path]], Iterator[float]]

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.pixels import ENLARGEMENT
-from renderer.images import encode_image, picture
-from renderer.images.frame import Frame
-from renderer.images.png import png_of
-from renderer.scene.model import Scene
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.pixels import ENLARGEMENT
+from lucida.renderer.images import encode_image, picture
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.png import png_of
+from lucida.renderer.scene.model import Scene
 
 if TYPE_CHECKING:
-    from renderer.raster import Rasterizer
-    from renderer.trace import Tracer
+    from lucida.renderer.raster import Rasterizer
+    from lucida.renderer.trace import Tracer
 
 GAP = 8  # black columns between both images
 Renderer = Literal["raster", "ray", "both"]
@@ -71,11 +71,11 @@ class Drawing:
         self._rasterizer: Rasterizer | None = None
         self._tracer: Tracer | None = None
         if look.renderer != "ray":
-            from renderer.raster import Rasterizer
+            from lucida.renderer.raster import Rasterizer
 
             self._rasterizer = self._open.enter_context(Rasterizer(scene, look.backend))
         if look.renderer != "raster":
-            from renderer.trace import Tracer
+            from lucida.renderer.trace import Tracer
 
             tracer = Tracer(scene, look.threads, "packets", look.shadows, look.mirrors)
             self._tracer = self._open.enter_context(tracer)

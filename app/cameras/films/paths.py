@@ -10,12 +10,12 @@ from typing import Literal
 
 import numpy as np
 
-from app.cameras.animation import Passage
-from renderer.camera.camera import Camera, Size
-from renderer.camera.navigation import dollied, orbited, switched_projection
-from renderer.scene.focus import Focus
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.animation import Passage
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.navigation import dollied, orbited, switched_projection
+from lucida.renderer.scene.focus import Focus
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 Timing = Literal["eased", "constant", "cut"]
 ZOOM = 4.0  # the dolly zoom's change of distance

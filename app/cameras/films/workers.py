@@ -14,10 +14,10 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from app import __version__
-from app.cameras.films.frames import Look, Shot, close_kept, draw_shot
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida import __version__
+from lucida.app.cameras.films.frames import Look, Shot, close_kept, draw_shot
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 PACKAGE = "pip install 'camera-lucida[film]'"
 AHEAD = 4  # pictures that each worker has been given

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from renderer.files.reading import suggestion
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.reading import suggestion
+from lucida.renderer.system.errors import LucidaError
 
 FOLDER = Path(__file__).parent
 

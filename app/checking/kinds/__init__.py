@@ -12,13 +12,13 @@ lenses       a point through a lens, and back
 
 from __future__ import annotations
 
-from app.checking.kinds.basis import BasisKind
-from app.checking.kinds.hits import ClosestHitKind, SphereHitKind, TriangleHitKind
-from app.checking.kinds.images import BitmapKind, GrayKind, OffsetKind
-from app.checking.kinds.kind import CheckKind
-from app.checking.kinds.lenses import FisheyeKind, ProjectKind, UndistortKind
-from app.checking.kinds.render import RenderKind
-from app.checking.kinds.viewing_ray import ViewingRayKind
+from lucida.app.checking.kinds.basis import BasisKind
+from lucida.app.checking.kinds.hits import ClosestHitKind, SphereHitKind, TriangleHitKind
+from lucida.app.checking.kinds.images import BitmapKind, GrayKind, OffsetKind
+from lucida.app.checking.kinds.kind import CheckKind
+from lucida.app.checking.kinds.lenses import FisheyeKind, ProjectKind, UndistortKind
+from lucida.app.checking.kinds.render import RenderKind
+from lucida.app.checking.kinds.viewing_ray import ViewingRayKind
 
 # In the order of the lecture, as the built-in tasks.
 KINDS: dict[str, CheckKind] = {

@@ -15,11 +15,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.cases import generator, look
-from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, named, tolerances
-from app.checking.kinds.values import text_of
-from app.checking.tasks import CheckCase, CheckTask
-from renderer.camera.camera import Camera, Vector
+from lucida.app.checking.cases import generator, look
+from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, named, tolerances
+from lucida.app.checking.kinds.values import text_of
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.renderer.camera.camera import Camera, Vector
 
 Floats = NDArray[np.float64]
 

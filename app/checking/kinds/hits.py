@@ -21,11 +21,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.cases import generator, point, rounded
-from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, named, tolerances
-from app.checking.kinds.shapes import hits, tolerance
-from app.checking.kinds.values import in_order, is_miss, number, text_of
-from app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.cases import generator, point, rounded
+from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, named, tolerances
+from lucida.app.checking.kinds.shapes import hits, tolerance
+from lucida.app.checking.kinds.values import in_order, is_miss, number, text_of
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

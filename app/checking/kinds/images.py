@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Call
-from app.checking.cases import generator
-from app.checking.kinds.kind import Cases, CheckKind, Flags, Read, named
-from app.checking.kinds.values import array, number, shown, text_of
-from app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.calls import Call
+from lucida.app.checking.cases import generator
+from lucida.app.checking.kinds.kind import Cases, CheckKind, Flags, Read, named
+from lucida.app.checking.kinds.values import array, number, shown, text_of
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

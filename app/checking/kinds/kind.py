@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Call
-from app.checking.kinds.values import shown, vectors
-from app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.calls import Call
+from lucida.app.checking.kinds.values import shown, vectors
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.cases import generator, rounded
-from app.checking.kinds.kind import Cases, CheckKind, Flags, named, tolerances
-from app.checking.kinds.values import in_order, number, text_of
-from app.checking.tasks import CheckCase, CheckTask
-from renderer.camera.lenses import Lens
+from lucida.app.checking.cases import generator, rounded
+from lucida.app.checking.kinds.kind import Cases, CheckKind, Flags, named, tolerances
+from lucida.app.checking.kinds.values import in_order, number, text_of
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.renderer.camera.lenses import Lens
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

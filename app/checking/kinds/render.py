@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Call
-from app.checking.cases import generator, rounded, shots
-from app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_values
-from app.checking.kinds.images import HALF_A_BYTE, ImageKind
-from app.checking.kinds.kind import Cases, Flags, named
-from app.checking.kinds.shapes import hits
-from app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.calls import Call
+from lucida.app.checking.cases import generator, rounded, shots
+from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_values
+from lucida.app.checking.kinds.images import HALF_A_BYTE, ImageKind
+from lucida.app.checking.kinds.kind import Cases, Flags, named
+from lucida.app.checking.kinds.shapes import hits
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

@@ -20,9 +20,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Call
-from app.checking.cases import shots
-from app.checking.conventions import (
+from lucida.app.checking.calls import Call
+from lucida.app.checking.cases import shots
+from lucida.app.checking.conventions import (
     CAMERA,
     CAMERA_WORDS,
     PAIRS,
@@ -31,11 +31,11 @@ from app.checking.conventions import (
     Shot,
     argument_lists,
 )
-from app.checking.kinds.basis import conditioning
-from app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
-from app.checking.kinds.values import in_order, shown, text_of
-from app.checking.tasks import CheckCase, CheckTask
-from renderer.camera.camera import Camera
+from lucida.app.checking.kinds.basis import conditioning
+from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
+from lucida.app.checking.kinds.values import in_order, shown, text_of
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.renderer.camera.camera import Camera
 
 Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.mistakes.program import Mistakes, Program
+from lucida.app.checking.mistakes.program import Mistakes, Program
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.mistakes.candidates import Trial, candidates
-from app.checking.mistakes.program import Mistakes, Program
+from lucida.app.checking.mistakes.candidates import Trial, candidates
+from lucida.app.checking.mistakes.program import Mistakes, Program
 
 # By projection: the program, and the mistakes that explain the answers.
 Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]

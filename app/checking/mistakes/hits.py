@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from app.checking.kinds.shapes import crossings, hits
+from lucida.app.checking.kinds.shapes import crossings, hits
 
 
 def hit(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:

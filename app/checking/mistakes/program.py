@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from app.checking.mistakes.vectors import FUNCTIONS
-from app.state.options.shared import Notation
-from app.ui.explaining.symbols import program, words
+from lucida.app.checking.mistakes.vectors import FUNCTIONS
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import program, words
 
 Swaps = tuple[tuple[str, str], ...]
 

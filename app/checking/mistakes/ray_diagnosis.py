@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.checking.mistakes.diagnosis import Diagnosis, named
-from app.checking.mistakes.program import Program
-from app.checking.mistakes.ray_facts import facts
-from app.checking.mistakes.ray_trial import RayCase, RayTrial
-from app.checking.mistakes.rays import RayTask, ray_program
+from lucida.app.checking.mistakes.diagnosis import Diagnosis, named
+from lucida.app.checking.mistakes.program import Program
+from lucida.app.checking.mistakes.ray_facts import facts
+from lucida.app.checking.mistakes.ray_trial import RayCase, RayTrial
+from lucida.app.checking.mistakes.rays import RayTask, ray_program
 
 
 def diagnose_rays(

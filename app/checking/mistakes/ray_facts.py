@@ -8,9 +8,9 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.cases import is_orthonormal, is_symmetric
-from app.checking.mistakes.candidates import LOOSE
-from app.checking.mistakes.ray_trial import RayCase, RayTrial
+from lucida.app.checking.cases import is_orthonormal, is_symmetric
+from lucida.app.checking.mistakes.candidates import LOOSE
+from lucida.app.checking.mistakes.ray_trial import RayCase, RayTrial
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.kinds.viewing_ray import largest_number
-from app.checking.mistakes.program import Mistakes, Program
-from app.checking.mistakes.rays import RayTask, ray_values, run_rays
-from renderer.camera.camera import Camera, Size
+from lucida.app.checking.kinds.viewing_ray import largest_number
+from lucida.app.checking.mistakes.program import Mistakes, Program
+from lucida.app.checking.mistakes.rays import RayTask, ray_values, run_rays
+from lucida.renderer.camera.camera import Camera, Size
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.conventions import camera_words, pixel_words
-from app.checking.mistakes.catalogue import Part, part, part_from_angles
-from app.checking.mistakes.program import Mistake, Program
-from renderer.camera.camera import Camera, Size
-from renderer.camera.pixels import Indexing
+from lucida.app.checking.conventions import camera_words, pixel_words
+from lucida.app.checking.mistakes.catalogue import Part, part, part_from_angles
+from lucida.app.checking.mistakes.program import Mistake, Program
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.pixels import Indexing
 
 Floats = NDArray[np.float64]
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from app.checking.mistakes.catalogue import part
-from app.checking.mistakes.hits import SHAPES
-from app.checking.mistakes.program import Program
-from app.checking.mistakes.rays import RayTask, ray_program, ray_values
-from renderer.camera.camera import Camera, Size
+from lucida.app.checking.mistakes.catalogue import part
+from lucida.app.checking.mistakes.hits import SHAPES
+from lucida.app.checking.mistakes.program import Program
+from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_values
+from lucida.renderer.camera.camera import Camera, Size
 
 
 @functools.lru_cache(32)

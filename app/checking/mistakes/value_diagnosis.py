@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.checking.mistakes.candidates import LOOSE
-from app.checking.mistakes.diagnosis import Diagnosis, named
-from app.checking.mistakes.program import Mistakes, Program
+from lucida.app.checking.mistakes.candidates import LOOSE
+from lucida.app.checking.mistakes.diagnosis import Diagnosis, named
+from lucida.app.checking.mistakes.program import Mistakes, Program
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

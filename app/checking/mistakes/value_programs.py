@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from app.checking.mistakes.catalogue import part
-from app.checking.mistakes.hits import SHAPES
-from app.checking.mistakes.program import Program
-from app.checking.mistakes.value_diagnosis import ValueCase
-from renderer.camera.camera import Vector
-from renderer.images.shared_numbers import LUMINANCE
+from lucida.app.checking.mistakes.catalogue import part
+from lucida.app.checking.mistakes.hits import SHAPES
+from lucida.app.checking.mistakes.program import Program
+from lucida.app.checking.mistakes.value_diagnosis import ValueCase
+from lucida.renderer.camera.camera import Vector
+from lucida.renderer.images.shared_numbers import LUMINANCE
 
 
 @functools.cache

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Any
 
-from app.checking.checked import TaskResult
-from app.checking.reports.told import Reported, reported, summary
-from app.checking.starter import signature
-from app.checking.tasks import CheckTask
+from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.reports.told import Reported, reported, summary
+from lucida.app.checking.starter import signature
+from lucida.app.checking.tasks import CheckTask
 
 OUTPUT_LETTERS = 4000  # characters of the student's output
 

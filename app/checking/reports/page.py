@@ -13,14 +13,14 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.checked import TaskResult
-from app.checking.reports.picture import changed_pixels, difference_picture
-from app.checking.reports.pictured import Pictured
-from app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
-from app.checking.starter import signature
-from app.checking.tasks import CheckTask
-from renderer.images.png import png_of
-from renderer.system.errors import visible
+from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.reports.picture import changed_pixels, difference_picture
+from lucida.app.checking.reports.pictured import Pictured
+from lucida.app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
+from lucida.app.checking.starter import signature
+from lucida.app.checking.tasks import CheckTask
+from lucida.renderer.images.png import png_of
+from lucida.renderer.system.errors import visible
 
 STYLE = """
 :root { color-scheme: light dark; --paper: #ffffff; --ink: #1b1f24; --dim: #59636e;

@@ -13,9 +13,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.kinds.shapes import hits
-from renderer.camera.camera import Camera, Size
-from renderer.images import to_srgb8
+from lucida.app.checking.kinds.shapes import hits
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.images import to_srgb8
 
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]

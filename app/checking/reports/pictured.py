@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.calls import Failure, Student
-from app.checking.checked import TaskResult, WrongCase
-from app.checking.conventions import Shot
-from app.checking.kinds.viewing_ray import ViewingRayKind, cases_of
-from app.checking.reports.picture import picture
-from app.checking.reports.told import told
+from lucida.app.checking.calls import Failure, Student
+from lucida.app.checking.checked import TaskResult, WrongCase
+from lucida.app.checking.conventions import Shot
+from lucida.app.checking.kinds.viewing_ray import ViewingRayKind, cases_of
+from lucida.app.checking.reports.picture import picture
+from lucida.app.checking.reports.told import told
 
 Bytes = NDArray[np.uint8]
 

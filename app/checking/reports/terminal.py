@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from typing import TextIO
 
-from app.checking.checked import TaskResult
-from app.checking.reports.told import VERDICTS, of_points, told
-from renderer.system.errors import one_line, visible
+from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.reports.told import VERDICTS, of_points, told
+from lucida.renderer.system.errors import one_line, visible
 
 MOST = 8  # printed lines to show
 COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from app.checking.calls import Failure
-from app.checking.checked import Status, TaskResult, WrongCase
-from app.checking.tasks import FEEDBACK, CheckTask
-from app.ui.explaining.symbols import arguments
-from renderer.system.errors import one_line, visible
+from lucida.app.checking.calls import Failure
+from lucida.app.checking.checked import Status, TaskResult, WrongCase
+from lucida.app.checking.tasks import FEEDBACK, CheckTask
+from lucida.app.ui.explaining.symbols import arguments
+from lucida.renderer.system.errors import one_line, visible
 
 if TYPE_CHECKING:
-    from app.checking.mistakes.diagnosis import Diagnosis
+    from lucida.app.checking.mistakes.diagnosis import Diagnosis
 
 
 VERDICTS = {"right": "correct"}  # a status in words, where it is not its own

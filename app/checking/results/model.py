@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from renderer.system.errors import one_line, shortened
+from lucida.renderer.system.errors import one_line, shortened
 
 MOST_BINS = 24
 TALKED_ABOUT = 3

@@ -8,10 +8,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
-from app.checking.reports.page import STYLE
-from app.checking.results.model import ClassResults, MistakeCount, StepCount, Timeline, shown, told
-from app.lecture.text import Code, DisplayedFormula, Heading, ItemList, Math, Words, parse
-from renderer.system.errors import LucidaError
+from lucida.app.checking.reports.page import STYLE
+from lucida.app.checking.results.model import (
+    ClassResults,
+    MistakeCount,
+    StepCount,
+    Timeline,
+    shown,
+    told,
+)
+from lucida.app.lecture.text import Code, DisplayedFormula, Heading, ItemList, Math, Words, parse
+from lucida.renderer.system.errors import LucidaError
 
 TITLE = "What the class answered"
 TALK = "To talk about tomorrow"

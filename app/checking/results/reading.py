@@ -11,10 +11,10 @@ from pathlib import Path
 
 import msgspec
 
-from app.checking.results.model import ClassAnswer, NamedMistake
-from app.lecture.answer_log import KeptAnswer
-from renderer.files.reading import first_bytes
-from renderer.system.errors import LucidaError
+from lucida.app.checking.results.model import ClassAnswer, NamedMistake
+from lucida.app.lecture.answer_log import KeptAnswer
+from lucida.renderer.files.reading import first_bytes
+from lucida.renderer.system.errors import LucidaError
 
 SNIFFED_BYTES = 1 << 16
 MOST_LINES = 20  # that are reported of one file

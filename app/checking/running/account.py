@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 _KILLING_S = 10.0
 _EXECUTE, _WRITE, _READ = 1, 2, 4

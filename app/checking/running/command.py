@@ -11,11 +11,11 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from app.checking.calls import Call, Failure, Limits, Run
-from app.checking.running.account import Account
-from app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
-from app.checking.running.told import told_call, told_over, whole_number
-from renderer.system.errors import LucidaError, one_line, shortened
+from lucida.app.checking.calls import Call, Failure, Limits, Run
+from lucida.app.checking.running.account import Account
+from lucida.app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
+from lucida.app.checking.running.told import told_call, told_over, whole_number
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 
 class CommandStudent(ProgramStudent):

@@ -10,13 +10,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
-from app.checking.calls import Call, Failure, Limits, Run
-from app.checking.running.account import Account
-from app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
-from app.checking.running.told import told_call, told_over, whole_number
-from renderer.files.reading import read_file
-from renderer.system.child import interpreter
-from renderer.system.errors import LucidaError, one_line, shortened
+from lucida.app.checking.calls import Call, Failure, Limits, Run
+from lucida.app.checking.running.account import Account
+from lucida.app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
+from lucida.app.checking.running.told import told_call, told_over, whole_number
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.system.child import interpreter
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 _LONGEST_FILE = 4 << 20  # bytes
 _LONGEST_TEXT = 300  # of a message

@@ -16,9 +16,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from app.checking.calls import Limits
-from app.checking.running.account import Account
-from renderer.system.errors import LucidaError
+from lucida.app.checking.calls import Limits
+from lucida.app.checking.running.account import Account
+from lucida.renderer.system.errors import LucidaError
 
 _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import signal
 
-from app.checking.calls import Call, Kind, Limits
-from app.checking.kinds.values import text_of
-from app.checking.running.program import ProgramOverError
-from app.ui.explaining.symbols import arguments
-from renderer.system.errors import one_line, shortened
+from lucida.app.checking.calls import Call, Kind, Limits
+from lucida.app.checking.kinds.values import text_of
+from lucida.app.checking.running.program import ProgramOverError
+from lucida.app.ui.explaining.symbols import arguments
+from lucida.renderer.system.errors import one_line, shortened
 
 _LONGEST_VALUE = 80
 

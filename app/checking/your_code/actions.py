@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from app.checking.your_code.panel import CodeWish
-from app.checking.your_code.view import YOUR_CODE, YourCodeView
-from app.ui import layout
-from app.ui.action import Action
-from app.ui.host import Host
+from lucida.app.checking.your_code.panel import CodeWish
+from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
+from lucida.app.ui import layout
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
 
 MENU = "File/Your code"
 

@@ -13,20 +13,20 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from app.checking.checked import WrongCase
-from app.checking.your_code.model import CodeRays, canvas_pixel
-from app.checking.your_code.pictures import IMAGES, CodePictures, compared, image_pair
-from app.checking.your_code.report import CodeReport
-from app.images.ray_pictures import RayPainter, RayPictures
-from app.instruments.outside.paint import role_color
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.host import Host
-from app.ui.picture_grid import GridPicture, picture_grid
-from app.ui.uploads import Uploads
-from renderer.camera.camera import Camera
-from renderer.system.errors import LucidaError, describe
-from renderer.system.memo import Memo
+from lucida.app.checking.checked import WrongCase
+from lucida.app.checking.your_code.model import CodeRays, canvas_pixel
+from lucida.app.checking.your_code.pictures import IMAGES, CodePictures, compared, image_pair
+from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.images.ray_pictures import RayPainter, RayPictures
+from lucida.app.instruments.outside.paint import role_color
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.picture_grid import GridPicture, picture_grid
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.memo import Memo
 
 
 @dataclass(frozen=True, eq=False)

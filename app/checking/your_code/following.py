@@ -13,8 +13,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from app.ui.watching import FilesWatch
-from renderer.system.file_dependencies import stamp
+from lucida.app.ui.watching import FilesWatch
+from lucida.renderer.system.file_dependencies import stamp
 
 LOOK_S = 0.1
 AWAY_LOOKS = 3

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.checking.your_code.actions import YOURS
-from app.checking.your_code.view import YourCodeView
+from lucida.app.checking.your_code.actions import YOURS
+from lucida.app.checking.your_code.view import YourCodeView
 
 
 class YourCode(YourCodeView):

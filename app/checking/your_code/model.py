@@ -11,21 +11,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.builtin import BUILTIN, builtin_tasks
-from app.checking.calls import Failure, Limits, Run
-from app.checking.cases import check_views, shot_of
-from app.checking.checked import TaskResult, judged
-from app.checking.diagnosed import diagnosis
-from app.checking.kinds import KINDS
-from app.checking.kinds.basis import case_of
-from app.checking.kinds.viewing_ray import cases_of
-from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.task_file import TaskSet, load_tasks
-from app.checking.tasks import CheckCase, CheckTask
-from app.state.options.shared import Notation
-from renderer.camera.camera import Camera, Size
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.app.checking.builtin import BUILTIN, builtin_tasks
+from lucida.app.checking.calls import Failure, Limits, Run
+from lucida.app.checking.cases import check_views, shot_of
+from lucida.app.checking.checked import TaskResult, judged
+from lucida.app.checking.diagnosed import diagnosis
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.kinds.basis import case_of
+from lucida.app.checking.kinds.viewing_ray import cases_of
+from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.task_file import TaskSet, load_tasks
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 

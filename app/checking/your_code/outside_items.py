@@ -7,11 +7,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.checking.your_code.model import BASIS, CodeRays
-from app.instruments.outside import answers
-from app.instruments.outside.diagram import Item, Role, Segments, in_notation
-from app.instruments.outside.second_camera import GivenRay, SecondCamera, corner_rays, second_camera
-from app.state.options.shared import Notation, Pixel
+from lucida.app.checking.your_code.model import BASIS, CodeRays
+from lucida.app.instruments.outside import answers
+from lucida.app.instruments.outside.diagram import Item, Role, Segments, in_notation
+from lucida.app.instruments.outside.second_camera import (
+    GivenRay,
+    SecondCamera,
+    corner_rays,
+    second_camera,
+)
+from lucida.app.state.options.shared import Notation, Pixel
 
 SAME = 1e-5  # vectors that differ less look the same
 

@@ -12,21 +12,21 @@ from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.checking.builtin import builtin_tasks
-from app.checking.starter import returned, signature
-from app.checking.tasks import CheckTask
-from app.checking.your_code.report import CodeReport
-from app.checking.your_code.words import ToldLine, ToldRole, verdict_of
-from app.instruments.stepper.controls import CANVASES
-from app.state.options.shared import Notation
-from app.ui import theme
-from app.ui.coded_text import coded_text
-from app.ui.explaining.symbols import arguments
-from app.ui.lettering import lettering
-from app.ui.rows import follow, tip
-from app.ui.theme import Fonts
-from renderer.camera.camera import Size
-from renderer.system.errors import one_line
+from lucida.app.checking.builtin import builtin_tasks
+from lucida.app.checking.starter import returned, signature
+from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
+from lucida.app.instruments.stepper.controls import CANVASES
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui import theme
+from lucida.app.ui.coded_text import coded_text
+from lucida.app.ui.explaining.symbols import arguments
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.rows import follow, tip
+from lucida.app.ui.theme import Fonts
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.system.errors import one_line
 
 CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.reports.picture import changed_pixels, difference_picture
-from app.instruments.mistakes.model import told_difference
-from renderer.images.display import to_srgb8
+from lucida.app.checking.reports.picture import changed_pixels, difference_picture
+from lucida.app.instruments.mistakes.model import told_difference
+from lucida.renderer.images.display import to_srgb8
 
 Bytes = NDArray[np.uint8]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from app.checking.builtin import BUILTIN
-from app.checking.calls import Failure
-from app.checking.checked import TaskResult
-from app.checking.mistakes.diagnosis import Diagnosis
-from app.checking.tasks import CheckTask
-from app.checking.your_code.model import CodeRays
-from app.state.options.shared import Notation
-from renderer.camera.camera import Camera, Size
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.calls import Failure
+from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.your_code.model import CodeRays
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.camera.camera import Camera, Size
 
 ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
 

@@ -16,13 +16,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from app.checking.calls import Failure, Limits
-from app.checking.checked import TaskResult, checked, failed
-from app.checking.kinds import KINDS
-from app.checking.running.file import FileStudent, NotRunnableError
-from app.checking.task_file import TaskSet
-from app.checking.tasks import CheckTask
-from app.checking.your_code.model import (
+from lucida.app.checking.calls import Failure, Limits
+from lucida.app.checking.checked import TaskResult, checked, failed
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.running.file import FileStudent, NotRunnableError
+from lucida.app.checking.task_file import TaskSet
+from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.your_code.model import (
     CodeRays,
     asked_of,
     cases_for,
@@ -34,9 +34,9 @@ from app.checking.your_code.model import (
     tasks_of,
     why_not_asked,
 )
-from app.checking.your_code.report import CodeQuestion, CodeReport
-from app.ui.background import Background
-from renderer.system.errors import LucidaError, describe
+from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.ui.background import Background
+from lucida.renderer.system.errors import LucidaError, describe
 
 OVERTAKEN_S = 0.3  # what has run for so long, and is not wanted any more, is ended
 REST_S = 0.25  # the camera rests; a file whose run took longer is not run before

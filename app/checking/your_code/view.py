@@ -14,29 +14,29 @@ from typing import Any
 import moderngl
 from imgui_bundle import imgui
 
-from app.checking.starter import starter
-from app.checking.task_file import load_tasks
-from app.checking.your_code import panel
-from app.checking.your_code.code_pictures import PicturesShown, marked_pixel
-from app.checking.your_code.following import FileFollower, open_in_editor
-from app.checking.your_code.model import RAY, asked_of
-from app.checking.your_code.outside_items import outside_items
-from app.checking.your_code.panel import CodeHead, CodeWish
-from app.checking.your_code.pictures import CodePictures
-from app.checking.your_code.report import CodeQuestion, CodeReport
-from app.checking.your_code.runs import CodeRuns
-from app.checking.your_code.words import ToldLine, told_of
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.view import OutsideView
-from app.state.options.shared import Notation, Pixel
-from app.state.paths import restored, stored
-from app.ui import layout, theme
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from renderer.files.reading import first_bytes
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError, one_line
-from renderer.system.memo import Memo
+from lucida.app.checking.starter import starter
+from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.your_code import panel
+from lucida.app.checking.your_code.code_pictures import PicturesShown, marked_pixel
+from lucida.app.checking.your_code.following import FileFollower, open_in_editor
+from lucida.app.checking.your_code.model import RAY, asked_of
+from lucida.app.checking.your_code.outside_items import outside_items
+from lucida.app.checking.your_code.panel import CodeHead, CodeWish
+from lucida.app.checking.your_code.pictures import CodePictures
+from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.checking.your_code.runs import CodeRuns
+from lucida.app.checking.your_code.words import ToldLine, told_of
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.paths import restored, stored
+from lucida.app.ui import layout, theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.renderer.files.reading import first_bytes
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.memo import Memo
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"

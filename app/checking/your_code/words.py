@@ -9,15 +9,15 @@ from typing import Literal
 
 import numpy as np
 
-from app.checking.checked import TaskResult
-from app.checking.kinds.values import text_of
-from app.checking.reports.told import told
-from app.checking.tasks import CheckTask
-from app.checking.your_code.model import BASIS, CodeRays
-from app.checking.your_code.report import CodeReport
-from app.state.options.shared import Pixel
-from renderer.camera.pixels import Indexing
-from renderer.system.errors import visible
+from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.kinds.values import text_of
+from lucida.app.checking.reports.told import told
+from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.your_code.model import BASIS, CodeRays
+from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.system.errors import visible
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
 HALTED = "It is not run again by itself"

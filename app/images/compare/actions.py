@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.images.compare import comparing
-from app.state.app_state import AppState
-from app.state.options.compare import CompareMode
-from app.ui.action import Action, Key, changing
-from app.ui.host import Host
-from renderer.compare.raster_and_ray import Comparison
+from lucida.app.images.compare import comparing
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.compare import CompareMode
+from lucida.app.ui.action import Action, Key, changing
+from lucida.app.ui.host import Host
+from lucida.renderer.compare.raster_and_ray import Comparison
 
 MENU, STEP = "View/Compare", comparing.DIVIDER_STEP
 FLIP_KEY = Key.x  # held, it shows the other image; read by the compare view

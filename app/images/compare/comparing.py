@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.state.app_state import AppState
-from app.state.options.compare import CompareMode
-from app.state.options.shared import Channel, ImageOptions, Pixel
-from renderer.compare.raster_and_ray import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
-from renderer.images.difference import FULL_SCALE, signed_difference
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.compare import CompareMode
+from lucida.app.state.options.shared import Channel, ImageOptions, Pixel
+from lucida.renderer.compare.raster_and_ray import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
+from lucida.renderer.images.difference import FULL_SCALE, signed_difference
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
     ("absolute", "Absolute", "How much the two images differ: black is no difference."),

@@ -11,15 +11,15 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from app.images.passes import Pass
-from app.images.shown import Held, Picture
-from renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING
-from renderer.images.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
-from renderer.images.frame import Frame
-from renderer.raster.display import COMPONENTS
-from renderer.raster.resources import Owner, new_texture
-from renderer.raster.targets import Textures
-from renderer.system.memo import Memo
+from lucida.app.images.passes import Pass
+from lucida.app.images.shown import Held, Picture
+from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING
+from lucida.renderer.images.difference import ABSOLUTE_COLORS, CHANNELS, FULL_SCALE, SIGNED_COLORS
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.raster.display import COMPONENTS
+from lucida.renderer.raster.resources import Owner, new_texture
+from lucida.renderer.raster.targets import Textures
+from lucida.renderer.system.memo import Memo
 
 SIDES = "left", "right"  # of a wipe; everything else is "left"
 RIM = 250  # a label: the dark border of a mark

@@ -10,18 +10,18 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.images.compare import comparing
-from app.images.compare.comparing import MODES, ColorScale
-from app.state.app_state import AppState
-from app.state.bounds import range_of
-from app.state.options.compare import CompareOptions
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.checks import checkbox
-from app.ui.lettering import fitting_words
-from app.ui.rows import button_width, follow, tip
-from app.ui.sliders import slider_float
-from renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
+from lucida.app.images.compare import comparing
+from lucida.app.images.compare.comparing import MODES, ColorScale
+from lucida.app.state.app_state import AppState
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.compare import CompareOptions
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.lettering import fitting_words
+from lucida.app.ui.rows import button_width, follow, tip
+from lucida.app.ui.sliders import slider_float
+from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
 DrawMap = Callable[[ImVec2, ImVec2, bool], None]  # two corners; whether the signed map
 

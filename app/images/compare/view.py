@@ -14,26 +14,26 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
 
-from app.images.compare import comparing, panel
-from app.images.compare.actions import COMPARING, FLIP_KEY
-from app.images.compare.composed import SIDES, Composed, Mapping
-from app.images.pair.view import ImageView, RasterView
-from app.images.placement import Placement
-from app.images.renderers import Renderers, look_of
-from app.images.screen import Screen
-from app.images.shown import Held, Picture, ShownImage, whole
-from app.images.textures import PANE
-from app.state.app_state import AppState
-from app.ui import theme
-from app.ui.areas import focused_steps, mouse_area
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from app.ui.lettering import lettering
-from renderer.compare.raster_and_ray import Comparison
-from renderer.raster import Look
-from renderer.raster.targets import Region
-from renderer.system.errors import LucidaError, describe
-from renderer.system.memo import Memo
+from lucida.app.images.compare import comparing, panel
+from lucida.app.images.compare.actions import COMPARING, FLIP_KEY
+from lucida.app.images.compare.composed import SIDES, Composed, Mapping
+from lucida.app.images.pair.view import ImageView, RasterView
+from lucida.app.images.placement import Placement
+from lucida.app.images.renderers import Renderers, look_of
+from lucida.app.images.screen import Screen
+from lucida.app.images.shown import Held, Picture, ShownImage, whole
+from lucida.app.images.textures import PANE
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import theme
+from lucida.app.ui.areas import focused_steps, mouse_area
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.lettering import lettering
+from lucida.renderer.compare.raster_and_ray import Comparison
+from lucida.renderer.raster import Look
+from lucida.renderer.raster.targets import Region
+from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.memo import Memo
 
 NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.images.imaging import with_magnification
-from app.images.pair import choices
-from app.images.pair.choices import Choice, has, toggling
-from app.images.placement import step_from
-from app.state.app_state import AppState
-from app.ui.action import Action, changing
-from app.ui.host import Host
+from lucida.app.images.imaging import with_magnification
+from lucida.app.images.pair import choices
+from lucida.app.images.pair.choices import Choice, has, toggling
+from lucida.app.images.placement import step_from
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.action import Action, changing
+from lucida.app.ui.host import Host
 
 CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
 COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"

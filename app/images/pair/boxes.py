@@ -8,14 +8,14 @@ from typing import TypeVar
 
 from imgui_bundle import imgui
 
-from app.images.imaging import parsed_size, size_text, with_resolution
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.asking import TYPED, begin_box
-from renderer.camera.camera import Size
-from renderer.camera.pixels import Indexing
-from renderer.system.errors import LucidaError
+from lucida.app.images.imaging import parsed_size, size_text, with_resolution
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.asking import TYPED, begin_box
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.system.errors import LucidaError
 
 T = TypeVar("T")
 PIXEL_TITLE = "Go to pixel"

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.ui.fly import held
-from renderer.camera import navigation
-from renderer.camera.camera import Camera, Vector
-from renderer.system.errors import LucidaError
+from lucida.app.ui.fly import held
+from lucida.renderer.camera import navigation
+from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.system.errors import LucidaError
 
 HALF_TURN = math.pi  # a drag over the view's whole height
 

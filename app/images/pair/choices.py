@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from app.images.imaging import (
+from lucida.app.images.imaging import (
     CHANNELS,
     COMPONENTS,
     samples_text,
@@ -16,11 +16,11 @@ from app.images.imaging import (
     with_pixel_size,
     with_resolution,
 )
-from app.images.placement import magnification_text
-from app.state.app_state import AppState
-from app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
-from app.ui.action import Action, changing
-from renderer.camera.pixels import ENLARGEMENTS
+from lucida.app.images.placement import magnification_text
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
+from lucida.app.ui.action import Action, changing
+from lucida.renderer.camera.pixels import ENLARGEMENTS
 
 Change = Callable[[AppState], AppState]
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.screen import Box, Screen
-from app.ui import theme
-from app.ui.areas import press_area
+from lucida.app.images.screen import Box, Screen
+from lucida.app.ui import theme
+from lucida.app.ui.areas import press_area
 
 PADDING_EM, GAP_EM = 0.8, 0.5
 BOX, TEXT = theme.rgb("#0c0d0f", 0.85), theme.rgb("#e8eaed")

@@ -12,14 +12,14 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from app.images.request import ImageRequest
-from app.images.screen import Screen
-from app.images.window_rasterizer import WindowRasterizer
-from app.state.options.shared import Pixel
-from app.ui import theme
-from renderer.camera.camera import Camera
-from renderer.images.display import to_srgb8
-from renderer.images.samples import offsets
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.screen import Screen
+from lucida.app.images.window_rasterizer import WindowRasterizer
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.display import to_srgb8
+from lucida.renderer.images.samples import offsets
 
 CELLS = 32  # of the enlarged square, a side
 AROUND = 0.25  # of the pixel's neighbours, in pixels

@@ -20,13 +20,13 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
-from app.images.placement import panned, step_from, zoomed_at
-from app.images.screen import Screen
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from renderer.camera import navigation
-from renderer.camera.camera import Camera, Vector
+from lucida.app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
+from lucida.app.images.placement import panned, step_from, zoomed_at
+from lucida.app.images.screen import Screen
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera import navigation
+from lucida.renderer.camera.camera import Camera, Vector
 
 STILL_PX = 3.0  # a mouse that has moved less is still where it was
 

@@ -9,25 +9,25 @@ from functools import partial
 
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras.remedies import helped, remedy_for
-from app.images.marking import Anchor, followed
-from app.images.pair.dark_note import DarkNote, note_button
-from app.images.pair.image_mouse import Seen
-from app.images.pair.marks import walked
-from app.images.pair.pane import Drawn, MouseState, Pane, image_pane
-from app.images.pair.pixelgrid import Values
-from app.images.pair.rulers import ruler_sizes
-from app.images.pair.toolbar import Strip, image_strip
-from app.images.photograph.layer import PhotographLayer
-from app.images.placement import Placement, shown_pixel
-from app.images.screen import Screen, available_px
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui.guest import Click, Guest, ShownIn
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from renderer.camera.camera import Camera
-from renderer.system.errors import LucidaError, describe
+from lucida.app.cameras.remedies import helped, remedy_for
+from lucida.app.images.marking import Anchor, followed
+from lucida.app.images.pair.dark_note import DarkNote, note_button
+from lucida.app.images.pair.image_mouse import Seen
+from lucida.app.images.pair.marks import walked
+from lucida.app.images.pair.pane import Drawn, MouseState, Pane, image_pane
+from lucida.app.images.pair.pixelgrid import Values
+from lucida.app.images.pair.rulers import ruler_sizes
+from lucida.app.images.pair.toolbar import Strip, image_strip
+from lucida.app.images.photograph.layer import PhotographLayer
+from lucida.app.images.placement import Placement, shown_pixel
+from lucida.app.images.screen import Screen, available_px
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.guest import Click, Guest, ShownIn
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.system.errors import LucidaError, describe
 
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
 STEADY = 6  # frames of one size, two panes each

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.screen import Screen
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.areas import arrow_steps, claim_arrows, pixel_from
+from lucida.app.images.screen import Screen
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.areas import arrow_steps, claim_arrows, pixel_from
 
 SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 NUMBERED = 32.0  # as large, a pixel has numbers in it

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.images.placement import magnification_text
-from app.images.screen import Screen
-from app.state.app_state import AppState
-from app.ui import palettes, theme
-from renderer.images.display import ID_PALETTE
-from renderer.images.shared_numbers import FARTHEST_GRAY
+from lucida.app.images.placement import magnification_text
+from lucida.app.images.screen import Screen
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import palettes, theme
+from lucida.renderer.images.display import ID_PALETTE
+from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 
 BOX = theme.rgb("#0c0d0f", 0.9)
 TEXT = theme.rgb("#e8eaed")

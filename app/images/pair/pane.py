@@ -8,19 +8,19 @@ from typing import Literal
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.pair.dark_note import DarkNote, draw_dark_note
-from app.images.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
-from app.images.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
-from app.images.pair.overlay import draw_legend, draw_magnification, draw_note
-from app.images.pair.pixelgrid import Values, draw_pixel_grid
-from app.images.pair.rulers import draw_rulers
-from app.images.placement import Placement
-from app.images.screen import Box, Screen
-from app.images.shown import Picture
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.areas import mouse_area
+from lucida.app.images.pair.dark_note import DarkNote, draw_dark_note
+from lucida.app.images.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
+from lucida.app.images.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
+from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
+from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
+from lucida.app.images.pair.rulers import draw_rulers
+from lucida.app.images.placement import Placement
+from lucida.app.images.screen import Box, Screen
+from lucida.app.images.shown import Picture
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.areas import mouse_area
 
 # Returns the visible part of a state's image in a window; None for no image.
 Drawn = Callable[[AppState, Placement], Picture | None]

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.screen import Screen
-from app.state.app_state import AppState
-from app.state.options.shared import ImageOptions
-from app.ui import theme
-from app.ui.theme import framebuffer_scale
+from lucida.app.images.screen import Screen
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import ImageOptions
+from lucida.app.ui import theme
+from lucida.app.ui.theme import framebuffer_scale
 
 ADVANCE = 0.5  # of the fixed-width font, in its size
 GAP = 3.0  # between numbers and image

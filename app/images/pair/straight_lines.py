@@ -9,10 +9,10 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from app.images.placement import Placement
-from app.images.screen import Screen
-from app.ui import theme
-from renderer.camera.camera import Camera, Size
+from lucida.app.images.placement import Placement
+from lucida.app.images.screen import Screen
+from lucida.app.ui import theme
+from lucida.renderer.camera.camera import Camera, Size
 
 SAMPLES = 49  # points of a line
 WANTED = 5  # lines from the middle of the image to its side

@@ -11,7 +11,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from app.images.imaging import (
+from lucida.app.images.imaging import (
     CHANNELS,
     COMPONENTS,
     TRANSFERS,
@@ -19,14 +19,14 @@ from app.images.imaging import (
     resolution_text,
     size_text,
 )
-from app.images.pair import choices
-from app.images.pair.choices import Choice
-from app.images.photograph.panel import entries
-from app.images.placement import magnification_text
-from app.state.app_state import AppState
-from app.state.options.shared import RESOLUTIONS
-from app.ui import theme
-from app.ui.rows import tip
+from lucida.app.images.pair import choices
+from lucida.app.images.pair.choices import Choice
+from lucida.app.images.photograph.panel import entries
+from lucida.app.images.placement import magnification_text
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import RESOLUTIONS
+from lucida.app.ui import theme
+from lucida.app.ui.rows import tip
 
 PADDING = ImVec2(6, 2)
 GAP = 2.0

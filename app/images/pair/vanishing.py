@@ -9,11 +9,11 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from app.images.pair.straight_lines import SAMPLES, curves, draw_curves, placed
-from app.images.screen import Screen
-from app.state.options.pair import PairOptions
-from app.ui import theme
-from renderer.camera.camera import Camera
+from lucida.app.images.pair.straight_lines import SAMPLES, curves, draw_curves, placed
+from lucida.app.images.screen import Screen
+from lucida.app.state.options.pair import PairOptions
+from lucida.app.ui import theme
+from lucida.renderer.camera.camera import Camera
 
 NEAREST = 0.05  # the parameter at which a line begins in perspective
 LENGTH = 1e4  # of a line that has no end in the image, in lengths of its direction

@@ -8,23 +8,23 @@ from typing import ClassVar
 import moderngl
 from imgui_bundle import imgui
 
-from app.images.pair.actions import IMAGE, MOUSE
-from app.images.pair.footprint import draw_footprint, footprint
-from app.images.pair.image_view import ImageView, Linked
-from app.images.pair.overlay import draw_told
-from app.images.pair.pane import Drawn
-from app.images.pair.straight_lines import draw_grid
-from app.images.pair.vanishing import draw_parallels
-from app.images.photograph.actions import PHOTOGRAPH
-from app.images.photograph.model import path_of
-from app.images.placement import Placement
-from app.images.screen import Screen
-from app.images.shown import Picture
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from renderer.system.memo import Memo
+from lucida.app.images.pair.actions import IMAGE, MOUSE
+from lucida.app.images.pair.footprint import draw_footprint, footprint
+from lucida.app.images.pair.image_view import ImageView, Linked
+from lucida.app.images.pair.overlay import draw_told
+from lucida.app.images.pair.pane import Drawn
+from lucida.app.images.pair.straight_lines import draw_grid
+from lucida.app.images.pair.vanishing import draw_parallels
+from lucida.app.images.photograph.actions import PHOTOGRAPH
+from lucida.app.images.photograph.model import path_of
+from lucida.app.images.placement import Placement
+from lucida.app.images.screen import Screen
+from lucida.app.images.shown import Picture
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.renderer.system.memo import Memo
 
 RASTER, RAY = "Raster", "Ray"
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.images.photograph.model import can_undistort, closed, undistorting
-from app.images.photograph.panel import UNDISTORT
-from app.state.app_state import AppState
-from app.ui.action import Action, changing
-from app.ui.host import Host
+from lucida.app.images.photograph.model import can_undistort, closed, undistorting
+from lucida.app.images.photograph.panel import UNDISTORT
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.action import Action, changing
+from lucida.app.ui.host import Host
 
 MENU = "Image/Photograph"
 

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import moderngl
 
-from app.images.photograph.laying import Laying
-from app.images.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
-from app.images.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
-from app.images.placement import Placement
-from app.images.renderers import Renderers
-from app.images.shown import Picture
-from app.state.app_state import AppState
-from app.ui.background import Background
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError, describe
+from lucida.app.images.photograph.laying import Laying
+from lucida.app.images.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
+from lucida.app.images.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
+from lucida.app.images.placement import Placement
+from lucida.app.images.renderers import Renderers
+from lucida.app.images.shown import Picture
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.background import Background
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError, describe
 
 # The file, its size on screen in pixels, and the lens that is taken out of it.
 Asked = tuple[Path, Size, View | None]

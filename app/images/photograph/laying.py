@@ -13,11 +13,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from app.images.passes import Pass
-from app.images.photograph.model import WHOLE, Parts
-from app.images.placement import Placement
-from app.images.shown import Picture
-from renderer.raster.resources import new_texture
+from lucida.app.images.passes import Pass
+from lucida.app.images.photograph.model import WHOLE, Parts
+from lucida.app.images.placement import Placement
+from lucida.app.images.shown import Picture
+from lucida.renderer.raster.resources import new_texture
 
 
 class Laying:

@@ -11,13 +11,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from app.images.photograph.reading import Size
-from app.state.app_state import AppState
-from app.state.paths import restored, stored
-from renderer.camera.camera import Camera
-from renderer.camera.undistort import undistorted_camera
-from renderer.scene.model import View
-from renderer.system.errors import one_line
+from lucida.app.images.photograph.reading import Size
+from lucida.app.state.app_state import AppState
+from lucida.app.state.paths import restored, stored
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.undistort import undistorted_camera
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import one_line
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)

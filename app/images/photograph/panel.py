@@ -6,16 +6,16 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from app.images.imaging import size_text, with_resolution
-from app.images.photograph.model import can_undistort, closed, undistorting
-from app.images.photograph.reading import Size
-from app.state.app_state import AppState
-from app.state.bounds import range_of
-from app.state.options.photograph import PhotographOptions
-from app.ui.rows import tip
-from app.ui.sliders import slider_float
-from renderer.images.frame import check_size
-from renderer.system.errors import LucidaError
+from lucida.app.images.imaging import size_text, with_resolution
+from lucida.app.images.photograph.model import can_undistort, closed, undistorting
+from lucida.app.images.photograph.reading import Size
+from lucida.app.state.app_state import AppState
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.photograph import PhotographOptions
+from lucida.app.ui.rows import tip
+from lucida.app.ui.sliders import slider_float
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.system.errors import LucidaError
 
 SLIDER_EM = 11.0
 UNDISTORT = "Undistort the photograph"

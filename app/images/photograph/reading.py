@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.undistort import undistorted
-from renderer.files.reading import check_file
-from renderer.images.frame import LARGEST_PIXELS
-from renderer.scene.model import View
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.undistort import undistorted
+from lucida.renderer.files.reading import check_file
+from lucida.renderer.images.frame import LARGEST_PIXELS
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture

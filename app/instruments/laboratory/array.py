@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.sheet import BLACK, Point, Sheet, between, mixed, reached, rectangle
-from app.instruments.outside.figure import Color, Figure
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.sheet import (
+    BLACK,
+    Point,
+    Sheet,
+    between,
+    mixed,
+    reached,
+    rectangle,
+)
+from lucida.app.instruments.outside.figure import Color, Figure
 
 ROWS, COLUMNS = 3, 4
 LIT, ORANGE = (1, 2), (1.0, 0.6, 0.0)  # row and column from 0

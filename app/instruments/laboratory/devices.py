@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.sheet import (
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.sheet import (
     BLACK,
     WHITE,
     YELLOW,
@@ -19,8 +19,8 @@ from app.instruments.laboratory.sheet import (
     rectangle,
     rounded,
 )
-from app.instruments.outside.figure import Figure
-from renderer.camera.camera import Floats
+from lucida.app.instruments.outside.figure import Figure
+from lucida.renderer.camera.camera import Floats
 
 ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # of each drawing, and from one to the next
 FINE = 96  # points of outlines that turn into each other

@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.sheet import (
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.sheet import (
     LIGHTS,
     WALL,
     YELLOW,
@@ -24,8 +24,8 @@ from app.instruments.laboratory.sheet import (
     rectangle,
     rounded,
 )
-from app.instruments.outside.figure import Color, Figure
-from renderer.images.display import to_srgb8
+from lucida.app.instruments.outside.figure import Color, Figure
+from lucida.renderer.images.display import to_srgb8
 
 Floats = NDArray[np.float32]
 Place = tuple[float, float, float, float, float]  # middle x, y; half the width, height; rounding

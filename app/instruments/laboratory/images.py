@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.laboratory.kinds import COLOR, FLOAT, KINDS, Kind
-from app.instruments.laboratory.page import Page, is_wide
-from app.instruments.laboratory.sheet import (
+from lucida.app.instruments.laboratory.kinds import COLOR, FLOAT, KINDS, Kind
+from lucida.app.instruments.laboratory.page import Page, is_wide
+from lucida.app.instruments.laboratory.sheet import (
     BLACK,
     LIGHTS,
     YELLOW,
@@ -19,10 +19,10 @@ from app.instruments.laboratory.sheet import (
     reached,
     rectangle,
 )
-from app.instruments.laboratory.stored import shown, store
-from app.instruments.outside.figure import Figure
-from renderer.camera.camera import Size
-from renderer.images.display import Bytes, encode_srgb, to_srgb8
+from lucida.app.instruments.laboratory.stored import shown, store
+from lucida.app.instruments.outside.figure import Figure
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.images.display import Bytes, encode_srgb, to_srgb8
 
 # The shape of images: width and height. Two side by side are square.
 SHAPE, SQUARE = (3, 2), (1, 1)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec4
 
-from app.instruments.laboratory.sheet import Look
-from app.instruments.outside.figure import Color
-from app.ui import palettes, theme
+from lucida.app.instruments.laboratory.sheet import Look
+from lucida.app.instruments.outside.figure import Color
+from lucida.app.ui import palettes, theme
 
 
 def look_of(palette: palettes.Palette) -> Look:

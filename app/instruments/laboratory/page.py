@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.instruments.laboratory.sheet import Look, Point, Sheet
-from app.state.options.laboratory import LaboratoryOptions
-from app.state.options.shared import Notation
-from renderer.camera.camera import Size
+from lucida.app.instruments.laboratory.sheet import Look, Point, Sheet
+from lucida.app.state.options.laboratory import LaboratoryOptions
+from lucida.app.state.options.shared import Notation
+from lucida.renderer.camera.camera import Size
 
 Image = NDArray[np.float32]
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from app.instruments.laboratory import images
-from app.instruments.laboratory.array import array
-from app.instruments.laboratory.devices import devices
-from app.instruments.laboratory.dimension import dimension
-from app.instruments.laboratory.displays import displays
-from app.instruments.laboratory.light import projectors
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.ruler import ruler
-from app.instruments.laboratory.shapes import raster_and_vector
-from app.instruments.laboratory.storage import storage
-from app.instruments.outside.figure import Figure
+from lucida.app.instruments.laboratory import images
+from lucida.app.instruments.laboratory.array import array
+from lucida.app.instruments.laboratory.devices import devices
+from lucida.app.instruments.laboratory.dimension import dimension
+from lucida.app.instruments.laboratory.displays import displays
+from lucida.app.instruments.laboratory.light import projectors
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.ruler import ruler
+from lucida.app.instruments.laboratory.shapes import raster_and_vector
+from lucida.app.instruments.laboratory.storage import storage
+from lucida.app.instruments.outside.figure import Figure
 
 
 @dataclass(frozen=True)

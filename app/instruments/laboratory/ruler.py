@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.sheet import BLACK, YELLOW, Point, Sheet, between, mixed, reached
-from app.instruments.outside.figure import Color, Figure
-from app.state.options.shared import Notation
-from app.ui.explaining.symbols import plain
-from renderer.camera.camera import Floats
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.sheet import (
+    BLACK,
+    YELLOW,
+    Point,
+    Sheet,
+    between,
+    mixed,
+    reached,
+)
+from lucida.app.instruments.outside.figure import Color, Figure
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import plain
+from lucida.renderer.camera.camera import Floats
 
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.sheet import Look, Sheet, between, circle, rectangle
-from app.instruments.outside.figure import WHITE, Color, Figure, Line, Polygon
-from renderer.camera.camera import Size
-from renderer.images.display import Bytes
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.sheet import Look, Sheet, between, circle, rectangle
+from lucida.app.instruments.outside.figure import WHITE, Color, Figure, Line, Polygon
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.images.display import Bytes
 
 SIDE_PX, PIXELS = 512, 128  # of the drawing, and of its raster image
 SAMPLES = 4  # a side of a pixel

@@ -11,9 +11,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.instruments.outside.figure import Color, Figure, Inset, Label, Line, Part, Picture, Polygon
-from renderer.camera.camera import Floats, Size
-from renderer.images.display import Bytes
+from lucida.app.instruments.outside.figure import (
+    Color,
+    Figure,
+    Inset,
+    Label,
+    Line,
+    Part,
+    Picture,
+    Polygon,
+)
+from lucida.renderer.camera.camera import Floats, Size
+from lucida.renderer.images.display import Bytes
 
 Point = tuple[float, float]
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from app.instruments.laboratory.kinds import KINDS, LECTURE_SIZE
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.sheet import reached, rectangle
-from app.instruments.outside.figure import Figure
+from lucida.app.instruments.laboratory.kinds import KINDS, LECTURE_SIZE
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.sheet import reached, rectangle
+from lucida.app.instruments.outside.figure import Figure
 
 LONGEST, LEFT, STEP = 12.0, 14.4, 4.7
 

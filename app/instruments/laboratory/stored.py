@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.instruments.laboratory.kinds import BITMAP, FLOAT, GRAY, Kind
-from renderer.images.display import Bytes, from_srgb, luminance, to_srgb8
-from renderer.images.files import HALF
+from lucida.app.instruments.laboratory.kinds import BITMAP, FLOAT, GRAY, Kind
+from lucida.renderer.images.display import Bytes, from_srgb, luminance, to_srgb8
+from lucida.renderer.images.files import HALF
 
 
 @dataclass(frozen=True, eq=False)

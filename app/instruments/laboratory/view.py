@@ -9,30 +9,30 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.images.request import ImageRequest
-from app.images.screen import available_px
-from app.images.window_rasterizer import WindowRasterizer
-from app.instruments.laboratory.images import boxes, image_size
-from app.instruments.laboratory.looks import look_of
-from app.instruments.laboratory.page import Image, Page
-from app.instruments.laboratory.pages import PAGES, drawn
-from app.instruments.laboratory.sheet import Point, Sheet
-from app.instruments.outside.figure import Figure
-from app.instruments.outside.painting import Painter
-from app.state.bounds import range_of
-from app.state.options.laboratory import LaboratoryOptions
-from app.ui import palettes, theme
-from app.ui.areas import focused_steps, mouse_area
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from app.ui.messages import wrapped
-from app.ui.rows import follow
-from app.ui.sliders import slider_float
-from app.ui.theme import framebuffer_scale
-from app.ui.uploads import Uploads
-from renderer.camera.camera import Size
-from renderer.system.errors import LucidaError, describe
-from renderer.system.memo import Memo
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.screen import available_px
+from lucida.app.images.window_rasterizer import WindowRasterizer
+from lucida.app.instruments.laboratory.images import boxes, image_size
+from lucida.app.instruments.laboratory.looks import look_of
+from lucida.app.instruments.laboratory.page import Image, Page
+from lucida.app.instruments.laboratory.pages import PAGES, drawn
+from lucida.app.instruments.laboratory.sheet import Point, Sheet
+from lucida.app.instruments.outside.figure import Figure
+from lucida.app.instruments.outside.painting import Painter
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.laboratory import LaboratoryOptions
+from lucida.app.ui import palettes, theme
+from lucida.app.ui.areas import focused_steps, mouse_area
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.messages import wrapped
+from lucida.app.ui.rows import follow
+from lucida.app.ui.sliders import slider_float
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.memo import Memo
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60

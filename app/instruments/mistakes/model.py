@@ -11,15 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.checking.mistakes.program import Mistake, Mistakes, Program
-from app.checking.mistakes.rays import RayTask, camera_rays, ray_program
-from app.images.ray_pictures import RayPainter
-from app.instruments.outside.second_camera import GivenRay, corner_rays
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui.explaining.breaking import broken
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.pixels import Indexing
+from lucida.app.checking.mistakes.program import Mistake, Mistakes, Program
+from lucida.app.checking.mistakes.rays import RayTask, camera_rays, ray_program
+from lucida.app.images.ray_pictures import RayPainter
+from lucida.app.instruments.outside.second_camera import GivenRay, corner_rays
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.explaining.breaking import broken
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.pixels import Indexing
 
 Light = NDArray[np.float32]
 

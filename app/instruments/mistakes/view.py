@@ -9,27 +9,27 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.checking.reports.picture import changed_pixels, difference_picture
-from app.images.ray_pictures import RayPictures
-from app.instruments.mistakes import model, panel
-from app.instruments.mistakes.model import Compared, Situation
-from app.instruments.outside.diagram import Item
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.second_camera import SecondCamera, second_camera
-from app.instruments.outside.view import OutsideView
-from app.state.options.mistakes import MistakesOptions
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.checks import checkbox
-from app.ui.coded_text import coded_text
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from app.ui.picture_grid import GridPicture, picture_grid
-from app.ui.rows import button_width, follow
-from app.ui.uploads import Uploads
-from renderer.images import to_srgb8
-from renderer.system.errors import LucidaError, describe
-from renderer.system.memo import Memo
+from lucida.app.checking.reports.picture import changed_pixels, difference_picture
+from lucida.app.images.ray_pictures import RayPictures
+from lucida.app.instruments.mistakes import model, panel
+from lucida.app.instruments.mistakes.model import Compared, Situation
+from lucida.app.instruments.outside.diagram import Item
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.second_camera import SecondCamera, second_camera
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.state.options.mistakes import MistakesOptions
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.coded_text import coded_text
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.picture_grid import GridPicture, picture_grid
+from lucida.app.ui.rows import button_width, follow
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.images import to_srgb8
+from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.memo import Memo
 
 MISTAKES = "Mistakes"
 STUDENTS = "student's"  # the name of the wrong picture, and of its camera in the outside view

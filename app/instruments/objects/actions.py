@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.instruments.objects import editing
-from app.instruments.objects.choosing import chosen, everything, walked
-from app.state.app_state import AppState
-from app.ui.action import Action, changing
-from app.ui.host import Host
-from renderer.editing import objects
-from renderer.scene.focus import Focus
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.objects import editing
+from lucida.app.instruments.objects.choosing import chosen, everything, walked
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.action import Action, changing
+from lucida.app.ui.host import Host
+from lucida.renderer.editing import objects
+from lucida.renderer.scene.focus import Focus
+from lucida.renderer.system.errors import LucidaError
 
 MENU, HANDLES = "Scene", "Scene/Handles"
 

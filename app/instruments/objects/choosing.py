@@ -9,12 +9,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 from functools import lru_cache
 
-from app.state.app_state import AppState
-from app.state.options.objects import MOST_CHOSEN
-from renderer.editing.changing import Item, present
-from renderer.editing.outline import OutlineRow, outline
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.objects import MOST_CHOSEN
+from lucida.renderer.editing.changing import Item, present
+from lucida.renderer.editing.outline import OutlineRow, outline
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 
 def chosen(state: AppState) -> tuple[Item, ...]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
 
-from app.instruments.outside.gizmo import (
+from lucida.app.instruments.outside.gizmo import (
     begin_handles,
     escaped,
     gizmo,
@@ -22,17 +22,22 @@ from app.instruments.outside.gizmo import (
     widen,
     write,
 )
-from app.instruments.outside.tint import AXES, HELD, hide_text, recolor
-from app.state.options.objects import Handle, ObjectsOptions
-from app.ui import palettes, theme
-from app.ui.guest import ShownIn
-from renderer.camera.camera import Vector
-from renderer.editing.changing import Item, fields_of
-from renderer.editing.moving import Floats, bounds_of, matrix_of, transform
-from renderer.files.schema import DirectionalLightTable, ModelTable, PointLightTable, SphereTable
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
-from renderer.system.memo import Memo
+from lucida.app.instruments.outside.tint import AXES, HELD, hide_text, recolor
+from lucida.app.state.options.objects import Handle, ObjectsOptions
+from lucida.app.ui import palettes, theme
+from lucida.app.ui.guest import ShownIn
+from lucida.renderer.camera.camera import Vector
+from lucida.renderer.editing.changing import Item, fields_of
+from lucida.renderer.editing.moving import Floats, bounds_of, matrix_of, transform
+from lucida.renderer.files.schema import (
+    DirectionalLightTable,
+    ModelTable,
+    PointLightTable,
+    SphereTable,
+)
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.memo import Memo
 
 Operation = imguizmo.im_guizmo.OPERATION
 

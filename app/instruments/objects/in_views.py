@@ -10,21 +10,28 @@ from dataclasses import replace
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.objects.choosing import choose, choose_also, chosen, picked, rows_of, unlocked
-from app.instruments.objects.handles import Handles
-from app.instruments.objects.remedies import remedied, scene_remedy
-from app.instruments.objects.silhouette import Floats, outlines_of
-from app.instruments.outside.screen import OutsideScreen
-from app.instruments.outside.view import OUTSIDE
-from app.state.app_state import AppState
-from app.ui import theme
-from app.ui.guest import Click, ShownIn
-from app.ui.host import Host
-from renderer.camera.camera import Camera
-from renderer.editing.changing import Item, ids_of
-from renderer.editing.moving import bounds_of
-from renderer.scene.model import Scene
-from renderer.system.memo import Memo
+from lucida.app.instruments.objects.choosing import (
+    choose,
+    choose_also,
+    chosen,
+    picked,
+    rows_of,
+    unlocked,
+)
+from lucida.app.instruments.objects.handles import Handles
+from lucida.app.instruments.objects.remedies import remedied, scene_remedy
+from lucida.app.instruments.objects.silhouette import Floats, outlines_of
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.instruments.outside.view import OUTSIDE
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import theme
+from lucida.app.ui.guest import Click, ShownIn
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.editing.changing import Item, ids_of
+from lucida.renderer.editing.moving import bounds_of
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.memo import Memo
 
 CHOSEN = theme.rgb("#ffa23a")
 CASING = theme.rgb("#0c0d0f", 0.7)

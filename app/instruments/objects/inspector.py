@@ -14,11 +14,11 @@ from typing import Any
 import msgspec
 from imgui_bundle import imgui
 
-from app.instruments.objects.choosing import chosen, rows_of
-from app.instruments.objects.editing import with_scene
-from app.instruments.objects.material_fields import material_lines
-from app.instruments.objects.outliner import SHOWN
-from app.instruments.objects.value_fields import (
+from lucida.app.instruments.objects.choosing import chosen, rows_of
+from lucida.app.instruments.objects.editing import with_scene
+from lucida.app.instruments.objects.material_fields import material_lines
+from lucida.app.instruments.objects.outliner import SHOWN
+from lucida.app.instruments.objects.value_fields import (
     Edits,
     color_line,
     light_lines,
@@ -26,15 +26,15 @@ from app.instruments.objects.value_fields import (
     vector_line,
     whole_line,
 )
-from app.state.app_state import AppState
-from app.ui import rows, theme
-from app.ui.checks import checkbox
-from app.ui.fields import Scale
-from app.ui.lettering import fitting_words
-from renderer.editing import objects
-from renderer.editing.changing import Item, fields_of, set_field
-from renderer.editing.outline import OutlineRow
-from renderer.files.schema import (
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import rows, theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.fields import Scale
+from lucida.app.ui.lettering import fitting_words
+from lucida.renderer.editing import objects
+from lucida.renderer.editing.changing import Item, fields_of, set_field
+from lucida.renderer.editing.outline import OutlineRow
+from lucida.renderer.files.schema import (
     LightTable,
     MeshTable,
     ModelTable,
@@ -42,10 +42,10 @@ from renderer.files.schema import (
     PointLightTable,
     SphereTable,
 )
-from renderer.scene.focus import Focus
-from renderer.scene.material import parse_color
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError
+from lucida.renderer.scene.focus import Focus
+from lucida.renderer.scene.material import parse_color
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
 
 COMMON = {*ObjectTable.__struct_fields__, *LightTable.__struct_fields__}
 PLACED = {"translate", "rotate_deg", "scale", "center", "position", "direction", "file"}

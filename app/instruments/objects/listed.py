@@ -9,11 +9,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.instruments.objects.choosing import chosen
-from app.state.app_state import AppState
-from renderer.editing.changing import Item
-from renderer.editing.outline import OutlineRow
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.objects.choosing import chosen
+from lucida.app.state.app_state import AppState
+from lucida.renderer.editing.changing import Item
+from lucida.renderer.editing.outline import OutlineRow
+from lucida.renderer.system.errors import LucidaError
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,14 @@ from typing import Any
 
 from imgui_bundle import imgui
 
-from app.instruments.objects.value_fields import Edits, color_line, number_line
-from app.ui import rows, theme
-from app.ui.checks import checkbox
-from app.ui.fields import Scale
-from renderer.editing.changing import Item, entry_of
-from renderer.editing.materials import set_material, set_single_sided
-from renderer.scene.model import Checker, Scene, Sphere
-from renderer.scene.texture import Texture
+from lucida.app.instruments.objects.value_fields import Edits, color_line, number_line
+from lucida.app.ui import rows, theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.fields import Scale
+from lucida.renderer.editing.changing import Item, entry_of
+from lucida.renderer.editing.materials import set_material, set_single_sided
+from lucida.renderer.scene.model import Checker, Scene, Sphere
+from lucida.renderer.scene.texture import Texture
 
 SHININESS = Scale(1, 1000, logarithmic=True, least=1, most=1000)
 CELLS = Scale(1e-2, 100, logarithmic=True)

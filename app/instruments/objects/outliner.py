@@ -10,19 +10,19 @@ from functools import lru_cache, partial
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.instruments.objects import editing
-from app.instruments.objects.choosing import choose, choose_also, chosen, rows_of
-from app.instruments.objects.listed import Listed, Outliner, scroll_to
-from app.state.app_state import AppState
-from app.ui import theme
-from app.ui.checks import checkbox
-from app.ui.lettering import fitting_letters
-from app.ui.rows import tip
-from renderer.editing import objects
-from renderer.editing.changing import Item
-from renderer.editing.outline import OutlineRow
-from renderer.scene.focus import Focus
-from renderer.scene.model import Scene
+from lucida.app.instruments.objects import editing
+from lucida.app.instruments.objects.choosing import choose, choose_also, chosen, rows_of
+from lucida.app.instruments.objects.listed import Listed, Outliner, scroll_to
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.lettering import fitting_letters
+from lucida.app.ui.rows import tip
+from lucida.renderer.editing import objects
+from lucida.renderer.editing.changing import Item
+from lucida.renderer.editing.outline import OutlineRow
+from lucida.renderer.scene.focus import Focus
+from lucida.renderer.scene.model import Scene
 
 EMPTY = "The scene has no objects. Add one, or drop a model here."
 READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.scene.focus import Focus, object_corners
-from renderer.scene.model import Scene
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.focus import Focus, object_corners
+from lucida.renderer.scene.model import Scene
 
 OF_SCENE, OF_VIEW = 0.16, 0.3  # a new object's size: of the scene's diagonal, of the view's height
 MOST = 2000  # objects that are looked at

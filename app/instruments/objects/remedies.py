@@ -6,11 +6,11 @@ the remedies by camera and exposure.
 
 from __future__ import annotations
 
-from app.instruments.objects.choosing import chosen, rows_of
-from app.instruments.objects.editing import with_scene
-from app.state.app_state import AppState
-from renderer.editing import objects
-from renderer.editing.changing import set_field
+from lucida.app.instruments.objects.choosing import chosen, rows_of
+from lucida.app.instruments.objects.editing import with_scene
+from lucida.app.state.app_state import AppState
+from lucida.renderer.editing import objects
+from lucida.renderer.editing.changing import set_field
 
 ADD_LIGHT, SHOW_ALL = "Add a light", "Show all objects"
 

@@ -16,9 +16,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera
-from renderer.scene.boxes import extent
-from renderer.scene.model import Mesh, SceneObject, Sphere
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.boxes import extent
+from lucida.renderer.scene.model import Mesh, SceneObject, Sphere
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")

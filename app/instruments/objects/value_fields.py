@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from imgui_bundle import imgui
 
-from app.ui import rows, theme
-from app.ui.fields import Scale, number_field
-from renderer.editing.changing import Item, set_field, set_scene_field
-from renderer.images.display import encode_srgb, from_srgb
-from renderer.scene.model import BRIGHTEST, Color, Scene
+from lucida.app.ui import rows, theme
+from lucida.app.ui.fields import Scale, number_field
+from lucida.renderer.editing.changing import Item, set_field, set_scene_field
+from lucida.renderer.images.display import encode_srgb, from_srgb
+from lucida.renderer.scene.model import BRIGHTEST, Color, Scene
 
 AXES = ("x", "y", "z")
 Edit = Callable[[Scene], Scene]

@@ -7,20 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from app.cameras.presets import framed
-from app.images.pair.view import RasterView
-from app.instruments.objects.actions import CHOOSING, SCENE
-from app.instruments.objects.in_views import InViews
-from app.instruments.objects.inspector import Inspector, PanelSetting, inspector_panel
-from app.instruments.objects.listed import Outliner
-from app.instruments.objects.outliner import outliner_panel
-from app.instruments.outside.view import OutsideView
-from app.ui import layout
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from renderer.editing.changing import Item, has_default_lights, ids_of
-from renderer.scene.focus import object_corners
-from renderer.system.errors import LucidaError
+from lucida.app.cameras.presets import framed
+from lucida.app.images.pair.view import RasterView
+from lucida.app.instruments.objects.actions import CHOOSING, SCENE
+from lucida.app.instruments.objects.in_views import InViews
+from lucida.app.instruments.objects.inspector import Inspector, PanelSetting, inspector_panel
+from lucida.app.instruments.objects.listed import Outliner
+from lucida.app.instruments.objects.outliner import outliner_panel
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.ui import layout
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.renderer.editing.changing import Item, has_default_lights, ids_of
+from lucida.renderer.scene.focus import object_corners
+from lucida.renderer.system.errors import LucidaError
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.instruments.outside.extent import around, framed, outside_camera, way_of
-from app.instruments.outside.figure_view import Ground, export_figure
-from app.instruments.outside.switches import (
+from lucida.app.instruments.outside.extent import around, framed, outside_camera, way_of
+from lucida.app.instruments.outside.figure_view import Ground, export_figure
+from lucida.app.instruments.outside.switches import (
     AXIS_NAMES,
     HANDLES,
     SWITCHES,
@@ -19,14 +19,14 @@ from app.instruments.outside.switches import (
     toggled,
     with_gizmo,
 )
-from app.instruments.outside.view import OutsideView
-from app.state.app_state import AppState
-from app.state.options.outside import OutsideOptions
-from app.ui.action import Action, changing
-from app.ui.host import Host
-from renderer.camera.camera import Camera
-from renderer.camera.navigation import switched_projection
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.app.ui.action import Action, changing
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.navigation import switched_projection
+from lucida.renderer.system.errors import LucidaError
 
 MENU, PICTURE = "View/Outside view", "File/Picture"
 ASPECT = 1.4  # of a view along an axis: another one sees no less

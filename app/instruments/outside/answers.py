@@ -11,10 +11,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.instruments.outside.diagram import Arrow, Dot, Item, Label, Role, Segments
-from app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
-from renderer.camera.camera import Floats
-from renderer.camera.checks import LARGEST
+from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Role, Segments
+from lucida.app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
+from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import LARGEST
 
 LONGEST = 2.0  # of a direction that was given, in lengths of the correct one
 

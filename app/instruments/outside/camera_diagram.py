@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.instruments.outside.diagram import (
+from lucida.app.instruments.outside.diagram import (
     Arrow,
     Dot,
     Eye,
@@ -20,7 +20,7 @@ from app.instruments.outside.diagram import (
     Segments,
     polyline,
 )
-from app.instruments.outside.frustum import (
+from lucida.app.instruments.outside.frustum import (
     MOST_GRID_LINES,
     Size,
     grid,
@@ -32,13 +32,18 @@ from app.instruments.outside.frustum import (
     point_at,
     rectangle,
 )
-from app.instruments.outside.lens_diagram import ideal_border, image_sphere, lens_pixel, lens_volume
-from app.instruments.outside.ray_drawing import half_line, meetings, rays_to
-from app.instruments.outside.simple_camera import pixel_numbers, simple_camera
-from app.state.options.outside import OutsideOptions
-from app.state.options.shared import Notation, Pixel
-from app.ui.explaining.symbols import vector
-from renderer.camera.camera import Camera, Floats
+from lucida.app.instruments.outside.lens_diagram import (
+    ideal_border,
+    image_sphere,
+    lens_pixel,
+    lens_volume,
+)
+from lucida.app.instruments.outside.ray_drawing import half_line, meetings, rays_to
+from lucida.app.instruments.outside.simple_camera import pixel_numbers, simple_camera
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.ui.explaining.symbols import vector
+from lucida.renderer.camera.camera import Camera, Floats
 
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w

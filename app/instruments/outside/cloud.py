@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.outside.diagram import Segments
-from renderer.camera.camera import Floats
+from lucida.app.instruments.outside.diagram import Segments
+from lucida.renderer.camera.camera import Floats
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,11 +7,11 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from app.instruments.outside.cloud import Cloud
-from app.instruments.outside.paint import CASING, line_color
-from app.instruments.outside.screen import OutsideScreen
-from app.ui import theme
-from renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
+from lucida.app.instruments.outside.cloud import Cloud
+from lucida.app.instruments.outside.paint import CASING, line_color
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.ui import theme
+from lucida.renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
 
 NEAREST = 1e-3  # of the cloud's reach: what is nearer to the outside camera's eye is not drawn
 CASING_PX = 0.9  # on each side of a line, in widths of a line

@@ -16,9 +16,9 @@ from typing import Literal
 
 import numpy as np
 
-from app.state.options.shared import Notation, Pixel
-from app.ui.explaining.symbols import plain
-from renderer.camera.camera import Floats
+from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.ui.explaining.symbols import plain
+from lucida.renderer.camera.camera import Floats
 
 Role = Literal[
     "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other",

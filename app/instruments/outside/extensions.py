@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import moderngl
 
-from app.instruments.outside.cloud import Cloud
-from app.instruments.outside.diagram import Item
-from app.instruments.outside.looking import NOTHING
-from app.instruments.outside.mouse import Scope
-from app.ui.host import Host
-from renderer.camera.camera import Floats
+from lucida.app.instruments.outside.cloud import Cloud
+from lucida.app.instruments.outside.diagram import Item
+from lucida.app.instruments.outside.looking import NOTHING
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Floats
 
 
 class Extension(NamedTuple):

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.instruments.outside.frustum import border, has_plane, image_point, plane_corners
-from renderer.camera.camera import Camera, Floats
-from renderer.camera.checks import LARGEST, three
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.outside.frustum import border, has_plane, image_point, plane_corners
+from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.checks import LARGEST, three
+from lucida.renderer.system.errors import LucidaError
 
 FOV_Y_DEG = 50.0
 MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.outside.diagram import Role, runs
-from app.instruments.outside.placing import Box, LabelPlacer
-from app.instruments.outside.projected import Primitive, Shape, Strokes, Text
-from app.instruments.outside.screen import OutsideScreen
-from renderer.camera.camera import Floats, Size
-from renderer.raster.overlay import BACK_LIGHT, Plane
+from lucida.app.instruments.outside.diagram import Role, runs
+from lucida.app.instruments.outside.placing import Box, LabelPlacer
+from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.renderer.camera.camera import Floats, Size
+from lucida.renderer.raster.overlay import BACK_LIGHT, Plane
 
 Depths = NDArray[np.float32]
 Bools = NDArray[np.bool_]

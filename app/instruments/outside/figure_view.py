@@ -15,12 +15,12 @@ import numpy as np
 from imgui_bundle import ImVec2
 from numpy.typing import NDArray
 
-from app.images.renderers import look_of
-from app.images.request import ImageRequest
-from app.images.window_rasterizer import WindowRasterizer
-from app.instruments.outside.camera_diagram import Content
-from app.instruments.outside.diagram import Item, Role
-from app.instruments.outside.figure import (
+from lucida.app.images.renderers import look_of
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.window_rasterizer import WindowRasterizer
+from lucida.app.instruments.outside.camera_diagram import Content
+from lucida.app.instruments.outside.diagram import Item, Role
+from lucida.app.instruments.outside.figure import (
     WHITE,
     Color,
     Depths,
@@ -30,24 +30,24 @@ from app.instruments.outside.figure import (
     figure_parts,
     with_picture,
 )
-from app.instruments.outside.ground import SHIFTS
-from app.instruments.outside.growing import grown_diagram
-from app.instruments.outside.looking import nearest, scope_of, units_px
-from app.instruments.outside.paint import figure_color, ground_of
-from app.instruments.outside.projected import project
-from app.instruments.outside.screen import OutsideScreen, image_plane
-from app.instruments.outside.svg import svg
-from app.instruments.outside.view import OutsideView
-from app.ui import theme
-from app.ui.host import Host
-from app.ui.theme import framebuffer_scale
-from renderer.images.display import to_srgb8
-from renderer.scene.model import Scene
-from renderer.system.atomic import atomic_write
-from renderer.system.errors import LucidaError, describe
+from lucida.app.instruments.outside.ground import SHIFTS
+from lucida.app.instruments.outside.growing import grown_diagram
+from lucida.app.instruments.outside.looking import nearest, scope_of, units_px
+from lucida.app.instruments.outside.paint import figure_color, ground_of
+from lucida.app.instruments.outside.projected import project
+from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
+from lucida.app.instruments.outside.svg import svg
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.ui import theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.renderer.images.display import to_srgb8
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError, describe
 
 if TYPE_CHECKING:
-    from app.ui.host import Host
+    from lucida.app.ui.host import Host
 
 Ground = Literal["window", "white", "transparent"]
 PLACE = "Figure"  # see Rasterizer.draw

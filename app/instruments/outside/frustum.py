@@ -16,9 +16,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from app.state.options.shared import Pixel
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.lenses import Lens
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.lenses import Lens
 
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next

@@ -12,14 +12,14 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
 from numpy.typing import ArrayLike
 
-from app.instruments.outside.frustum import plane_corners
-from app.instruments.outside.mouse import Scope
-from app.instruments.outside.tint import handle_colors, hide_text, recolor
-from app.ui import theme
-from app.ui.host import Host
-from renderer.camera.camera import Camera, Floats, Vector
-from renderer.camera.checks import three, volume
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.outside.frustum import plane_corners
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.tint import handle_colors, hide_text, recolor
+from lucida.app.ui import theme
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera, Floats, Vector
+from lucida.renderer.camera.checks import three, volume
+from lucida.renderer.system.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo
 Kind = Literal["none", "move", "turn", "distance", "up"]

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
-from app.images.request import ImageRequest
-from app.images.window_rasterizer import WindowRasterizer
-from renderer.images.coarseness import STILL_S, reduced
-from renderer.raster.overlay import Overlay
-from renderer.raster.targets import Textures
-from renderer.system.memo import Memo
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.window_rasterizer import WindowRasterizer
+from lucida.renderer.images.coarseness import STILL_S, reduced
+from lucida.renderer.raster.overlay import Overlay
+from lucida.renderer.raster.targets import Textures
+from lucida.renderer.system.memo import Memo
 
 PLACES = {1: "Outside", 2: "Outside, moving"}  # by how many times coarser, see Rasterizer.draw
 SLOW_S = 1 / 30  # from one picture to the next while it moves: pictures become coarser

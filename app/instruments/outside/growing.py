@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.instruments.outside.camera_diagram import Content, diagram, plane_items
-from app.instruments.outside.diagram import (
+from lucida.app.instruments.outside.camera_diagram import Content, diagram, plane_items
+from lucida.app.instruments.outside.diagram import (
     Arrow,
     Dot,
     Face,
@@ -29,14 +29,20 @@ from app.instruments.outside.diagram import (
     in_notation,
     polyline,
 )
-from app.instruments.outside.frustum import Size, ideal_point, image_point, pixel_corners, ways
-from app.instruments.outside.simple_camera import simple_ray
-from app.state.options.outside import LENS_STAGES, STAGES
-from app.state.options.shared import Notation, Pixel
-from app.ui.explaining.notation import number, text_tuple
-from app.ui.explaining.symbols import latex
-from renderer.camera.camera import Camera, Floats
-from renderer.camera.checks import three
+from lucida.app.instruments.outside.frustum import (
+    Size,
+    ideal_point,
+    image_point,
+    pixel_corners,
+    ways,
+)
+from lucida.app.instruments.outside.simple_camera import simple_ray
+from lucida.app.state.options.outside import LENS_STAGES, STAGES
+from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.ui.explaining.notation import number, text_tuple
+from lucida.app.ui.explaining.symbols import latex
+from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.checks import three
 
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from app.instruments.outside.mouse import Scope
-from app.ui.guest import Click, Guest, ShownIn
-from app.ui.host import Host
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.ui.guest import Click, Guest, ShownIn
+from lucida.app.ui.host import Host
 
 
 class Hosted:

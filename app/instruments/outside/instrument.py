@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.instruments.outside.actions import DIAGRAM, OUTSIDE
-from app.instruments.outside.view import OutsideView
+from lucida.app.instruments.outside.actions import DIAGRAM, OUTSIDE
+from lucida.app.instruments.outside.view import OutsideView
 
 
 class Outside(OutsideView):

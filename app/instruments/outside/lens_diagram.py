@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.instruments.outside.diagram import Dot, Face, Item, Label, Segments, polyline
-from app.instruments.outside.frustum import (
+from lucida.app.instruments.outside.diagram import Dot, Face, Item, Label, Segments, polyline
+from lucida.app.instruments.outside.frustum import (
     Size,
     border,
     grid,
@@ -17,8 +17,8 @@ from app.instruments.outside.frustum import (
     pixel_corners,
     point_at,
 )
-from app.state.options.shared import Pixel
-from renderer.camera.camera import Camera, Floats
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.camera import Camera, Floats
 
 EDGES = 8  # rays along the border that stand for the edges of a pyramid
 SIDE_PARTS = 6  # faces for a side of the view volume

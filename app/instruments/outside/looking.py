@@ -13,19 +13,19 @@ from functools import lru_cache
 import numpy as np
 from imgui_bundle import ImVec2
 
-from app.images.ray_pictures import RayPainter, RayPictures
-from app.instruments.outside.diagram import RayEnd
-from app.instruments.outside.extent import around, framed, outside_camera, way_of
-from app.instruments.outside.frustum import bundle_pixels
-from app.instruments.outside.mouse import Scope
-from app.instruments.outside.screen import NEAREST, OutsideScreen
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.host import Host
-from app.ui.theme import framebuffer_scale
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.navigation import depth_of, orbited
-from renderer.system.memo import Memo, same
+from lucida.app.images.ray_pictures import RayPainter, RayPictures
+from lucida.app.instruments.outside.diagram import RayEnd
+from lucida.app.instruments.outside.extent import around, framed, outside_camera, way_of
+from lucida.app.instruments.outside.frustum import bundle_pixels
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.screen import NEAREST, OutsideScreen
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.navigation import depth_of, orbited
+from lucida.renderer.system.memo import Memo, same
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters

@@ -12,13 +12,13 @@ from itertools import groupby
 import numpy as np
 from imgui_bundle import ImVec4
 
-from app.instruments.outside.diagram import Role, Segments
-from app.instruments.outside.figure import Color
-from app.instruments.outside.projected import Primitive, Shape, Strokes, Text
-from app.ui import palettes, theme
-from renderer.camera.camera import Vector
-from renderer.images.display import to_srgb8
-from renderer.raster.lines import (
+from lucida.app.instruments.outside.diagram import Role, Segments
+from lucida.app.instruments.outside.figure import Color
+from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
+from lucida.app.ui import palettes, theme
+from lucida.renderer.camera.camera import Vector
+from lucida.renderer.images.display import to_srgb8
+from lucida.renderer.raster.lines import (
     BARE,
     CORNER,
     DASHED,

@@ -8,8 +8,8 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui import ImVec2Like
 
-from app.instruments.outside.diagram import runs
-from app.instruments.outside.figure import (
+from lucida.app.instruments.outside.diagram import runs
+from lucida.app.instruments.outside.figure import (
     RIM,
     WHITE,
     Color,
@@ -21,8 +21,8 @@ from app.instruments.outside.figure import (
     Polygon,
     dashes,
 )
-from app.ui.theme import Fonts, framebuffer_scale
-from app.ui.uploads import Uploads
+from lucida.app.ui.theme import Fonts, framebuffer_scale
+from lucida.app.ui.uploads import Uploads
 
 Point = tuple[float, float]
 Box = tuple[Point, Point]  # upper left and lower right corner

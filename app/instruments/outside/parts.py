@@ -8,13 +8,13 @@ from typing import Any, NamedTuple
 
 import moderngl
 
-from app.images.ray_pictures import RayPictures
-from app.instruments.outside.cloud_layer import CloudLayer
-from app.instruments.outside.ground import Ground
-from app.instruments.outside.projected import Primitive
-from app.instruments.outside.tools import Written
-from app.state.options.shared import Pixel
-from renderer.raster.overlay import Overlay
+from lucida.app.images.ray_pictures import RayPictures
+from lucida.app.instruments.outside.cloud_layer import CloudLayer
+from lucida.app.instruments.outside.ground import Ground
+from lucida.app.instruments.outside.projected import Primitive
+from lucida.app.instruments.outside.tools import Written
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.raster.overlay import Overlay
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,16 +14,16 @@ from typing import Literal
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments
-from app.instruments.outside.frustum import has_plane, image_point, plane_corners
-from app.instruments.outside.mouse import Scope
-from app.instruments.outside.screen import OutsideScreen
-from app.ui import theme
-from app.ui.host import Host
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.intrinsics import PixelOrigin
-from renderer.system.errors import LucidaError
-from renderer.system.memo import Memo
+from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments
+from lucida.app.instruments.outside.frustum import has_plane, image_point, plane_corners
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.ui import theme
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.intrinsics import PixelOrigin
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.memo import Memo
 
 Part = Literal["grid", "corner", "point"]
 

@@ -14,8 +14,8 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.outside.projected import Primitive, Shape, Strokes, Text
-from renderer.camera.camera import Floats
+from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
+from lucida.renderer.camera.camera import Floats
 
 Spot = tuple[float, float]
 Label = tuple[str, str, int]  # name, role, how many before it have both

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.instruments.outside.diagram import (
+from lucida.app.instruments.outside.diagram import (
     Arrow,
     Dot,
     Eye,
@@ -24,9 +24,9 @@ from app.instruments.outside.diagram import (
     Segments,
     polyline,
 )
-from app.instruments.outside.screen import OutsideScreen, Seen
-from renderer.camera.camera import Floats
-from renderer.camera.checks import cross
+from lucida.app.instruments.outside.screen import OutsideScreen, Seen
+from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import cross
 
 CIRCLE = 28  # corners of what is round
 HEAD = 4.2  # the least length of an arrow's head, in widths of its shaft

@@ -8,12 +8,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments, in_notation
-from app.instruments.outside.frustum import Size, plane_parameter, point_at
-from app.state.options.outside import Point
-from app.state.options.shared import Notation, Pixel
-from app.ui.explaining.notation import number
-from renderer.camera.camera import Camera, Floats
+from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments, in_notation
+from lucida.app.instruments.outside.frustum import Size, plane_parameter, point_at
+from lucida.app.state.options.outside import Point
+from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.ui.explaining.notation import number
+from lucida.renderer.camera.camera import Camera, Floats
 
 BEFORE, LAST = -1.2, 4.0  # the least and the largest t that is drawn of a line
 NAMED = 2.5  # the t at which the line's formula is written

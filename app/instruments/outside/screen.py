@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.outside.frustum import has_plane, plane_corners
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.raster.overlay import Plane, plane_on_screen
+from lucida.app.instruments.outside.frustum import has_plane, plane_corners
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.raster.overlay import Plane, plane_on_screen
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
 NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene

@@ -10,8 +10,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.instruments.outside.diagram import Dot, Face, Item, Label, RayEnd, Role, Segments, polyline
-from renderer.camera.camera import Floats
+from lucida.app.instruments.outside.diagram import (
+    Dot,
+    Face,
+    Item,
+    Label,
+    RayEnd,
+    Role,
+    Segments,
+    polyline,
+)
+from lucida.renderer.camera.camera import Floats
 
 SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
 ROLE: Role = "other"

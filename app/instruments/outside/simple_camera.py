@@ -8,11 +8,20 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from app.instruments.outside.diagram import Arrow, Dot, Eye, Face, Item, Label, Segments, polyline
-from app.instruments.outside.frustum import Size, image_point, pixel_corners, plane_corners
-from app.state.options.shared import Pixel
-from app.ui.explaining.notation import number, text_tuple
-from renderer.camera.camera import Camera, Floats
+from lucida.app.instruments.outside.diagram import (
+    Arrow,
+    Dot,
+    Eye,
+    Face,
+    Item,
+    Label,
+    Segments,
+    polyline,
+)
+from lucida.app.instruments.outside.frustum import Size, image_point, pixel_corners, plane_corners
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.explaining.notation import number, text_tuple
+from lucida.renderer.camera.camera import Camera, Floats
 
 MOST_NUMBERED = 12  # rows or columns that are all numbered
 AXES = 0.55  # the length of the world's axes, in distances of the image plane

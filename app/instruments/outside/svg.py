@@ -15,8 +15,8 @@ from html import escape
 import numpy as np
 from PIL import Image
 
-from app.instruments.outside.diagram import runs
-from app.instruments.outside.figure import (
+from lucida.app.instruments.outside.diagram import runs
+from lucida.app.instruments.outside.figure import (
     DASHES,
     RIM,
     WHITE,
@@ -29,7 +29,7 @@ from app.instruments.outside.figure import (
     Picture,
     Polygon,
 )
-from renderer.images.display import Bytes
+from lucida.renderer.images.display import Bytes
 
 FONTS = "Roboto, Helvetica, Arial, narrowed, sans-serif"  # narrowed: in lecture.css
 MONO = "Roboto Mono, Consolas, Menlo, monospace"

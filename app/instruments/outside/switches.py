@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.state.options.outside import LENS_STAGES, OutsideOptions
+from lucida.app.state.options.outside import LENS_STAGES, OutsideOptions
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 AXIS_NAMES = {

@@ -12,7 +12,7 @@ import numpy as np
 from imgui_bundle import ImVec4, imgui
 from numpy.typing import NDArray
 
-from app.ui import theme
+from lucida.app.ui import theme
 
 Rgb = tuple[int, int, int]
 

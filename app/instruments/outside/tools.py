@@ -11,15 +11,15 @@ from typing import NamedTuple
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.instruments.outside.diagram import Role
-from app.instruments.outside.extent import way_of
-from app.instruments.outside.looking import TRIAD_PX, Floats, camera_along
-from app.instruments.outside.mouse import Scope
-from app.instruments.outside.paint import role_color
-from app.instruments.outside.painting import measured, rimmed_text
-from app.instruments.outside.placing import Box, Edges, LabelPlacer
-from app.instruments.outside.projected import Primitive, Text
-from app.instruments.outside.switches import (
+from lucida.app.instruments.outside.diagram import Role
+from lucida.app.instruments.outside.extent import way_of
+from lucida.app.instruments.outside.looking import TRIAD_PX, Floats, camera_along
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.paint import role_color
+from lucida.app.instruments.outside.painting import measured, rimmed_text
+from lucida.app.instruments.outside.placing import Box, Edges, LabelPlacer
+from lucida.app.instruments.outside.projected import Primitive, Text
+from lucida.app.instruments.outside.switches import (
     AXIS_NAMES,
     SWITCHES,
     handles,
@@ -27,13 +27,13 @@ from app.instruments.outside.switches import (
     toggled,
     with_gizmo,
 )
-from app.state.bounds import whole_range_of
-from app.state.options.outside import OutsideOptions
-from app.ui import theme
-from app.ui.areas import press_area
-from app.ui.host import Host
-from app.ui.theme import framebuffer_scale
-from renderer.camera.camera import Camera
+from lucida.app.state.bounds import whole_range_of
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.app.ui import theme
+from lucida.app.ui.areas import press_area
+from lucida.app.ui.host import Host
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.renderer.camera.camera import Camera
 
 PAD = 6  # around the menu's button
 

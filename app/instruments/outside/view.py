@@ -16,21 +16,21 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from app.cameras.travel import Ends
-from app.images.picking import line_meetings, object_on_ray
-from app.images.renderers import look_of
-from app.images.request import ImageRequest
-from app.images.screen import available_px
-from app.instruments.outside.camera_diagram import Content
-from app.instruments.outside.cloud import Cloud
-from app.instruments.outside.diagram import Item
-from app.instruments.outside.extensions import Extension, Extensions
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.frustum import pixel_seen, plane_corners
-from app.instruments.outside.gizmo import Gizmo
-from app.instruments.outside.growing import grown_diagram
-from app.instruments.outside.hosted import Hosted
-from app.instruments.outside.looking import (
+from lucida.app.cameras.travel import Ends
+from lucida.app.images.picking import line_meetings, object_on_ray
+from lucida.app.images.renderers import look_of
+from lucida.app.images.request import ImageRequest
+from lucida.app.images.screen import available_px
+from lucida.app.instruments.outside.camera_diagram import Content
+from lucida.app.instruments.outside.cloud import Cloud
+from lucida.app.instruments.outside.diagram import Item
+from lucida.app.instruments.outside.extensions import Extension, Extensions
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.frustum import pixel_seen, plane_corners
+from lucida.app.instruments.outside.gizmo import Gizmo
+from lucida.app.instruments.outside.growing import grown_diagram
+from lucida.app.instruments.outside.hosted import Hosted
+from lucida.app.instruments.outside.looking import (
     Scopes,
     camera_for_all,
     nearest,
@@ -38,28 +38,28 @@ from app.instruments.outside.looking import (
     units_px,
     widest_px,
 )
-from app.instruments.outside.mouse import Mouse, Scope
-from app.instruments.outside.paint import CASING, ground_of, layers
-from app.instruments.outside.parts import MadePicture, Tools
-from app.instruments.outside.pixel_plane import PixelPlane
-from app.instruments.outside.placing import Edges, LabelPlacer
-from app.instruments.outside.projected import Primitive, project
-from app.instruments.outside.screen import OutsideScreen, image_plane
-from app.instruments.outside.tools import draw_labels, use_tools, written
-from app.instruments.outside.widening import Widening
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.areas import focused_steps, mouse_area
-from app.ui.host import Host
-from app.ui.instrument import Instrument
-from app.ui.theme import framebuffer_scale
-from renderer.camera.camera import Camera, Size
-from renderer.camera.navigation import orbited
-from renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
-from renderer.scene.model import Scene
-from renderer.system.errors import LucidaError, describe
-from renderer.system.memo import Memo, same
+from lucida.app.instruments.outside.mouse import Mouse, Scope
+from lucida.app.instruments.outside.paint import CASING, ground_of, layers
+from lucida.app.instruments.outside.parts import MadePicture, Tools
+from lucida.app.instruments.outside.pixel_plane import PixelPlane
+from lucida.app.instruments.outside.placing import Edges, LabelPlacer
+from lucida.app.instruments.outside.projected import Primitive, project
+from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
+from lucida.app.instruments.outside.tools import draw_labels, use_tools, written
+from lucida.app.instruments.outside.widening import Widening
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.areas import focused_steps, mouse_area
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.navigation import orbited
+from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.memo import Memo, same
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.instruments.outside.answers import points_of
-from app.instruments.outside.diagram import Item
-from renderer.camera.camera import Camera, Floats
-from renderer.system.errors import LucidaError
+from lucida.app.instruments.outside.answers import points_of
+from lucida.app.instruments.outside.diagram import Item
+from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from app.instruments.outside.mouse import Scope
-    from app.ui.host import Host
+    from lucida.app.instruments.outside.mouse import Scope
+    from lucida.app.ui.host import Host
 
 
 LABEL_PX = (75.0, 35.0)  # at both ends of a side, for what is written there

@@ -12,18 +12,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.cameras.taken import is_fitted
-from app.instruments.outside.cloud import Cloud
-from app.instruments.outside.diagram import Segments
-from app.instruments.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
-from app.instruments.outside.frustum import border
-from app.state.app_state import AppState
-from app.state.paths import stored
-from renderer.camera.camera import Camera, Size
-from renderer.files.cameras import CameraSet, PosedCamera, read_cameras
-from renderer.files.cameras.given import Options, given
-from renderer.scene.model import Scene, View
-from renderer.system.file_dependencies import Noted
+from lucida.app.cameras.taken import is_fitted
+from lucida.app.instruments.outside.cloud import Cloud
+from lucida.app.instruments.outside.diagram import Segments
+from lucida.app.instruments.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
+from lucida.app.instruments.outside.frustum import border
+from lucida.app.state.app_state import AppState
+from lucida.app.state.paths import stored
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.files.cameras import CameraSet, PosedCamera, read_cameras
+from lucida.renderer.files.cameras.given import Options, given
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.system.file_dependencies import Noted
 
 Floats = NDArray[np.float64]
 

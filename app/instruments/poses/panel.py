@@ -12,17 +12,17 @@ from typing import Literal
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.poses.model import PoseSet
-from app.state.bounds import range_of
-from app.state.options.poses import PosesOptions
-from app.ui import theme
-from app.ui.checks import checkbox
-from app.ui.lettering import fitting_words, lettering
-from app.ui.messages import SHOWN_AFTER_S, progress, wrapped
-from app.ui.rows import follow, tip
-from app.ui.sliders import slider_float
-from app.ui.theme import Fonts, framebuffer_scale
-from renderer.system.errors import one_line
+from lucida.app.instruments.poses.model import PoseSet
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.poses import PosesOptions
+from lucida.app.ui import theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.lettering import fitting_words, lettering
+from lucida.app.ui.messages import SHOWN_AFTER_S, progress, wrapped
+from lucida.app.ui.rows import follow, tip
+from lucida.app.ui.sliders import slider_float
+from lucida.app.ui.theme import Fonts, framebuffer_scale
+from lucida.renderer.system.errors import one_line
 
 PoseWish = Literal[
     "", "open", "close", "frame", "cancel", "next", "previous", "first", "last", "lay"

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.poses.model import PoseSet
-from app.instruments.poses.reprojected import bare, with_points
-from app.ui.background import Background
-from renderer.system.errors import one_line
+from lucida.app.instruments.poses.model import PoseSet
+from lucida.app.instruments.poses.reprojected import bare, with_points
+from lucida.app.ui.background import Background
+from lucida.renderer.system.errors import one_line
 
 SIDE_PX = 800  # a picture's longer side, at most
 KEPT = 24  # pictures: at most 50 MB

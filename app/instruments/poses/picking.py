@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.outside.screen import OutsideScreen
-from app.instruments.poses.model import PoseSet, frusta
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.instruments.poses.model import PoseSet, frusta
 
 REACH_PX = 7.0  # from a line, in units of symbols
 AS_NEAR_PX = 1.5  # of two frusta whose lines are as near, the one in front

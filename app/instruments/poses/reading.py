@@ -10,16 +10,16 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.cameras.taken import TakenCamera, is_fitted, told_of
-from app.instruments.poses.model import PoseSet, load_poses, pose_set
-from app.instruments.poses.photographs import with_photographs
-from app.ui.background import Background
-from app.ui.watching import FilesWatch
-from renderer.files.cameras.given import Given, Options, given
-from renderer.scene.model import View
-from renderer.system.cancelling import check_cancelled
-from renderer.system.errors import LucidaError, describe, one_line
-from renderer.system.file_dependencies import Noted, noting
+from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
+from lucida.app.instruments.poses.model import PoseSet, load_poses, pose_set
+from lucida.app.instruments.poses.photographs import with_photographs
+from lucida.app.ui.background import Background
+from lucida.app.ui.watching import FilesWatch
+from lucida.renderer.files.cameras.given import Given, Options, given
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.cancelling import check_cancelled
+from lucida.renderer.system.errors import LucidaError, describe, one_line
+from lucida.renderer.system.file_dependencies import Noted, noting
 
 KEPT = 2
 # Of files that hold no scene.

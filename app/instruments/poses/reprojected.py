@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.poses.model import PoseSet
+from lucida.app.instruments.poses.model import PoseSet
 
 Bytes = NDArray[np.uint8]
 BARE = (40, 44, 49)  # without a photograph

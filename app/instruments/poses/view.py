@@ -13,14 +13,14 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import imgui
 
-from app.images.photograph.model import closed, with_photograph
-from app.instruments.outside.diagram import Dot, Face, Item, Label, Role, Segments
-from app.instruments.outside.looking import nearest
-from app.instruments.outside.mouse import Scope
-from app.instruments.outside.screen import OutsideScreen
-from app.instruments.outside.view import OutsideView
-from app.instruments.poses import panel
-from app.instruments.poses.model import (
+from lucida.app.images.photograph.model import closed, with_photograph
+from lucida.app.instruments.outside.diagram import Dot, Face, Item, Label, Role, Segments
+from lucida.app.instruments.outside.looking import nearest
+from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.instruments.poses import panel
+from lucida.app.instruments.poses.model import (
     PoseSet,
     cloud,
     frusta,
@@ -29,21 +29,21 @@ from app.instruments.poses.model import (
     with_set,
     with_set_framed,
 )
-from app.instruments.poses.panel import PoseWish
-from app.instruments.poses.photographs import Photograph, Photographs, photo_path
-from app.instruments.poses.picking import picked
-from app.instruments.poses.reading import PosesReader
-from app.state.app_state import AppState
-from app.state.paths import restored
-from app.ui import layout, theme
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from app.ui.theme import framebuffer_scale
-from app.ui.uploads import Uploads
-from renderer.camera.camera import Camera, Size
-from renderer.scene import Scene
-from renderer.system.errors import one_line
-from renderer.system.memo import Memo
+from lucida.app.instruments.poses.panel import PoseWish
+from lucida.app.instruments.poses.photographs import Photograph, Photographs, photo_path
+from lucida.app.instruments.poses.picking import picked
+from lucida.app.instruments.poses.reading import PosesReader
+from lucida.app.state.app_state import AppState
+from lucida.app.state.paths import restored
+from lucida.app.ui import layout, theme
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.scene import Scene
+from lucida.renderer.system.errors import one_line
+from lucida.renderer.system.memo import Memo
 
 POSES = "Poses"
 PHOTO = "photograph"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.state.app_state import AppState
-from app.ui.action import Action, changing
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.action import Action, changing
 
 
 def _pinned(state: AppState) -> AppState:

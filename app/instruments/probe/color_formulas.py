@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from app.instruments.probe.reading import Bounce, Reading
-from app.ui.explaining.notation import (
+from lucida.app.instruments.probe.reading import Bounce, Reading
+from lucida.app.ui.explaining.notation import (
     DECIMALS,
     Line,
     Slot,
@@ -22,15 +22,15 @@ from app.ui.explaining.notation import (
     number,
     scalar_slot,
 )
-from app.ui.explaining.shading import Lamp, Shading
-from renderer.images.shared_numbers import (
+from lucida.app.ui.explaining.shading import Lamp, Shading
+from lucida.renderer.images.shared_numbers import (
     SRGB_GAMMA,
     SRGB_LINEAR,
     SRGB_SCALE,
     SRGB_SHIFT,
     SRGB_SLOPE,
 )
-from renderer.scene.model import Color
+from lucida.renderer.scene.model import Color
 
 LIGHT = r"\mathbf{L}"
 

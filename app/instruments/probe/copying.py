@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from app.instruments.probe.color_formulas import color_lines
-from app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
-from app.instruments.probe.lens_program import lens_program
-from app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
-from app.state.options.shared import Notation
-from app.ui.explaining.languages import julia
-from app.ui.explaining.notation import Line, number
-from app.ui.explaining.symbols import in_notation, program
-from renderer.camera.pixels import Indexing
-from renderer.images.shared_numbers import (
+from lucida.app.instruments.probe.color_formulas import color_lines
+from lucida.app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
+from lucida.app.instruments.probe.lens_program import lens_program
+from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.languages import julia
+from lucida.app.ui.explaining.notation import Line, number
+from lucida.app.ui.explaining.symbols import in_notation, program
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.images.shared_numbers import (
     SRGB_GAMMA,
     SRGB_LINEAR,
     SRGB_SCALE,

@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera.camera import Floats
-from renderer.scene.flat import FlatScene
-from renderer.scene.positions import world_vertices
-from renderer.scene.sampling import are_passed
+from lucida.renderer.camera.camera import Floats
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.scene.positions import world_vertices
+from lucida.renderer.scene.sampling import are_passed
 
 RUN = 64  # triangles that share a box
 CELLS = 1023  # of the grid that sorts triangles, along each axis

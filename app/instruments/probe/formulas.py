@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.instruments.probe.lens_formulas import lens_lines
-from app.instruments.probe.reading import Reading
-from app.ui.explaining.notation import (
+from lucida.app.instruments.probe.lens_formulas import lens_lines
+from lucida.app.instruments.probe.reading import Reading
+from lucida.app.ui.explaining.notation import (
     Line,
     Slot,
     formula,
@@ -22,9 +22,9 @@ from app.ui.explaining.notation import (
     scalar_slot,
     vector_slot,
 )
-from app.ui.explaining.shading import SurfaceHit
-from renderer.camera.camera import Camera
-from renderer.camera.pixels import Indexing
+from lucida.app.ui.explaining.shading import SurfaceHit
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import Indexing
 
 LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
 LEAST_COSINE = (

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.instruments.probe.reading import Reading
-from app.ui.explaining.notation import (
+from lucida.app.instruments.probe.reading import Reading
+from lucida.app.ui.explaining.notation import (
     Line,
     Slot,
     formula,
@@ -20,7 +20,7 @@ from app.ui.explaining.notation import (
     scalar_slot,
     vector_slot,
 )
-from renderer.camera.lenses import Lens
+from lucida.renderer.camera.lenses import Lens
 
 # The angle of an ideal fisheye's radius r': as LaTeX and as text.
 ANGLES = {

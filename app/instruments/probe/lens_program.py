@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.instruments.probe.reading import Reading
-from renderer.camera.lenses import Lens
+from lucida.app.instruments.probe.reading import Reading
+from lucida.renderer.camera.lenses import Lens
 
 _RADIAL = {"brown": ("k1", "k2", "k3", "r8"), "fisheye": ("k1", "k2", "k3", "k4")}
 _ANGLES = {

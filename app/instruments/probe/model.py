@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from app.instruments.probe.crossings import NOTHING, Crossings, Index
-from app.instruments.probe.reading import (
+from lucida.app.instruments.probe.crossings import NOTHING, Crossings, Index
+from lucida.app.instruments.probe.reading import (
     BEHIND,
     FAR,
     HIDDEN,
@@ -22,15 +22,15 @@ from app.instruments.probe.reading import (
     Meeting,
     Reading,
 )
-from app.ui.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
-from renderer.camera.camera import Camera, Size, Vector
-from renderer.camera.checks import three
-from renderer.images.display import encode_srgb
-from renderer.images.frame import check_size
-from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import Color, Scene, Sphere
-from renderer.system.errors import LucidaError
-from renderer.trace import pure_python as scalar
+from lucida.app.ui.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
+from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.checks import three
+from lucida.renderer.images.display import encode_srgb
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import Color, Scene, Sphere
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace import pure_python as scalar
 
 
 class Probe:
@@ -148,7 +148,7 @@ class Probe:
 
     def _away(self) -> float:
         """Return the distance from a surface at which its rays start, in world units."""
-        from renderer.trace.tiles.effects import effects_of  # here: it loads the compiler
+        from lucida.renderer.trace.tiles.effects import effects_of  # here: it loads the compiler
 
         effects = effects_of(True, 0, self.flat.bounds)
         assert effects is not None

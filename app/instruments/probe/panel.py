@@ -12,23 +12,29 @@ from dataclasses import dataclass, replace
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from app.instruments.outside.growing import lit_in
-from app.instruments.probe.copying import as_julia, as_latex, as_python, as_text, section_lines
-from app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
-from app.state.app_state import AppState
-from app.state.options.shared import Notation, Pixel
-from app.ui import palettes, theme
-from app.ui.checks import checkbox
-from app.ui.explaining.notation import Line, number
-from app.ui.formula import Formula, formula, lit
-from app.ui.lettering import lettering
-from app.ui.messages import wrapped
-from app.ui.rows import button_width, follow, tip
-from app.ui.theme import Fonts
-from renderer.camera.camera import Size
-from renderer.camera.pixels import Indexing
-from renderer.images.display import encode_srgb
-from renderer.scene.model import Color
+from lucida.app.instruments.outside.growing import lit_in
+from lucida.app.instruments.probe.copying import (
+    as_julia,
+    as_latex,
+    as_python,
+    as_text,
+    section_lines,
+)
+from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.ui import palettes, theme
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.explaining.notation import Line, number
+from lucida.app.ui.formula import Formula, formula, lit
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.messages import wrapped
+from lucida.app.ui.rows import button_width, follow, tip
+from lucida.app.ui.theme import Fonts
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.images.display import encode_srgb
+from lucida.renderer.scene.model import Color
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
 MOST_ALSO = 3  # further intersections of an object that are listed

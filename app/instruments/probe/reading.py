@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from app.ui.explaining.shading import Shading, SurfaceHit
-from renderer.camera.camera import Camera, Size, Vector
-from renderer.scene.model import Color
+from lucida.app.ui.explaining.shading import Shading, SurfaceHit
+from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.scene.model import Color
 
 # The relation of a crossing to the pixel.
 SEEN = "seen"  # the nearest within the ray: the winner

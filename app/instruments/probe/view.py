@@ -14,27 +14,27 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from app.images.pair.marks import walked
-from app.images.pair.view import RasterView
-from app.images.request import MIRROR_DEPTH
-from app.instruments.outside.diagram import Arrow, Dot, Item, Segments
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.growing import stage_at, stages_of
-from app.instruments.outside.view import OutsideView
-from app.instruments.probe import panel
-from app.instruments.probe.actions import PINNING
-from app.instruments.probe.model import Probe
-from app.instruments.probe.reading import Reading
-from app.state.app_state import AppState
-from app.state.options.shared import Pixel
-from app.ui import formula, theme
-from app.ui.background import Background
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from app.ui.messages import wrapped
-from renderer.camera.camera import Camera, Size
-from renderer.system.errors import describe
-from renderer.system.memo import Memo
+from lucida.app.images.pair.marks import walked
+from lucida.app.images.pair.view import RasterView
+from lucida.app.images.request import MIRROR_DEPTH
+from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Segments
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.growing import stage_at, stages_of
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.instruments.probe import panel
+from lucida.app.instruments.probe.actions import PINNING
+from lucida.app.instruments.probe.model import Probe
+from lucida.app.instruments.probe.reading import Reading
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import formula, theme
+from lucida.app.ui.background import Background
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.messages import wrapped
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.system.errors import describe
+from lucida.renderer.system.memo import Memo
 
 PROBE = "Probe"
 ARROWS = (

@@ -6,9 +6,9 @@ display, and so that no key has two meanings.
 
 from __future__ import annotations
 
-from app.instruments.stepper.controls import STEPS, Step
-from app.instruments.stepper.view import STEPPER, StepperView
-from app.ui.action import Action
+from lucida.app.instruments.stepper.controls import STEPS, Step
+from lucida.app.instruments.stepper.view import STEPPER, StepperView
+from lucida.app.ui.action import Action
 
 
 def _stepping(step: Step) -> Action:

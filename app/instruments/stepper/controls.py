@@ -8,12 +8,12 @@ from typing import Literal, NamedTuple, TypeVar
 
 from imgui_bundle import ImVec2, imgui
 
-from app.state.bounds import range_of
-from app.state.options.shared import Language
-from app.state.options.stepper import StepperOptions
-from app.ui.checks import checkbox
-from app.ui.rows import button_width, follow, tip
-from app.ui.sliders import slider_float
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options.shared import Language
+from lucida.app.state.options.stepper import StepperOptions
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.rows import button_width, follow, tip
+from lucida.app.ui.sliders import slider_float
 
 T = TypeVar("T")
 CANVASES: dict[tuple[int, int], str] = {

@@ -9,17 +9,17 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.stepper.source import shown_lines
-from app.state.app_state import AppState
-from app.ui import theme
-from app.ui.canvas import Marks, canvas_unit, draw_canvas
-from app.ui.code import LINE, code, code_size
-from app.ui.explaining.breaking import narrowed
-from app.ui.explaining.languages import julia
-from app.ui.lettering import lettering
-from app.ui.theme import Fonts
-from renderer.camera.camera import Size
-from renderer.camera.pixels import Indexing
+from lucida.app.instruments.stepper.source import shown_lines
+from lucida.app.state.app_state import AppState
+from lucida.app.ui import theme
+from lucida.app.ui.canvas import Marks, canvas_unit, draw_canvas
+from lucida.app.ui.code import LINE, code, code_size
+from lucida.app.ui.explaining.breaking import narrowed
+from lucida.app.ui.explaining.languages import julia
+from lucida.app.ui.lettering import lettering
+from lucida.app.ui.theme import Fonts
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.pixels import Indexing
 
 GAP_EM = 0.9
 MOST_CODE = 0.68  # of the width or height

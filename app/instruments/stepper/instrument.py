@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.instruments.stepper.actions import STEPPING
-from app.instruments.stepper.view import StepperView
+from lucida.app.instruments.stepper.actions import STEPPING
+from lucida.app.instruments.stepper.view import StepperView
 
 
 class Stepper(StepperView):

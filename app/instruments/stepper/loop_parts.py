@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.instruments.probe.crossings import Index
-from renderer.camera.camera import Camera, Floats, Size, Vector
-from renderer.camera.checks import three
-from renderer.scene.flat import FlatScene, flatten
-from renderer.scene.model import Color, Scene
-from renderer.trace import pure_python as scalar
+from lucida.app.instruments.probe.crossings import Index
+from lucida.renderer.camera.camera import Camera, Floats, Size, Vector
+from lucida.renderer.camera.checks import three
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import Color, Scene
+from lucida.renderer.trace import pure_python as scalar
 
 
 class ViewingRay(NamedTuple):

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from app.instruments.stepper.loop_parts import Hit, Object, ViewingRay
-from app.instruments.stepper.raster_parts import WHOLE, Corner, Triangle
-from app.instruments.stepper.recording import Recording
-from app.ui.explaining.columns import Column
-from app.ui.explaining.notation import number, text_tuple
-from renderer.camera.camera import Floats
+from lucida.app.instruments.stepper.loop_parts import Hit, Object, ViewingRay
+from lucida.app.instruments.stepper.raster_parts import WHOLE, Corner, Triangle
+from lucida.app.instruments.stepper.recording import Recording
+from lucida.app.ui.explaining.columns import Column
+from lucida.app.ui.explaining.notation import number, text_tuple
+from lucida.renderer.camera.camera import Floats
 
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip

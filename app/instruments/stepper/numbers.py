@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from app.instruments.stepper.model import Variable, describe
-from app.state.options.shared import Notation
-from app.ui import theme
-from app.ui.explaining import symbols
-from app.ui.lettering import underline
-from app.ui.rows import follow
-from app.ui.theme import Fonts
-from renderer.camera.pixels import Indexing
+from lucida.app.instruments.stepper.model import Variable, describe
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui import theme
+from lucida.app.ui.explaining import symbols
+from lucida.app.ui.lettering import underline
+from lucida.app.ui.rows import follow
+from lucida.app.ui.theme import Fonts
+from lucida.renderer.camera.pixels import Indexing
 
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 

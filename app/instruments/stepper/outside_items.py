@@ -7,13 +7,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from app.instruments.outside.diagram import Dot, Face, Item, Segments, polyline
-from app.instruments.outside.frustum import image_point, pixel_corners
-from app.instruments.stepper.loop_parts import ViewingRay
-from app.instruments.stepper.model import Moment
-from app.instruments.stepper.programs import Hits
-from app.state.options.shared import Pixel
-from renderer.camera.camera import Camera, Size
+from lucida.app.instruments.outside.diagram import Dot, Face, Item, Segments, polyline
+from lucida.app.instruments.outside.frustum import image_point, pixel_corners
+from lucida.app.instruments.stepper.loop_parts import ViewingRay
+from lucida.app.instruments.stepper.model import Moment
+from lucida.app.instruments.stepper.programs import Hits
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.camera import Camera, Size
 
 
 def run_items(camera: Camera, size: Size, moments: tuple[Moment, ...], end: float) -> list[Item]:

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.stepper.drawing import Drawn, draw_program, written
-from app.instruments.stepper.model import Moment
-from app.instruments.stepper.numbers import numbers
-from app.instruments.stepper.recording import MOST_STEPS, Order, Recording
-from app.state.app_state import AppState
-from app.ui.canvas import Marks
-from app.ui.rows import follow
-from app.ui.sliders import slider_int
-from app.ui.theme import Fonts
+from lucida.app.instruments.stepper.drawing import Drawn, draw_program, written
+from lucida.app.instruments.stepper.model import Moment
+from lucida.app.instruments.stepper.numbers import numbers
+from lucida.app.instruments.stepper.recording import MOST_STEPS, Order, Recording
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.canvas import Marks
+from lucida.app.ui.rows import follow
+from lucida.app.ui.sliders import slider_int
+from lucida.app.ui.theme import Fonts
 
 TITLES = {Order.RASTER: "Object order: rasterization", Order.IMAGE: "Image order: ray tracing"}
 SLIDER_EM = 12.0  # the least width of the slider next to a title

@@ -8,12 +8,12 @@ from collections.abc import Callable
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.view import OutsideView
-from app.instruments.stepper.drawing import Drawn, draw_program, written
-from app.instruments.stepper.loop_parts import Model
-from app.instruments.stepper.outside_items import traced_items
-from app.instruments.stepper.programs import (
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.instruments.stepper.drawing import Drawn, draw_program, written
+from lucida.app.instruments.stepper.loop_parts import Model
+from lucida.app.instruments.stepper.outside_items import traced_items
+from lucida.app.instruments.stepper.programs import (
     IMAGE_ORDER,
     OBJECT_ORDER,
     RAY_TRACING,
@@ -24,16 +24,16 @@ from app.instruments.stepper.programs import (
     run_part,
     whole_program,
 )
-from app.instruments.stepper.questions import draw_questions
-from app.instruments.stepper.runs import Prepared
-from app.state.options.shared import Pixel
-from app.ui import theme
-from app.ui.canvas import Marks, color_picture
-from app.ui.host import Host
-from app.ui.uploads import Uploads
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.system.errors import describe
-from renderer.system.memo import Memo
+from lucida.app.instruments.stepper.questions import draw_questions
+from lucida.app.instruments.stepper.runs import Prepared
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import theme
+from lucida.app.ui.canvas import Marks, color_picture
+from lucida.app.ui.host import Host
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.system.errors import describe
+from lucida.renderer.system.memo import Memo
 
 TEXT = 0.12  # of the height, above the two loops: for a text that lies over it
 

@@ -15,10 +15,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
-from app.state.options.shared import Pixel
-from renderer.camera.camera import Camera, Floats, Size
-from renderer.camera.checks import three
+from lucida.app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.checks import three
 
 GLOW = 0.01  # of a run: the lines that have just been executed shine together
 # When a line is executed: once, in each row, in each turn of the outer loop, in each turn of the

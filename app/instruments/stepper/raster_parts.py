@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from app.instruments.stepper.loop_parts import (
+from lucida.app.instruments.stepper.loop_parts import (
     Canvas,
     DepthBuffer,
     Model,
@@ -26,11 +26,11 @@ from app.instruments.stepper.loop_parts import (
     light_at,
     viewing_ray,
 )
-from renderer.camera.camera import NEAREST, Camera, Floats, Size, Vector
-from renderer.scene.flat import FlatScene
-from renderer.scene.model import Color
-from renderer.scene.sampling import on_triangles, opacity
-from renderer.trace import pure_python as scalar
+from lucida.renderer.camera.camera import NEAREST, Camera, Floats, Size, Vector
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.scene.model import Color
+from lucida.renderer.scene.sampling import on_triangles, opacity
+from lucida.renderer.trace import pure_python as scalar
 
 WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on

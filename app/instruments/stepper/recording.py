@@ -14,13 +14,13 @@ from enum import Enum
 from types import FrameType
 from typing import Any
 
-from app.instruments.stepper.loop_parts import Model
-from app.instruments.stepper.loops import image_order, rasterization
-from app.instruments.stepper.source import Source, source_of
-from app.state.bounds import check, whole_range_of
-from app.state.options.stepper import StepperOptions
-from app.ui.explaining.columns import Column
-from renderer.camera.camera import Camera, Size
+from lucida.app.instruments.stepper.loop_parts import Model
+from lucida.app.instruments.stepper.loops import image_order, rasterization
+from lucida.app.instruments.stepper.source import Source, source_of
+from lucida.app.state.bounds import check, whole_range_of
+from lucida.app.state.options.stepper import StepperOptions
+from lucida.app.ui.explaining.columns import Column
+from lucida.renderer.camera.camera import Camera, Size
 
 MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
 # The interpreter is left to other threads for a moment, this often.

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Generic, NamedTuple, TypeVar
 
-from app.instruments.stepper.loop_parts import Model
-from app.instruments.stepper.recording import Order, Recording
-from app.ui.background import Background
-from renderer.camera.camera import Camera, Size
-from renderer.scene.model import Scene
-from renderer.system.memo import Memo, same
+from lucida.app.instruments.stepper.loop_parts import Model
+from lucida.app.instruments.stepper.recording import Order, Recording
+from lucida.app.ui.background import Background
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.memo import Memo, same
 
 T = TypeVar("T")
 

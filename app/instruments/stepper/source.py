@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from app.state.options.shared import Notation
-from app.ui.explaining import symbols
-from renderer.camera.pixels import Indexing
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining import symbols
+from lucida.renderer.camera.pixels import Indexing
 
 _COMMENT = re.compile(r"(?P<code>[^#\n]+)(?P<comment>(?:#.*)?)")
 # Python that counts pixels from 0, and the same from 1; its arrays count from 0 in any case.

@@ -13,25 +13,25 @@ from dataclasses import replace
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from app.instruments.outside.extent import end_parameter
-from app.instruments.outside.view import OutsideView
-from app.instruments.stepper import model as stepper
-from app.instruments.stepper import panel
-from app.instruments.stepper.controls import Asked, Wish, controls, keys
-from app.instruments.stepper.model import Moment, moment_at
-from app.instruments.stepper.outside_items import run_items
-from app.instruments.stepper.pictures import LoopPictures
-from app.instruments.stepper.recording import Order, Recording
-from app.instruments.stepper.runs import Made, Prepared, recordings
-from app.state.app_state import AppState
-from app.state.options.stepper import StepperOptions
-from app.ui import theme
-from app.ui.canvas import color_picture, depth_picture
-from app.ui.host import Host
-from app.ui.instrument import Instrument, view_of
-from app.ui.uploads import Uploads
-from renderer.system.errors import describe
-from renderer.system.memo import Memo
+from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.instruments.stepper import model as stepper
+from lucida.app.instruments.stepper import panel
+from lucida.app.instruments.stepper.controls import Asked, Wish, controls, keys
+from lucida.app.instruments.stepper.model import Moment, moment_at
+from lucida.app.instruments.stepper.outside_items import run_items
+from lucida.app.instruments.stepper.pictures import LoopPictures
+from lucida.app.instruments.stepper.recording import Order, Recording
+from lucida.app.instruments.stepper.runs import Made, Prepared, recordings
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.stepper import StepperOptions
+from lucida.app.ui import theme
+from lucida.app.ui.canvas import color_picture, depth_picture
+from lucida.app.ui.host import Host
+from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.system.errors import describe
+from lucida.renderer.system.memo import Memo
 
 STEPPER = "Stepper"
 Pair = dict[Order, Recording]

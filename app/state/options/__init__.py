@@ -10,20 +10,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, is_dataclass, replace
 from typing import Any
 
-from app.state.bounds import OptionPart
-from app.state.options.compare import CompareOptions
-from app.state.options.costs import CostOptions
-from app.state.options.laboratory import LaboratoryOptions
-from app.state.options.mistakes import MistakesOptions
-from app.state.options.objects import ObjectsOptions
-from app.state.options.outside import OutsideOptions
-from app.state.options.pair import PairOptions
-from app.state.options.photograph import PhotographOptions
-from app.state.options.poses import PosesOptions
-from app.state.options.probe import ProbeOptions
-from app.state.options.shared import SharedOptions
-from app.state.options.stepper import StepperOptions
-from app.state.options.your_code import YourCodeOptions
+from lucida.app.state.bounds import OptionPart
+from lucida.app.state.options.compare import CompareOptions
+from lucida.app.state.options.costs import CostOptions
+from lucida.app.state.options.laboratory import LaboratoryOptions
+from lucida.app.state.options.mistakes import MistakesOptions
+from lucida.app.state.options.objects import ObjectsOptions
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.app.state.options.pair import PairOptions
+from lucida.app.state.options.photograph import PhotographOptions
+from lucida.app.state.options.poses import PosesOptions
+from lucida.app.state.options.probe import ProbeOptions
+from lucida.app.state.options.shared import SharedOptions
+from lucida.app.state.options.stepper import StepperOptions
+from lucida.app.state.options.your_code import YourCodeOptions
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import OptionPart, Range
-from app.state.options.shared import Part
-from renderer.images.difference import LARGEST_GAIN
+from lucida.app.state.bounds import OptionPart, Range
+from lucida.app.state.options.shared import Part
+from lucida.renderer.images.difference import LARGEST_GAIN
 
 CompareMode = Literal["absolute", "signed", "wipe", "flip"]
 

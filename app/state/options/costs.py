@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from app.state.bounds import OptionPart
+from lucida.app.state.bounds import OptionPart
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import OptionPart, Range
-from app.state.options.shared import Part
+from lucida.app.state.bounds import OptionPart, Range
+from lucida.app.state.options.shared import Part
 
 LONGEST = 4.0  # the largest progress of all drawings
 

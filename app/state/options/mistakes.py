@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import AtMost, OneOf, OptionPart
+from lucida.app.state.bounds import AtMost, OneOf, OptionPart
 
 
 @dataclass(frozen=True)

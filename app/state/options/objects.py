@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import AtMost, OptionPart, Range
+from lucida.app.state.bounds import AtMost, OptionPart, Range
 
 MOST_CHOSEN = 1000
 Key = Annotated[int, Range(0, 2**53)]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import AtMost, OptionPart, Range
-from renderer.camera.camera import Camera
+from lucida.app.state.bounds import AtMost, OptionPart, Range
+from lucida.renderer.camera.camera import Camera
 
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Point = tuple[Coordinate, Coordinate, Coordinate]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import AtMost, OptionPart, Range
+from lucida.app.state.bounds import AtMost, OptionPart, Range
 
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Point = tuple[Coordinate, Coordinate, Coordinate]

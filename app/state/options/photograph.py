@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import Beside, OptionPart, Range
-from renderer.scene.model import View
+from lucida.app.state.bounds import Beside, OptionPart, Range
+from lucida.renderer.scene.model import View
 
 
 @dataclass(frozen=True)
 class PhotographOptions(OptionPart):
     """The options of the photograph.
 
-    file: the photograph's absolute path, as app.state.paths.stored() writes it, "" for none; in a
+    file: the photograph's absolute path, as lucida.app.state.paths.stored() writes it, "" for none; in a
     lecture, a file next to the lecture's.
     shown: draw it in the images.
     opacity: from 0 to 1, of display values.

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import Beside, OptionPart, Range
+from lucida.app.state.bounds import Beside, OptionPart, Range
 
 
 @dataclass(frozen=True)
 class PosesOptions(OptionPart):
     """The options of the view "Poses".
 
-    file: of the set, an absolute path, as app.state.paths.stored() writes it, "" for none; in a
+    file: of the set, an absolute path, as lucida.app.state.paths.stored() writes it, "" for none; in a
     lecture, a file or folder next to the lecture's.
     pose: the number of the selected camera, from 0; -1 for none.
     length: of the frusta, relative to what suits the set.

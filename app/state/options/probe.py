@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from app.state.bounds import AtMost, OptionPart
-from app.state.options.shared import Pixel
+from lucida.app.state.bounds import AtMost, OptionPart
+from lucida.app.state.options.shared import Pixel
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Literal
 
-from app.state.bounds import Accepted, AtMost, OneOf, OptionPart, Range
-from renderer.camera.intrinsics import PixelOrigin
-from renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
-from renderer.images.frame import LARGEST_SIDE, check_size
-from renderer.scene.model import View
+from lucida.app.state.bounds import Accepted, AtMost, OneOf, OptionPart, Range
+from lucida.renderer.camera.intrinsics import PixelOrigin
+from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
+from lucida.renderer.images.frame import LARGEST_SIDE, check_size
+from lucida.renderer.scene.model import View
 
 Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]
 Pixel = tuple[Index, Index]  # (row, column), 0-based, row 0 at the top

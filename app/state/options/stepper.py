@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from app.state.bounds import OptionPart, Range
+from lucida.app.state.bounds import OptionPart, Range
 
 Step = Annotated[int, Range(0, 1_000_000)]  # of a run
 

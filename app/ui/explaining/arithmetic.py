@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 LONGEST = 80  # characters of one number
 FUNCTIONS: dict[str, Callable[[float], float]] = {"sqrt": math.sqrt}

@@ -11,12 +11,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from renderer.camera.camera import Vector
-from renderer.camera.checks import three
-from renderer.images.shared_numbers import NEAREST_LIGHT
-from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
-from renderer.scene.model import Color
-from renderer.trace import pure_python as scalar
+from lucida.renderer.camera.camera import Vector
+from lucida.renderer.camera.checks import three
+from lucida.renderer.images.shared_numbers import NEAREST_LIGHT
+from lucida.renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
+from lucida.renderer.scene.model import Color
+from lucida.renderer.trace import pure_python as scalar
 
 _NONE = (0.0, 0.0, 0.0)
 

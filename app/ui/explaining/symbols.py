@@ -15,8 +15,8 @@ import functools
 import re
 from dataclasses import dataclass, replace
 
-from app.state.options.shared import Notation
-from app.ui.explaining.notation import Line
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.notation import Line
 
 
 @dataclass(frozen=True)

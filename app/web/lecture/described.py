@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from app.images.request import MIRROR_DEPTH
-from app.instruments.costs.recorded import COSTS
-from app.instruments.laboratory.pages import PAGES
-from app.instruments.probe.model import Probe
-from app.instruments.stepper.programs import run_part
-from app.lecture.model import Step
-from app.state.app_state import AppState
-from app.state.options.outside import STAGES
-from app.ui.explaining.notation import number, text_tuple
-from renderer.camera.camera import Camera, Size
-from renderer.editing.moving import bounds_of
-from renderer.editing.outline import outline
+from lucida.app.images.request import MIRROR_DEPTH
+from lucida.app.instruments.costs.recorded import COSTS
+from lucida.app.instruments.laboratory.pages import PAGES
+from lucida.app.instruments.probe.model import Probe
+from lucida.app.instruments.stepper.programs import run_part
+from lucida.app.lecture.model import Step
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.outside import STAGES
+from lucida.app.ui.explaining.notation import number, text_tuple
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.editing.moving import bounds_of
+from lucida.renderer.editing.outline import outline
 
 SIZE = (320, 180)  # of images, where a step leaves it to the window
 MOST_NAMED = 8  # objects

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera.camera import Camera
+from lucida.renderer.camera.camera import Camera
 
 # Unit vectors along u, v and w on paper, x to the right and y down: looking ahead is to the right.
 AXES = np.array([[0.42, 0.30], [0.0, -1.0], [-1.0, 0.0]])

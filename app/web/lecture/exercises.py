@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.lecture.exercises import (
+from lucida.app.lecture.exercises import (
     CORRECT,
     ChoiceExercise,
     RayExercise,
@@ -20,19 +20,19 @@ from app.lecture.exercises import (
     VectorExercise,
     hint,
 )
-from app.lecture.hidden_pixels import ids_seen
-from app.lecture.hiding import HideExercise
-from app.lecture.inheriting import changed_view
-from app.lecture.model import Exercise, Step
-from app.lecture.text import Math, Paragraph, escaped, parse
-from app.state.kept_lecture import Judgement
-from app.state.options.shared import Notation
-from app.ui.explaining import symbols
-from app.web.lecture.drawn import paper
-from app.web.lecture.mathml import VECTORS
-from app.web.lecture.text import plain, written
-from renderer.camera.camera import Size
-from renderer.files.views import view_table
+from lucida.app.lecture.hidden_pixels import ids_seen
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.inheriting import changed_view
+from lucida.app.lecture.model import Exercise, Step
+from lucida.app.lecture.text import Math, Paragraph, escaped, parse
+from lucida.app.state.kept_lecture import Judgement
+from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining import symbols
+from lucida.app.web.lecture.drawn import paper
+from lucida.app.web.lecture.mathml import VECTORS
+from lucida.app.web.lecture.text import plain, written
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.files.views import view_table
 
 BOLD = frozenset("uvwepdx")
 

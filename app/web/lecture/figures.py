@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from app.images.photograph.model import path_of
-from app.images.photograph.reading import decoded
-from app.images.request import MIRROR_DEPTH
-from app.lecture.exercises import ChoiceExercise
-from app.lecture.hiding import HideExercise
-from app.lecture.model import Step
-from app.state.app_state import AppState
-from app.state.options.outside import OutsideOptions
-from app.state.options.pair import PairOptions
-from app.web.lecture.pictures import data_uri
-from app.web.scene_page import packed_scene
-from renderer.files.views import view_table
-from renderer.scene.model import Scene, View
-from renderer.system.errors import LucidaError
+from lucida.app.images.photograph.model import path_of
+from lucida.app.images.photograph.reading import decoded
+from lucida.app.images.request import MIRROR_DEPTH
+from lucida.app.lecture.exercises import ChoiceExercise
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.model import Step
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.app.state.options.pair import PairOptions
+from lucida.app.web.lecture.pictures import data_uri
+from lucida.app.web.scene_page import packed_scene
+from lucida.renderer.files.views import view_table
+from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.system.errors import LucidaError
 
 IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
 # What a figure shows of a view.

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 
 from latex2mathml.converter import convert_to_element
 
-from app.ui.explaining.breaking import breakable
+from lucida.app.ui.explaining.breaking import breakable
 
 ELEMENTS = frozenset(
     (

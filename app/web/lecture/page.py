@@ -7,21 +7,21 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
-from app.instruments.laboratory.page import Page
-from app.lecture.model import Lecture, Step
-from app.lecture.step_options import state_of
-from app.lecture.text import Question
-from app.state.app_state import AppState
-from app.web.document import document
-from app.web.formulas import templates
-from app.web.lecture import exercises
-from app.web.lecture.described import SIZE, alternative, title_of
-from app.web.lecture.figures import Figures, is_live
-from app.web.lecture.pictures import Form, data_uri, drawing
-from app.web.lecture.shell import BAR, DIALOGS, overview
-from app.web.lecture.text import blocks_html, plain
-from renderer.files.views import view_table
-from renderer.images.display import Bytes
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.lecture.model import Lecture, Step
+from lucida.app.lecture.step_options import state_of
+from lucida.app.lecture.text import Question
+from lucida.app.state.app_state import AppState
+from lucida.app.web.document import document
+from lucida.app.web.formulas import templates
+from lucida.app.web.lecture import exercises
+from lucida.app.web.lecture.described import SIZE, alternative, title_of
+from lucida.app.web.lecture.figures import Figures, is_live
+from lucida.app.web.lecture.pictures import Form, data_uri, drawing
+from lucida.app.web.lecture.shell import BAR, DIALOGS, overview
+from lucida.app.web.lecture.text import blocks_html, plain
+from lucida.renderer.files.views import view_table
+from lucida.renderer.images.display import Bytes
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ def page(
         "scenes": figures.scenes if figures else [],
         "shaders": figures.shaders if figures else [],
     }
-    style = files("app.web").joinpath("lecture.css").read_text(encoding="utf-8")
+    style = files("lucida.app.web").joinpath("lecture.css").read_text(encoding="utf-8")
     return document(lecture.title, "slides.js", body, {"lucida-data": data}, style)
 
 

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 BROWSERS = (
     *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge"),

@@ -10,10 +10,10 @@ from typing import Literal
 import numpy as np
 from PIL import Image
 
-from app.instruments.laboratory.page import Page
-from app.instruments.laboratory.pages import drawn
-from app.instruments.outside.svg import content
-from renderer.images.display import Bytes
+from lucida.app.instruments.laboratory.page import Page
+from lucida.app.instruments.laboratory.pages import drawn
+from lucida.app.instruments.outside.svg import content
+from lucida.renderer.images.display import Bytes
 
 Form = Literal["webp", "jpeg"]
 QUALITY = {"webp": 82, "jpeg": 85}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.lecture.model import Lecture
-from app.web.lecture.text import plain
+from lucida.app.lecture.model import Lecture
+from lucida.app.web.lecture.text import plain
 
 BAR = """<nav aria-label="Steps">
 <button type="button" id="previous">Previous</button>

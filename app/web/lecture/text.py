@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from html import escape
 
-from app.lecture.notation import in_notation
-from app.lecture.text import (
+from lucida.app.lecture.notation import in_notation
+from lucida.app.lecture.text import (
     Block,
     Code,
     DisplayedFormula,
@@ -19,9 +19,9 @@ from app.lecture.text import (
     Words,
     parse,
 )
-from app.state.options.shared import Notation
-from app.web.lecture.mathml import VECTORS, displayed, inline
-from renderer.system.errors import visible
+from lucida.app.state.options.shared import Notation
+from lucida.app.web.lecture.mathml import VECTORS, displayed, inline
+from lucida.renderer.system.errors import visible
 
 
 def plain(text: str) -> str:

@@ -4,10 +4,10 @@
 R and t are in renderer/camera/intrinsics.py.
 """
 
-from renderer.files.cameras.chosen import read_chosen, without_choice
-from renderer.files.cameras.formats import FORMATS, format_named, read_cameras, written
-from renderer.files.cameras.given import Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
+from lucida.renderer.files.cameras.chosen import read_chosen, without_choice
+from lucida.renderer.files.cameras.formats import FORMATS, format_named, read_cameras, written
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 
 __all__ = [
     "FORMATS",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 
-from renderer.files.cameras.formats import read_cameras
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.formats import read_cameras
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
+from lucida.renderer.system.errors import LucidaError
 
 
 def without_choice(source: str) -> tuple[str, str]:

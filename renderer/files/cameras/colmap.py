@@ -15,19 +15,19 @@ from typing import TypeVar
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.intrinsics import viewport_of
-from renderer.files.cameras import colmap_binary, colmap_lenses, colmap_text
-from renderer.files.cameras.colmap_lenses import model_for
-from renderer.files.cameras.distortion import lens_of
-from renderer.files.cameras.entries import in_image
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.cameras.rigid import pinhole
-from renderer.files.cameras.rotations import quaternion_of, rotation_of
-from renderer.files.reading import naming, read_file
-from renderer.images.frame import check_size
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.intrinsics import viewport_of
+from lucida.renderer.files.cameras import colmap_binary, colmap_lenses, colmap_text
+from lucida.renderer.files.cameras.colmap_lenses import model_for
+from lucida.renderer.files.cameras.distortion import lens_of
+from lucida.renderer.files.cameras.entries import in_image
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.rigid import pinhole
+from lucida.renderer.files.cameras.rotations import quaternion_of, rotation_of
+from lucida.renderer.files.reading import naming, read_file
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.system.errors import LucidaError, under
 
 LENSES = frozenset(colmap_lenses.LENSES.values())
 FILES = ("cameras", "images", "points3D")

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera.checks import LARGEST
-from renderer.files.cameras.colmap_lenses import (
+from lucida.renderer.camera.checks import LARGEST
+from lucida.renderer.files.cameras.colmap_lenses import (
     MODELS,
     NAMES,
     Lenses,
@@ -22,7 +22,7 @@ from renderer.files.cameras.colmap_lenses import (
     add_lens,
     checked_image,
 )
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.system.errors import LucidaError, under
 
 _COUNT = Struct("<Q")
 _CAMERA = Struct("<IiQQ")  # id, model, width, height; then its parameters

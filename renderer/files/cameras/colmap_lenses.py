@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Size
-from renderer.camera.checks import Floats, listed, number, positive
-from renderer.camera.lenses import Lens
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.checks import Floats, listed, number, positive
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.system.errors import LucidaError, under
 
 # The parameters of each model in the file's order; "f" is both fx and fy. A model's id in binary
 # files is its index here.

@@ -13,15 +13,15 @@ from typing import TypeVar
 
 import numpy as np
 
-from renderer.camera.checks import LARGEST
-from renderer.files.cameras.colmap_lenses import (
+from lucida.renderer.camera.checks import LARGEST
+from lucida.renderer.files.cameras.colmap_lenses import (
     Lenses,
     PointRecords,
     PosedImage,
     add_lens,
     checked_image,
 )
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.system.errors import LucidaError, under
 
 _Number = TypeVar("_Number", int, float)
 

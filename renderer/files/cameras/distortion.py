@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.lenses import Lens
-from renderer.files.cameras.given import Options
-from renderer.files.cameras.posed import PosedCamera
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.posed import PosedCamera
+from lucida.renderer.system.errors import LucidaError
 
 # OpenCV's coefficients, in the order of its vectors; a fisheye has k1 to k4.
 NAMES = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tauX", "tauY")

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.checks import Floats, listed, number
-from renderer.camera.intrinsics import PixelOrigin, matrix
-from renderer.files.cameras.given import Options
-from renderer.files.cameras.posed import PosedCamera
-from renderer.images.frame import check_size
-from renderer.system.errors import LucidaError, errors_as
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.checks import Floats, listed, number
+from lucida.renderer.camera.intrinsics import PixelOrigin, matrix
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.posed import PosedCamera
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.system.errors import LucidaError, errors_as
 
 # The phrases for the two pixel origins in CameraSet.taken.
 ORIGIN_TOLD: dict[PixelOrigin, str] = {

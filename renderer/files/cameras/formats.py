@@ -20,11 +20,11 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from renderer.files.cameras.distortion import check_held, without_lens
-from renderer.files.cameras.given import Given, Options, from_json, given
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.reading import naming, suggestion
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.files.cameras.distortion import check_held, without_lens
+from lucida.renderer.files.cameras.given import Given, Options, from_json, given
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.reading import naming, suggestion
+from lucida.renderer.system.errors import LucidaError, under
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Format:
 
     @property
     def module(self) -> ModuleType:
-        return import_module(f"renderer.files.cameras.{self.name}")
+        return import_module(f"lucida.renderer.files.cameras.{self.name}")
 
     @property
     def lenses(self) -> Collection[str]:

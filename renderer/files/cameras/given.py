@@ -8,10 +8,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from renderer.camera.camera import Size
-from renderer.camera.intrinsics import PixelOrigin
-from renderer.files.reading import decode_text, path_of, read_file
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.intrinsics import PixelOrigin
+from lucida.renderer.files.reading import decode_text, path_of, read_file
+from lucida.renderer.system.errors import LucidaError
 
 LARGEST_BYTES = 1 << 28  # a COLMAP model of some ten thousand images
 

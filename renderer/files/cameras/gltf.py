@@ -12,17 +12,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.checks import listed
-from renderer.files.cameras.entries import sized
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
-from renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
-from renderer.files.models.gltf_file import Gltf, parse_gltf
-from renderer.files.models.gltf_nodes import placed_nodes
-from renderer.scene.limits import OBJECTS
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.checks import listed
+from lucida.renderer.files.cameras.entries import sized
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
+from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
+from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
+from lucida.renderer.files.models.gltf_nodes import placed_nodes
+from lucida.renderer.scene.limits import OBJECTS
+from lucida.renderer.system.errors import LucidaError
 
 # For a camera without clip planes: in units of the viewport's distance (parallel: its height).
 NEAR, FAR = 1e-3, 1e3

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 DEEPEST = 8  # nesting of brackets
 

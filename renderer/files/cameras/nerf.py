@@ -15,12 +15,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.checks import listed
-from renderer.camera.intrinsics import check_for_lens, pixel_offset, viewport_of
-from renderer.files.cameras import nerf_lens
-from renderer.files.cameras.distortion import FileLens
-from renderer.files.cameras.entries import (
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.checks import listed
+from lucida.renderer.camera.intrinsics import check_for_lens, pixel_offset, viewport_of
+from lucida.renderer.files.cameras import nerf_lens
+from lucida.renderer.files.cameras.distortion import FileLens
+from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
     in_image,
@@ -28,8 +28,8 @@ from renderer.files.cameras.entries import (
     number_of,
     size_of,
 )
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.nerf_lens import (
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.nerf_lens import (
     NAMES,
     PANORAMA,
     coefficients,
@@ -37,10 +37,10 @@ from renderer.files.cameras.nerf_lens import (
     lens_in,
     model_for,
 )
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.cameras.rigid import pinhole, pose_of
-from renderer.files.cameras.unused import entries_of, notes_on
-from renderer.system.errors import LucidaError, errors_as, under
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.rigid import pinhole, pose_of
+from lucida.renderer.files.cameras.unused import entries_of, notes_on
+from lucida.renderer.system.errors import LucidaError, errors_as, under
 
 Table = Mapping[str, Any]
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from renderer.camera.lenses import Lens
-from renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, lens_of
-from renderer.files.cameras.entries import number_of
-from renderer.files.cameras.given import Options
-from renderer.files.cameras.posed import PosedCamera
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, lens_of
+from lucida.renderer.files.cameras.entries import number_of
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.posed import PosedCamera
+from lucida.renderer.system.errors import LucidaError
 
 Table = Mapping[str, Any]
 

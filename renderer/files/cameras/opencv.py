@@ -14,11 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.checks import Floats
-from renderer.camera.intrinsics import PixelOrigin, as_camera_from_world, decomposed, pixel_offset
-from renderer.camera.lenses import Lens
-from renderer.files.cameras.entries import (
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.intrinsics import (
+    PixelOrigin,
+    as_camera_from_world,
+    decomposed,
+    pixel_offset,
+)
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
     flat,
@@ -29,16 +34,23 @@ from renderer.files.cameras.entries import (
     single,
     size_of,
 )
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.literals import NAME
-from renderer.files.cameras.opencv_keys import Keys, are_cameras, bare, cameras_in
-from renderer.files.cameras.opencv_lens import lens_in, lens_table
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.cameras.rigid import rigid
-from renderer.files.cameras.rotations import from_vector, to_vector
-from renderer.files.cameras.storage import MOST_BYTES, Table, is_ini, table_in, to_json, to_yaml
-from renderer.files.cameras.unused import entries_of, numbers_in
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.literals import NAME
+from lucida.renderer.files.cameras.opencv_keys import Keys, are_cameras, bare, cameras_in
+from lucida.renderer.files.cameras.opencv_lens import lens_in, lens_table
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.rigid import rigid
+from lucida.renderer.files.cameras.rotations import from_vector, to_vector
+from lucida.renderer.files.cameras.storage import (
+    MOST_BYTES,
+    Table,
+    is_ini,
+    table_in,
+    to_json,
+    to_yaml,
+)
+from lucida.renderer.files.cameras.unused import entries_of, numbers_in
+from lucida.renderer.system.errors import LucidaError
 
 LENSES = ("brown", "fisheye", "equidistant")
 _FOCAL = ("fx", "fy", "cx", "cy")

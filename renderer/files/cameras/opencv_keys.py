@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from renderer.files.cameras.distortion import NAMES
-from renderer.files.cameras.storage import Table
-from renderer.files.cameras.unused import entries_of, notes_on, numbers_in, plain
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.distortion import NAMES
+from lucida.renderer.files.cameras.storage import Table
+from lucida.renderer.files.cameras.unused import entries_of, notes_on, numbers_in, plain
+from lucida.renderer.system.errors import LucidaError
 
 Keys = dict[str, tuple[str, Any]]  # by role: the file's name for it, and its value
 

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.camera.lenses import Lens
-from renderer.files.cameras import distortion
-from renderer.files.cameras.entries import flat, number_of
-from renderer.files.cameras.given import Options
-from renderer.files.cameras.opencv_keys import Keys, bare
-from renderer.files.cameras.storage import Table
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras import distortion
+from lucida.renderer.files.cameras.entries import flat, number_of
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.opencv_keys import Keys, bare
+from lucida.renderer.files.cameras.storage import Table
+from lucida.renderer.system.errors import LucidaError
 
 # Lens's model by the programs' names for it, in lower case, letters and digits only.
 _PINHOLES = """

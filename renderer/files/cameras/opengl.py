@@ -12,15 +12,15 @@ from typing import Literal
 
 import numpy as np
 
-from renderer.camera.camera import Camera
-from renderer.camera.checks import Floats, Vector, listed
-from renderer.camera.intrinsics import matrix
-from renderer.files.cameras.entries import in_image, single
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera
-from renderer.files.cameras.unused import notes_on
-from renderer.files.reading import check_bytes
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, Vector, listed
+from lucida.renderer.camera.intrinsics import matrix
+from lucida.renderer.files.cameras.entries import in_image, single
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.unused import notes_on
+from lucida.renderer.files.reading import check_bytes
+from lucida.renderer.system.errors import LucidaError
 
 Order = Literal["column by column", "row by row"]
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import yaml
 
-from renderer.files.cameras.given import unique
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.given import unique
+from lucida.renderer.system.errors import LucidaError
 
 # OpenCV's own YAML needs no space after a name: "key:2".
 _TIGHT = re.compile(r"^(\s*[A-Za-z][\w.]*):(?=[^\s:/])", re.MULTILINE)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.lenses import Lens
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.system.errors import LucidaError
 
 NAMES_TOLD = 3  # cameras that an error's remedy lists
 

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer.camera.camera import Camera, Size
-from renderer.camera.checks import Floats, listed, told_apart
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.checks import Floats, listed, told_apart
+from lucida.renderer.system.errors import LucidaError
 
 STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle
 UNSEEN_PX = 0.01  # a change that moves no point of the image by more is rounding

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.camera.checks import Floats, listed
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import Floats, listed
+from lucida.renderer.system.errors import LucidaError
 
 
 def from_vector(vector: Floats) -> Floats:

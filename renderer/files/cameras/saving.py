@@ -7,8 +7,8 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from renderer.system.atomic import atomic_write, check_writable
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.atomic import atomic_write, check_writable
+from lucida.renderer.system.errors import LucidaError
 
 
 def save_files(path: Path, files: Mapping[str, bytes]) -> None:

@@ -13,10 +13,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from renderer.files.cameras.given import Given, from_json, unique
-from renderer.files.cameras.literals import values_in
-from renderer.files.reading import check_bytes
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.given import Given, from_json, unique
+from lucida.renderer.files.cameras.literals import values_in
+from lucida.renderer.files.reading import check_bytes
+from lucida.renderer.system.errors import LucidaError
 
 Table = dict[str, Any]
 
@@ -47,7 +47,7 @@ def table_in(given: Given) -> Table:
     elif text.lstrip()[:1] == "<":
         table = _from_xml(text)
     elif given.ending in (".yml", ".yaml") or text[:5] == "%YAML" or _YAML.search(text):
-        from renderer.files.cameras.plain_yaml import from_yaml  # late: few files are YAML
+        from lucida.renderer.files.cameras.plain_yaml import from_yaml  # late: few files are YAML
 
         table = from_yaml(text)
     else:

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from renderer.camera.checks import Floats
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.system.errors import LucidaError
 
 TOLD = 8  # unknown keys that are named; the others are counted
 _LENS = re.compile(r"dist(?!anc)|.*(?<!un)distort|[kps]\d\d?$")

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from renderer.camera.lenses import MODELS
-from renderer.files.cameras.distortion import without_lens
-from renderer.files.cameras.given import Given, Options
-from renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
-from renderer.files.reading import check_bytes
-from renderer.files.views import view_from_toml, view_to_toml
-from renderer.scene.limits import TOML_BYTES
-from renderer.scene.model import View
+from lucida.renderer.camera.lenses import MODELS
+from lucida.renderer.files.cameras.distortion import without_lens
+from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
+from lucida.renderer.files.reading import check_bytes
+from lucida.renderer.files.views import view_from_toml, view_to_toml
+from lucida.renderer.scene.limits import TOML_BYTES
+from lucida.renderer.scene.model import View
 
 LENSES = MODELS
 

@@ -8,6 +8,6 @@ materials       the nearest of glTF's materials, and the lights' strengths
 checkers        checkers on texture coordinates
 """
 
-from renderer.files.export.export import ENDINGS, check_export_path, export_scene
+from lucida.renderer.files.export.export import ENDINGS, check_export_path, export_scene
 
 __all__ = ["ENDINGS", "check_export_path", "export_scene"]

@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer.files.export.meshes import Triangles
-from renderer.images.shared_numbers import CELL_NUDGE
-from renderer.scene.model import Checker
-from renderer.scene.normals import face_normals
+from lucida.renderer.files.export.meshes import Triangles
+from lucida.renderer.images.shared_numbers import CELL_NUDGE
+from lucida.renderer.scene.model import Checker
+from lucida.renderer.scene.normals import face_normals
 
 ALONG = 1e-6  # tolerance: the part of a unit normal across its axis
 

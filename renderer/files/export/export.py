@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from renderer.camera.camera import Camera, Size
-from renderer.files.cameras.distortion import check_held
-from renderer.files.export.gltf_scene import glb_of
-from renderer.files.reading import path_of
-from renderer.scene.model import Scene
-from renderer.system.atomic import atomic_write, check_writable
-from renderer.system.cancelling import check_cancelled
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.files.cameras.distortion import check_held
+from lucida.renderer.files.export.gltf_scene import glb_of
+from lucida.renderer.files.reading import path_of
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.atomic import atomic_write, check_writable
+from lucida.renderer.system.cancelling import check_cancelled
+from lucida.renderer.system.errors import LucidaError
 
 ENDINGS = (".glb",)
 

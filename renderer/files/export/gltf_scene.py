@@ -13,23 +13,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Size
-from renderer.files.cameras.gltf import camera_table, node_matrix
-from renderer.files.cameras.rigid import rigid
-from renderer.files.export.checkers import with_checker_uv
-from renderer.files.export.glb_tree import GlbTree, glb_bytes
-from renderer.files.export.materials import (
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.files.cameras.gltf import camera_table, node_matrix
+from lucida.renderer.files.cameras.rigid import rigid
+from lucida.renderer.files.export.checkers import with_checker_uv
+from lucida.renderer.files.export.glb_tree import GlbTree, glb_bytes
+from lucida.renderer.files.export.materials import (
     LeftOut,
     light_strengths,
     mean_of_pattern,
     microfacets,
     reflectance,
 )
-from renderer.files.export.meshes import Triangles, arrays_of, unit_sphere, wound
-from renderer.files.models.gltf_textures import WRAP_NAMES
-from renderer.images.display import to_srgb8
-from renderer.images.png import png_of
-from renderer.scene.model import (
+from lucida.renderer.files.export.meshes import Triangles, arrays_of, unit_sphere, wound
+from lucida.renderer.files.models.gltf_textures import WRAP_NAMES
+from lucida.renderer.images.display import to_srgb8
+from lucida.renderer.images.png import png_of
+from lucida.renderer.scene.model import (
     Checker,
     Color,
     DirectionalLight,
@@ -40,8 +40,8 @@ from renderer.scene.model import (
     Sphere,
     without_metal,
 )
-from renderer.scene.texture import Texture
-from renderer.system.cancelling import check_cancelled
+from lucida.renderer.scene.texture import Texture
+from lucida.renderer.system.cancelling import check_cancelled
 
 DIELECTRIC = 0.04  # the reflectance of a non-metallic glTF material at normal incidence
 SKEWED = 1e-6  # with a larger cosine, a transform is not just rotation and scale

@@ -11,10 +11,10 @@ import math
 
 import numpy as np
 
-from renderer.images.display import from_srgb
-from renderer.scene.framing import median_distance
-from renderer.scene.model import Color, Material, PointLight, Scene
-from renderer.system.errors import one_line
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.scene.framing import median_distance
+from lucida.renderer.scene.model import Color, Material, PointLight, Scene
+from lucida.renderer.system.errors import one_line
 
 MOST_REFLECTED = 0.9  # of the light at normal incidence
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.shared_numbers import OTHER_SIDE
-from renderer.scene.model import Mesh
-from renderer.scene.normals import face_normals
+from lucida.renderer.images.shared_numbers import OTHER_SIDE
+from lucida.renderer.scene.model import Mesh
+from lucida.renderer.scene.normals import face_normals
 
 F32 = NDArray[np.float32]
 

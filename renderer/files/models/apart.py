@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer.files.models.parts import FAR, Part, own_origin
-from renderer.files.texture_images import ModelImages, shown
-from renderer.scene.normals import components
+from lucida.renderer.files.models.parts import FAR, Part, own_origin
+from lucida.renderer.files.texture_images import ModelImages, shown
+from lucida.renderer.scene.normals import components
 
 MOST = 256  # cells of a part with an origin of their own
 SHORT = 8.0  # up to here float32 holds all digits of numbers with six decimals

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.models.gltf_file import (
+from lucida.renderer.files.models.gltf_file import (
     MATERIALS,
     READ,
     TRIANGLE_FAN,
@@ -26,17 +26,22 @@ from renderer.files.models.gltf_file import (
     Primitive,
     entry_at,
 )
-from renderer.files.models.gltf_materials import read_materials
-from renderer.files.models.gltf_nodes import PlacedNode, placed_nodes
-from renderer.files.models.gltf_numbers import read_numbers, scaled, triangles_of, whole_numbers
-from renderer.files.models.gltf_textures import read_coordinates
-from renderer.files.models.parts import Part, linear_colors
-from renderer.files.reading import check_count
-from renderer.files.texture_images import ModelImages
-from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.model import Material
-from renderer.system.cancelling import check_cancelled
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.models.gltf_materials import read_materials
+from lucida.renderer.files.models.gltf_nodes import PlacedNode, placed_nodes
+from lucida.renderer.files.models.gltf_numbers import (
+    read_numbers,
+    scaled,
+    triangles_of,
+    whole_numbers,
+)
+from lucida.renderer.files.models.gltf_textures import read_coordinates
+from lucida.renderer.files.models.parts import Part, linear_colors
+from lucida.renderer.files.reading import check_count
+from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.scene.limits import OBJECTS, TRIANGLES
+from lucida.renderer.scene.model import Material
+from lucida.renderer.system.cancelling import check_cancelled
+from lucida.renderer.system.errors import LucidaError
 
 # The types of accessors that primitives may name.
 TYPES = {

@@ -15,14 +15,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera
-from renderer.camera.checks import volume
-from renderer.files.models.gltf_file import Gltf, Table, entry_at
-from renderer.files.models.gltf_nodes import PlacedNode
-from renderer.files.tables import explained
-from renderer.scene.limits import VIEWS
-from renderer.scene.model import NamedView, View
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import volume
+from lucida.renderer.files.models.gltf_file import Gltf, Table, entry_at
+from lucida.renderer.files.models.gltf_nodes import PlacedNode
+from lucida.renderer.files.tables import explained
+from lucida.renderer.scene.limits import VIEWS
+from lucida.renderer.scene.model import NamedView, View
+from lucida.renderer.system.errors import LucidaError, under
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
 UNCLIPPED = "lucida_unclipped"

@@ -16,11 +16,11 @@ from typing import Annotated, Any
 
 import msgspec
 
-from renderer.files.reading import check_bytes, damaged, read_file, size_text
-from renderer.files.tables import explained
-from renderer.files.texture_images import inner_path, shown
-from renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.files.reading import check_bytes, damaged, read_file, size_text
+from lucida.renderer.files.tables import explained
+from lucida.renderer.files.texture_images import inner_path, shown
+from lucida.renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
+from lucida.renderer.system.errors import LucidaError, under
 
 Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]

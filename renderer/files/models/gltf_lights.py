@@ -12,12 +12,12 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.models.gltf_file import LIGHTS, Gltf, GltfLight, entry_at
-from renderer.files.models.gltf_nodes import PlacedNode
-from renderer.files.texture_images import ModelImages
-from renderer.scene.framing import median_distance
-from renderer.scene.material import vector
-from renderer.scene.model import DirectionalLight, PointLight, SceneObject
+from lucida.renderer.files.models.gltf_file import LIGHTS, Gltf, GltfLight, entry_at
+from lucida.renderer.files.models.gltf_nodes import PlacedNode
+from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.scene.framing import median_distance
+from lucida.renderer.scene.material import vector
+from lucida.renderer.scene.model import DirectionalLight, PointLight, SceneObject
 
 BRIGHTEST = 10.0  # of a white surface: a file in lux and candela is made darker
 

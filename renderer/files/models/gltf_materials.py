@@ -10,12 +10,12 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from renderer.files.models.gltf_file import MATERIALS, GltfMaterial, OpenGltf
-from renderer.files.models.gltf_textures import read_texture
-from renderer.files.texture_images import ModelImages
-from renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
-from renderer.scene.model import Color, Material
-from renderer.scene.texture import WHITE, Texture, placed_alike
+from lucida.renderer.files.models.gltf_file import MATERIALS, GltfMaterial, OpenGltf
+from lucida.renderer.files.models.gltf_textures import read_texture
+from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
+from lucida.renderer.scene.model import Color, Material
+from lucida.renderer.scene.texture import WHITE, Texture, placed_alike
 
 WORDS = {
     "clearcoat": "clear coat",

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.cameras.rotations import rotation_of
-from renderer.files.models.gltf_file import Gltf, Node, entry_at
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.rotations import rotation_of
+from lucida.renderer.files.models.gltf_file import Gltf, Node, entry_at
+from lucida.renderer.system.errors import LucidaError
 
 
 @dataclass(frozen=True, eq=False)

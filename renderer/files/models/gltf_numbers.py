@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.models.gltf_file import (
+from lucida.renderer.files.models.gltf_file import (
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     Accessor,
     OpenGltf,
     entry_at,
 )
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
     5120: np.dtype("i1"),

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.models.gltf_file import (
+from lucida.renderer.files.models.gltf_file import (
     GltfImage,
     GltfSampler,
     GltfTexture,
@@ -20,11 +20,11 @@ from renderer.files.models.gltf_file import (
     TextureInfo,
     entry_at,
 )
-from renderer.files.models.gltf_numbers import read_numbers, scaled
-from renderer.files.texture_images import FoundImage, ModelImages, decode_image
-from renderer.scene.limits import IMAGE_BYTES
-from renderer.scene.texture import Texture
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.models.gltf_numbers import read_numbers, scaled
+from lucida.renderer.files.texture_images import FoundImage, ModelImages, decode_image
+from lucida.renderer.scene.limits import IMAGE_BYTES
+from lucida.renderer.scene.texture import Texture
+from lucida.renderer.system.errors import LucidaError
 
 WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from renderer.files.reading import first_bytes
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.reading import first_bytes
+from lucida.renderer.system.errors import LucidaError
 
 _KINDS = {
     b"Kaydara FBX": "FBX", b"; FBX": "FBX", b"#usda": "USD", b"PXR-USDC": "USD",

@@ -10,19 +10,19 @@ from pathlib import Path
 
 import numpy as np
 
-from renderer.files.models.apart import parts_apart
-from renderer.files.models.gltf import PlacedPart, read_gltf
-from renderer.files.models.gltf_cameras import camera_views
-from renderer.files.models.gltf_lights import scene_lights
-from renderer.files.models.model_kinds import check_kind
-from renderer.files.models.obj import read_obj
-from renderer.files.models.parts import Part, build_mesh
-from renderer.files.models.readers import read_off, read_ply, read_stl
-from renderer.files.reading import MODEL_ENDINGS, check_count, naming
-from renderer.files.texture_images import ModelImages, shown
-from renderer.scene import framing, shapes
-from renderer.scene.limits import OBJECTS, TRIANGLES
-from renderer.scene.model import (
+from lucida.renderer.files.models.apart import parts_apart
+from lucida.renderer.files.models.gltf import PlacedPart, read_gltf
+from lucida.renderer.files.models.gltf_cameras import camera_views
+from lucida.renderer.files.models.gltf_lights import scene_lights
+from lucida.renderer.files.models.model_kinds import check_kind
+from lucida.renderer.files.models.obj import read_obj
+from lucida.renderer.files.models.parts import Part, build_mesh
+from lucida.renderer.files.models.readers import read_off, read_ply, read_stl
+from lucida.renderer.files.reading import MODEL_ENDINGS, check_count, naming
+from lucida.renderer.files.texture_images import ModelImages, shown
+from lucida.renderer.scene import framing, shapes
+from lucida.renderer.scene.limits import OBJECTS, TRIANGLES
+from lucida.renderer.scene.model import (
     DirectionalLight,
     Material,
     Mesh,
@@ -34,8 +34,8 @@ from renderer.scene.model import (
     triangles_of,
     without_metal,
 )
-from renderer.system.cancelling import check_cancelled, during
-from renderer.system.errors import LucidaError, under
+from lucida.renderer.system.cancelling import check_cancelled, during
+from lucida.renderer.system.errors import LucidaError, under
 
 READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl, ".off": read_off}
 

@@ -10,14 +10,14 @@ import re
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from renderer.files.models.numerals import is_number
-from renderer.files.models.texts import tidy
-from renderer.files.reading import read_file
-from renderer.files.texture_images import ModelImages, read_image
-from renderer.scene.limits import MATERIAL_BYTES
-from renderer.scene.model import Material
-from renderer.scene.texture import Texture
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.models.numerals import is_number
+from lucida.renderer.files.models.texts import tidy
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.files.texture_images import ModelImages, read_image
+from lucida.renderer.scene.limits import MATERIAL_BYTES
+from lucida.renderer.scene.model import Material
+from lucida.renderer.scene.texture import Texture
+from lucida.renderer.system.errors import LucidaError
 
 _OPTION = re.compile(r"-[a-z]+", re.IGNORECASE)
 _LONGEST = {"-s": 3, "-o": 3, "-t": 3, "-mm": 2}  # words after an option; all others have one

@@ -12,18 +12,18 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.models import numerals
-from renderer.files.models.mtl import MtlMaterial, read_mtl
-from renderer.files.models.numerals import Ints
-from renderer.files.models.obj_lines import Lines
-from renderer.files.models.parts import Part, linear_colors, used_vertices
-from renderer.files.models.polygons import triangulated
-from renderer.files.models.texts import read_text_bytes
-from renderer.files.reading import damaged
-from renderer.files.texture_images import ModelImages, inner_path, shown
-from renderer.scene.limits import OBJECTS
-from renderer.scene.model import Material
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.models import numerals
+from lucida.renderer.files.models.mtl import MtlMaterial, read_mtl
+from lucida.renderer.files.models.numerals import Ints
+from lucida.renderer.files.models.obj_lines import Lines
+from lucida.renderer.files.models.parts import Part, linear_colors, used_vertices
+from lucida.renderer.files.models.polygons import triangulated
+from lucida.renderer.files.models.texts import read_text_bytes
+from lucida.renderer.files.reading import damaged
+from lucida.renderer.files.texture_images import ModelImages, inner_path, shown
+from lucida.renderer.scene.limits import OBJECTS
+from lucida.renderer.scene.model import Material
+from lucida.renderer.system.errors import LucidaError
 
 _CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")
 _VALUES = {"v": "a vertex", "vn": "a normal"}

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.camera.checks import LARGEST
-from renderer.files.models.polygons import check_corners
-from renderer.files.models.repairs import note_repairs
-from renderer.images.display import from_srgb
-from renderer.scene.boxes import extent
-from renderer.scene.model import BRIGHTEST, Material, Mesh
-from renderer.scene.normals import merge_positions, smooth_normals
-from renderer.system.errors import LucidaError
+from lucida.renderer.camera.checks import LARGEST
+from lucida.renderer.files.models.polygons import check_corners
+from lucida.renderer.files.models.repairs import note_repairs
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.scene.boxes import extent
+from lucida.renderer.scene.model import BRIGHTEST, Material, Mesh
+from lucida.renderer.scene.normals import merge_positions, smooth_normals
+from lucida.renderer.system.errors import LucidaError
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute

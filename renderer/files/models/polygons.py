@@ -8,8 +8,8 @@ import mapbox_earcut
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.texture_images import ModelImages
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -13,17 +13,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.files.models.gltf_file import TRIANGLE_STRIP
-from renderer.files.models.gltf_numbers import triangles_of
-from renderer.files.models.mtl import ImageMap, MtlMaterial
-from renderer.files.models.numerals import floats, words
-from renderer.files.models.parts import Part, linear_colors
-from renderer.files.models.polygons import check_corners, triangulated
-from renderer.files.models.texts import read_text_bytes, tidy
-from renderer.files.reading import check_bytes, check_count, damaged, read_file
-from renderer.files.texture_images import ModelImages
-from renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES, TRIANGLES
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.models.gltf_file import TRIANGLE_STRIP
+from lucida.renderer.files.models.gltf_numbers import triangles_of
+from lucida.renderer.files.models.mtl import ImageMap, MtlMaterial
+from lucida.renderer.files.models.numerals import floats, words
+from lucida.renderer.files.models.parts import Part, linear_colors
+from lucida.renderer.files.models.polygons import check_corners, triangulated
+from lucida.renderer.files.models.texts import read_text_bytes, tidy
+from lucida.renderer.files.reading import check_bytes, check_count, damaged, read_file
+from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES, TRIANGLES
+from lucida.renderer.system.errors import LucidaError
 
 _SOLID = re.compile(rb"(?is)\n[ \t]*solid\b([^\n]*)(.*?)endsolid")
 _VERTEX = re.compile(rb"(?i)vertex([^\n]*)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import AbstractContextManager
 from contextvars import ContextVar
 
-from renderer.system.cancelling import during
+from lucida.renderer.system.cancelling import during
 
 _found: ContextVar[list[str]] = ContextVar("repairs")
 

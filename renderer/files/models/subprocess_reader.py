@@ -12,11 +12,11 @@ import subprocess
 import threading
 from pathlib import Path
 
-from renderer.files.models.models import ModelFile, read_model
-from renderer.system.child import end_child, end_with_parent, interpreter, start_child
-from renderer.system.errors import LucidaError
-from renderer.system.file_dependencies import note, note_all, noting
-from renderer.system.pipe import read_value, write_value
+from lucida.renderer.files.models.models import ModelFile, read_model
+from lucida.renderer.system.child import end_child, end_with_parent, interpreter, start_child
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.file_dependencies import note, note_all, noting
+from lucida.renderer.system.pipe import read_value, write_value
 
 # From here on a process, which takes some 0.3 s to start, costs less than it brings: text holds the
 # lock for some 15 ms a MiB, a frame of a window.

@@ -6,9 +6,9 @@ import codecs
 import re
 from pathlib import Path
 
-from renderer.files.reading import read_file
-from renderer.scene.limits import TEXT_MODEL_BYTES
-from renderer.system.errors import LucidaError
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.scene.limits import TEXT_MODEL_BYTES
+from lucida.renderer.system.errors import LucidaError
 
 _COMMENT_LINE = re.compile(rb"^[ \t]*#[^\n]*", re.MULTILINE)
 

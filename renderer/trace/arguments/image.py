@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.frame import Frame
-from renderer.system.errors import LucidaError
-from renderer.trace.arguments.buffers import Buffers
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace.arguments.buffers import Buffers
 
 BLOCK = 32  # pixels: side of the square that a thread traces at a time
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera, Size, Vector
 
 
 class KernelView(NamedTuple):

@@ -12,9 +12,9 @@ import numpy as np
 from numba.core import types
 from numpy.typing import NDArray
 
-from renderer.scene.flat import FlatScene
-from renderer.scene.positions import world_vertices
-from renderer.trace.bvh.sah_split import (
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.scene.positions import world_vertices
+from lucida.renderer.trace.bvh.sah_split import (
     BINS,
     HIGH,
     NUMBER,
@@ -25,14 +25,14 @@ from renderer.trace.bvh.sah_split import (
     bounds_of_records,
     partition,
 )
-from renderer.trace.compile.compiled import inlined, kernel
-from renderer.trace.compile.emit import greater, lesser
-from renderer.trace.reference.traverse import Tree
-from renderer.trace.reference.vectors import row
-from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.thread_pool import Team, new_control
-from renderer.trace.vector.lanes import LANES
-from renderer.trace.vector.memory import load, pointer, stack_room, store
+from lucida.renderer.trace.compile.compiled import inlined, kernel
+from lucida.renderer.trace.compile.emit import greater, lesser
+from lucida.renderer.trace.reference.traverse import Tree
+from lucida.renderer.trace.reference.vectors import row
+from lucida.renderer.trace.threads.atomic import take_next
+from lucida.renderer.trace.threads.thread_pool import Team, new_control
+from lucida.renderer.trace.vector.lanes import LANES
+from lucida.renderer.trace.vector.memory import load, pointer, stack_room, store
 
 F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]

@@ -15,14 +15,14 @@ import numpy as np
 from numba.core import types
 from numpy.typing import NDArray
 
-from renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
-from renderer.trace.compile.compiled import kernel
-from renderer.trace.compile.emit import emitted, greater, i64, lesser
-from renderer.trace.reference.vectors import cross, dot, minus, times
-from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.thread_pool import Team, new_control
-from renderer.trace.vector.gather import gather
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
+from lucida.renderer.trace.compile.compiled import kernel
+from lucida.renderer.trace.compile.emit import emitted, greater, i64, lesser
+from lucida.renderer.trace.reference.vectors import cross, dot, minus, times
+from lucida.renderer.trace.threads.atomic import take_next
+from lucida.renderer.trace.threads.thread_pool import Team, new_control
+from lucida.renderer.trace.vector.gather import gather
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     i32_of,
     lane_column,
@@ -37,8 +37,8 @@ from renderer.trace.vector.lanes import (
     vmin,
     vsqrt,
 )
-from renderer.trace.vector.math import select_lanes, store3
-from renderer.trace.vector.memory import load, pointer, stack_room, store
+from lucida.renderer.trace.vector.math import select_lanes, store3
+from lucida.renderer.trace.vector.memory import load, pointer, stack_room, store
 
 WIDTH = 16  # children per node, triangles per leaf: the lanes of a vector
 NO_CHILD = -1

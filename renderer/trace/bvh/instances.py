@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene.boxes import world_boxes
-from renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
-from renderer.scene.model import Mesh, Scene
-from renderer.trace.bvh.bvh16 import (
+from lucida.renderer.scene.boxes import world_boxes
+from lucida.renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
+from lucida.renderer.scene.model import Mesh, Scene
+from lucida.renderer.trace.bvh.bvh16 import (
     FIRST_LEAF,
     WIDTH,
     WideTree,
@@ -27,7 +27,7 @@ from renderer.trace.bvh.bvh16 import (
     tree_of_boxes,
     tree_of_mesh,
 )
-from renderer.trace.threads.thread_pool import Team
+from lucida.renderer.trace.threads.thread_pool import Team
 
 # Bits of an instance: its vertices have normals, have colours; its transform changes angles, is the
 # identity; its material has a texture, is single-sided, has a cutout.

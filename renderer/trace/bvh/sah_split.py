@@ -17,9 +17,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
     f64_of,
@@ -39,7 +39,7 @@ from renderer.trace.vector.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.vector.memory import load, load_half, store_half
+from lucida.renderer.trace.vector.memory import load, load_half, store_half
 
 BINS = 16
 SAMPLE = 2048  # records sampled to find a split, if there are many more

@@ -28,10 +28,10 @@ from pathlib import Path
 import llvmlite.binding as llvm
 import platformdirs
 
-import renderer.scene.flat
-from renderer.images import shared_numbers
-from renderer.system.errors import LucidaError
-from renderer.system.private_folder import private_folder
+import lucida.renderer.scene.flat
+from lucida.renderer.images import shared_numbers
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.private_folder import private_folder
 
 KEPT = 4  # folders of other sources or versions to keep
 KEPT_FOR_S = 3600.0  # younger ones are kept, too: another process may be writing them
@@ -81,7 +81,11 @@ def source_hash() -> str:
     """
     sources = sorted(TRACE_FOLDER.rglob("*.py"))
     digest = hashlib.sha256()
-    for path in (*sources, Path(renderer.scene.flat.__file__), Path(shared_numbers.__file__)):
+    for path in (
+        *sources,
+        Path(lucida.renderer.scene.flat.__file__),
+        Path(shared_numbers.__file__),
+    ):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     versions = [_version(name) for name in ("numba", "llvmlite", "numpy")]
     for text in (sys.version, *versions, *_processor()):

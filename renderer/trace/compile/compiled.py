@@ -15,9 +15,9 @@ from numba.core.compiler import CompilerBase, Flags, compile_extra
 from numba.core.compiler_machinery import PassManager
 from numba.core.registry import cpu_target
 
-from renderer.system import compile_note
-from renderer.trace.compile.cache_folder import cache_folder
-from renderer.trace.compile.emit import defined
+from lucida.renderer.system import compile_note
+from lucida.renderer.trace.compile.cache_folder import cache_folder
+from lucida.renderer.trace.compile.emit import defined
 
 _cache_dir_lock = threading.Lock()
 _has_failed = threading.Event()  # set once machine code could not be loaded or saved

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.reference.texture import opacity_at_place
-from renderer.trace.vector.lanes import lowest_bit
+from lucida.renderer.trace.bvh.bvh16 import CORNERS, WIDTH
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.reference.texture import opacity_at_place
+from lucida.renderer.trace.vector.lanes import lowest_bit
 
 
 @inlined

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.trace.bvh.bvh16 import FIRST_LEAF
-from renderer.trace.bvh.instances import Instances
-from renderer.trace.compile.compiled import kernel
-from renderer.trace.rays.traverse import closest_hit
-from renderer.trace.reference.vectors import triple
-from renderer.trace.threads.atomic import take_next
-from renderer.trace.threads.thread_pool import Team, new_control
-from renderer.trace.vector.lanes import LANES
-from renderer.trace.vector.memory import pointer, pointers
+from lucida.renderer.trace.bvh.bvh16 import FIRST_LEAF
+from lucida.renderer.trace.bvh.instances import Instances
+from lucida.renderer.trace.compile.compiled import kernel
+from lucida.renderer.trace.rays.traverse import closest_hit
+from lucida.renderer.trace.reference.vectors import triple
+from lucida.renderer.trace.threads.atomic import take_next
+from lucida.renderer.trace.threads.thread_pool import Team, new_control
+from lucida.renderer.trace.vector.lanes import LANES
+from lucida.renderer.trace.vector.memory import pointer, pointers
 
 _CHUNK = 256  # rays that a thread takes at a time
 

@@ -17,13 +17,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
-from renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import emitted
-from renderer.trace.rays.holes import without_holes
-from renderer.trace.reference.vectors import dot, minus, plus, rotated, times, transformed, triple
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
+from lucida.renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import emitted
+from lucida.renderer.trace.rays.holes import without_holes
+from lucida.renderer.trace.reference.vectors import (
+    dot,
+    minus,
+    plus,
+    rotated,
+    times,
+    transformed,
+    triple,
+)
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
     fma,
@@ -35,7 +43,7 @@ from renderer.trace.vector.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.vector.memory import load, store
+from lucida.renderer.trace.vector.memory import load, store
 
 _ROUNDING = np.float32(5e-7)  # relative: more than the total rounding error of a box test
 _STEEP = np.float32(1e-9)  # least size of a direction's component, relative to the largest

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.arguments.image import BLOCK
-from renderer.trace.compile.compiled import inlined, kernel
-from renderer.trace.reference.shade import (
+from lucida.renderer.trace.arguments.image import BLOCK
+from lucida.renderer.trace.compile.compiled import inlined, kernel
+from lucida.renderer.trace.reference.shade import (
     color_at,
     corners_of,
     normals_at,
@@ -18,9 +18,9 @@ from renderer.trace.reference.shade import (
     rgb,
     turned,
 )
-from renderer.trace.reference.traverse import closest_hit
-from renderer.trace.reference.vectors import cross, dot, minus, row
-from renderer.trace.threads.atomic import count_done, is_cancelled, take_next
+from lucida.renderer.trace.reference.traverse import closest_hit
+from lucida.renderer.trace.reference.vectors import cross, dot, minus, row
+from lucida.renderer.trace.threads.atomic import count_done, is_cancelled, take_next
 
 
 @kernel

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.images.shared_numbers import (
+from lucida.renderer.images.shared_numbers import (
     CELL_NUDGE,
     CHECKERED,
     GRAZING,
@@ -18,10 +18,16 @@ from renderer.images.shared_numbers import (
     SHORTEST_HALF,
     SHORTEST_MEAN,
 )
-from renderer.scene import flat
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.reference.texture import BASE, MORE, light_at_place, opacity_at_place, place_at
-from renderer.trace.reference.vectors import (
+from lucida.renderer.scene import flat
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.reference.texture import (
+    BASE,
+    MORE,
+    light_at_place,
+    opacity_at_place,
+    place_at,
+)
+from lucida.renderer.trace.reference.vectors import (
     blend,
     cross,
     dot,

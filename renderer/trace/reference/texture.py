@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 
-from renderer.images.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
-from renderer.scene import flat
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.reference.vectors import plus, times
+from lucida.renderer.images.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
+from lucida.renderer.scene import flat
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.reference.vectors import plus, times
 
 MOST = (1 << TEXEL_BITS) - 1  # what a texel's largest number is
 _WRAPS = (1 << WRAP_BITS) - 1

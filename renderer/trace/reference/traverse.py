@@ -6,17 +6,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.scene.flat import FlatScene
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.reference.intersect import (
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.reference.intersect import (
     box_ray,
     enter_box,
     hit_sphere,
     hit_triangle,
     sheared_ray,
 )
-from renderer.trace.reference.shade import passes
-from renderer.trace.reference.vectors import minus
+from lucida.renderer.trace.reference.shade import passes
+from lucida.renderer.trace.reference.vectors import minus
 
 
 class Tree(NamedTuple):

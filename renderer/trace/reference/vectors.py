@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import emitted
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import emitted
 
 
 @inlined

@@ -11,9 +11,9 @@ from __future__ import annotations
 from llvmlite import ir
 from numba.core import types
 
-from renderer.trace.compile.emit import emitted, instruction
-from renderer.trace.threads.thread_pool import CANCELLED, DONE, NEXT
-from renderer.trace.vector.types import INT64, first_address
+from lucida.renderer.trace.compile.emit import emitted, instruction
+from lucida.renderer.trace.threads.thread_pool import CANCELLED, DONE, NEXT
+from lucida.renderer.trace.vector.types import INT64, first_address
 
 
 def _address(builder, control, index):

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError
 
 MOST_THREADS = 1024
 # The control array of one kernel launch: pieces of work taken and done, and a request to stop.

@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted
-from renderer.trace.tiles.tile import TILE, keep_hits, nearest_key_of, pixel_points
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.bvh.bvh16 import WIDTH
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted
+from lucida.renderer.trace.tiles.tile import TILE, keep_hits, nearest_key_of, pixel_points
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
     fma,
@@ -27,7 +27,7 @@ from renderer.trace.vector.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.vector.memory import store
+from lucida.renderer.trace.vector.memory import store
 
 SMALL_PIXELS = np.float32(16)  # a rectangle with more is not small
 ROUND = 2  # pixels of each lane that are tested before hits are stored

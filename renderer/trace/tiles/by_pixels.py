@@ -11,13 +11,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import emitted
-from renderer.trace.tiles.footprint import open_pixels
-from renderer.trace.tiles.tile import keep_hits, nearest_key_of, pixel_point
-from renderer.trace.vector.lanes import LANES, bits, fma, lowest_bit, mask_of, select, smallest
-from renderer.trace.vector.memory import load
+from lucida.renderer.trace.bvh.bvh16 import WIDTH
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import emitted
+from lucida.renderer.trace.tiles.footprint import open_pixels
+from lucida.renderer.trace.tiles.tile import keep_hits, nearest_key_of, pixel_point
+from lucida.renderer.trace.vector.lanes import (
+    LANES,
+    bits,
+    fma,
+    lowest_bit,
+    mask_of,
+    select,
+    smallest,
+)
+from lucida.renderer.trace.vector.memory import load
 
 FEW_PIXELS = 8
 

@@ -10,14 +10,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.bvh.instances import HAS_HOLES
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import emitted
-from renderer.trace.compile.stage import call_apart
-from renderer.trace.tiles.smooth import barycentrics, vertices_of
-from renderer.trace.tiles.texture import are_holes
-from renderer.trace.tiles.tile import (
+from lucida.renderer.trace.bvh.bvh16 import WIDTH
+from lucida.renderer.trace.bvh.instances import HAS_HOLES
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import emitted
+from lucida.renderer.trace.compile.stage import call_apart
+from lucida.renderer.trace.tiles.smooth import barycentrics, vertices_of
+from lucida.renderer.trace.tiles.texture import are_holes
+from lucida.renderer.trace.tiles.tile import (
     SQUARE,
     TILE,
     coordinates,
@@ -27,7 +27,7 @@ from renderer.trace.tiles.tile import (
     set_hits,
     square_points,
 )
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
     fma,
@@ -40,8 +40,8 @@ from renderer.trace.vector.lanes import (
     vmax,
     vmin,
 )
-from renderer.trace.vector.math import store3
-from renderer.trace.vector.memory import load, store
+from lucida.renderer.trace.vector.math import store3
+from lucida.renderer.trace.vector.memory import load, store
 
 _E0, _E1, _E2, _KEY = range(4)  # a triangle's functions, in the order of their coefficients
 

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
-from renderer.scene.boxes import world_boxes
-from renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+from lucida.renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
+from lucida.renderer.scene.boxes import world_boxes
+from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 
 # A face in a cell's border is looked up CELL_NUDGE beside it: hits must be known better than that.
 _KNOWN = CELL_NUDGE / 2

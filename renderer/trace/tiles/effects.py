@@ -12,17 +12,31 @@ from typing import NamedTuple
 
 import numpy as np
 
-from renderer.images.shared_numbers import AWAY
-from renderer.scene.flat import SPECULAR_CHECKERED
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import emitted
-from renderer.trace.rays.traverse import any_hit, closest_hit
-from renderer.trace.reference.vectors import minus, plus, times, triple
-from renderer.trace.tiles.smooth import triple_of_lane
-from renderer.trace.tiles.surface import Pixels
-from renderer.trace.vector.lanes import LANES, bits, lane_of, lowest_bit, mask_of, splat, vmax
-from renderer.trace.vector.math import dot_lanes, fma_lanes, select_lanes, splat_lanes, store3
-from renderer.trace.vector.memory import load, shifted, store
+from lucida.renderer.images.shared_numbers import AWAY
+from lucida.renderer.scene.flat import SPECULAR_CHECKERED
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import emitted
+from lucida.renderer.trace.rays.traverse import any_hit, closest_hit
+from lucida.renderer.trace.reference.vectors import minus, plus, times, triple
+from lucida.renderer.trace.tiles.smooth import triple_of_lane
+from lucida.renderer.trace.tiles.surface import Pixels
+from lucida.renderer.trace.vector.lanes import (
+    LANES,
+    bits,
+    lane_of,
+    lowest_bit,
+    mask_of,
+    splat,
+    vmax,
+)
+from lucida.renderer.trace.vector.math import (
+    dot_lanes,
+    fma_lanes,
+    select_lanes,
+    splat_lanes,
+    store3,
+)
+from lucida.renderer.trace.vector.memory import load, shifted, store
 
 
 class Effects(NamedTuple):

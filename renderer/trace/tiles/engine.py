@@ -10,27 +10,27 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera
-from renderer.camera.lenses import Lens
-from renderer.scene.flat import flatten
-from renderer.scene.model import Scene
-from renderer.scene.positions import lights_from, near_point
-from renderer.trace.arguments.image import Image, Rows, new_image
-from renderer.trace.arguments.view import KernelView
-from renderer.trace.bvh.instances import Instances, World
-from renderer.trace.compile.stage import StagedCode, new_room
-from renderer.trace.rays.query import Vectors, closest_hits
-from renderer.trace.reference.kernel import shade_rays
-from renderer.trace.threads.thread_pool import Control, Team, cancelled_control
-from renderer.trace.tiles.cells import cells_of
-from renderer.trace.tiles.effects import Effects, effects_of
-from renderer.trace.tiles.kernel import trace_packets
-from renderer.trace.tiles.lens_table import NO_FRAMES, LensTable, lens_table
-from renderer.trace.tiles.surface import SceneArrays, scene_arrays
-from renderer.trace.tiles.texture import NO_TEXTURES, PacketTextures
-from renderer.trace.tiles.variants import Variant, variant_of
-from renderer.trace.tiles.view import PacketView, packet_view
-from renderer.trace.tiles.write import writing_stage
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.scene.positions import lights_from, near_point
+from lucida.renderer.trace.arguments.image import Image, Rows, new_image
+from lucida.renderer.trace.arguments.view import KernelView
+from lucida.renderer.trace.bvh.instances import Instances, World
+from lucida.renderer.trace.compile.stage import StagedCode, new_room
+from lucida.renderer.trace.rays.query import Vectors, closest_hits
+from lucida.renderer.trace.reference.kernel import shade_rays
+from lucida.renderer.trace.threads.thread_pool import Control, Team, cancelled_control
+from lucida.renderer.trace.tiles.cells import cells_of
+from lucida.renderer.trace.tiles.effects import Effects, effects_of
+from lucida.renderer.trace.tiles.kernel import trace_packets
+from lucida.renderer.trace.tiles.lens_table import NO_FRAMES, LensTable, lens_table
+from lucida.renderer.trace.tiles.surface import SceneArrays, scene_arrays
+from lucida.renderer.trace.tiles.texture import NO_TEXTURES, PacketTextures
+from lucida.renderer.trace.tiles.variants import Variant, variant_of
+from lucida.renderer.trace.tiles.view import PacketView, packet_view
+from lucida.renderer.trace.tiles.write import writing_stage
 
 _ONE_TEXEL = np.zeros(1, np.int32)
 _ONE_TEXEL.setflags(write=False)

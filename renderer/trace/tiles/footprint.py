@@ -22,9 +22,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
-from renderer.trace.tiles.tile import (
+from lucida.renderer.trace.bvh.bvh16 import WIDTH
+from lucida.renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
+from lucida.renderer.trace.tiles.tile import (
     AHEAD,
     BEHIND,
     BOTTOM,
@@ -34,8 +34,8 @@ from renderer.trace.tiles.tile import (
     TOP,
     largest_of_plane,
 )
-from renderer.trace.vector.lanes import LANES, bits, fma, i32_of, splat, vmax, vmin
-from renderer.trace.vector.memory import load
+from lucida.renderer.trace.vector.lanes import LANES, bits, fma, i32_of, splat, vmax, vmin
+from lucida.renderer.trace.vector.memory import load
 
 # A footprint: bits 0 to 15 are the tile's squares; then come, with four bits each, the first and
 # the last column, the first and the last row of the tile's pixels that it holds.

@@ -20,10 +20,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera.camera import Camera, Size
-from renderer.trace.arguments.image import Rows
-from renderer.trace.compile.compiled import inlined, kernel
-from renderer.trace.threads.thread_pool import CANCELLED, NEXT, Control
+from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.trace.arguments.image import Rows
+from lucida.renderer.trace.compile.compiled import inlined, kernel
+from lucida.renderer.trace.threads.thread_pool import CANCELLED, NEXT, Control
 
 TILE, SQUARE = 16, 4  # pixels, as in tile.py
 _PIXELS = TILE * TILE

@@ -12,16 +12,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted
-from renderer.trace.compile.stage import call_apart
-from renderer.trace.reference.vectors import cross, dot, minus
-from renderer.trace.tiles.smooth import camera_point
-from renderer.trace.tiles.sphere import is_near_hit, key_at, moment, sphere_ray
-from renderer.trace.tiles.tile import FIRST_SPHERE, NOTHING, scratch_of, square_points
-from renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.bvh.bvh16 import CORNERS, WIDTH
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted
+from lucida.renderer.trace.compile.stage import call_apart
+from lucida.renderer.trace.reference.vectors import cross, dot, minus
+from lucida.renderer.trace.tiles.smooth import camera_point
+from lucida.renderer.trace.tiles.sphere import is_near_hit, key_at, moment, sphere_ray
+from lucida.renderer.trace.tiles.tile import FIRST_SPHERE, NOTHING, scratch_of, square_points
+from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
     fma,
@@ -32,8 +32,8 @@ from renderer.trace.vector.lanes import (
     to_f64,
     vsqrt,
 )
-from renderer.trace.vector.math import dot_lanes, fma_lanes
-from renderer.trace.vector.memory import load, store
+from lucida.renderer.trace.vector.math import dot_lanes, fma_lanes
+from lucida.renderer.trace.vector.memory import load, store
 
 
 @inlined

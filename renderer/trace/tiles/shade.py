@@ -7,26 +7,31 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.images.shared_numbers import CELL_NUDGE, CHECKERED, NEAREST_LIGHT, SHORTEST_HALF
-from renderer.scene.flat import (
+from lucida.renderer.images.shared_numbers import (
+    CELL_NUDGE,
+    CHECKERED,
+    NEAREST_LIGHT,
+    SHORTEST_HALF,
+)
+from lucida.renderer.scene.flat import (
     CHECKER_DIFFUSE,
     DIFFUSE_SHININESS,
     SPECULAR_CHECKERED,
 )
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted, f32
-from renderer.trace.reference.vectors import each_times, minus, times, triple
-from renderer.trace.tiles.effects import (
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted, f32
+from lucida.renderer.trace.reference.vectors import each_times, minus, times, triple
+from lucida.renderer.trace.tiles.effects import (
     brightest,
     lit_pixels,
     reflectance,
     reflected_rays,
     trace_square,
 )
-from renderer.trace.tiles.surface import find_surfaces, points_on
-from renderer.trace.tiles.texture import times_gloss
-from renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.tiles.surface import find_surfaces, points_on
+from lucida.renderer.trace.tiles.texture import times_gloss
+from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
+from lucida.renderer.trace.vector.lanes import (
     bits,
     fma,
     inverse_root,
@@ -39,7 +44,7 @@ from renderer.trace.vector.lanes import (
     vfloor,
     vmax,
 )
-from renderer.trace.vector.math import (
+from lucida.renderer.trace.vector.math import (
     dot_lanes,
     each_fma,
     inverse_length,
@@ -48,7 +53,7 @@ from renderer.trace.vector.math import (
     select_lanes,
     splat_lanes,
 )
-from renderer.trace.vector.memory import load
+from lucida.renderer.trace.vector.memory import load
 
 _PER_NEAREST_LIGHT = np.float32(1) / np.float32(NEAREST_LIGHT)
 _SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted, f32
-from renderer.trace.reference.vectors import cross, dot, minus, plus, times, triple
-from renderer.trace.tiles.tile import (
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted, f32
+from lucida.renderer.trace.reference.vectors import cross, dot, minus, plus, times, triple
+from lucida.renderer.trace.tiles.tile import (
     FIRST_SPHERE,
     SQUARE,
     SQUARES,
@@ -23,10 +23,19 @@ from renderer.trace.tiles.tile import (
     set_hits,
     square_points,
 )
-from renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.vector.lanes import LANES, bits, fma, select, smallest, splat, vabs, vsqrt
-from renderer.trace.vector.math import fma_lanes, normalized_lanes, splat_lanes
-from renderer.trace.vector.memory import load
+from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
+from lucida.renderer.trace.vector.lanes import (
+    LANES,
+    bits,
+    fma,
+    select,
+    smallest,
+    splat,
+    vabs,
+    vsqrt,
+)
+from lucida.renderer.trace.vector.math import fma_lanes, normalized_lanes, splat_lanes
+from lucida.renderer.trace.vector.memory import load
 
 _CHORD = np.float32(5e-7)  # relative: more than z and the chord's middle are rounded by
 

@@ -12,14 +12,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from renderer.images import shared_numbers
-from renderer.scene.flat import FlatScene
-from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, HAS_TEXTURE, IS_STRETCHED
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted
-from renderer.trace.reference.vectors import minus, times, triple
-from renderer.trace.tiles.smooth import (
+from lucida.renderer.images import shared_numbers
+from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.trace.bvh.bvh16 import WIDTH
+from lucida.renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, HAS_TEXTURE, IS_STRETCHED
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted
+from lucida.renderer.trace.reference.vectors import minus, times, triple
+from lucida.renderer.trace.tiles.smooth import (
     agrees,
     barycentrics,
     barycentrics_at,
@@ -27,8 +27,8 @@ from renderer.trace.tiles.smooth import (
     have_normals,
     vertices_of,
 )
-from renderer.trace.tiles.sphere import sphere_normal, sphere_normal_at
-from renderer.trace.tiles.texture import (
+from lucida.renderer.trace.tiles.sphere import sphere_normal, sphere_normal_at
+from lucida.renderer.trace.tiles.texture import (
     PacketTextures,
     between_vertices,
     glossy,
@@ -36,11 +36,11 @@ from renderer.trace.tiles.texture import (
     on_sphere,
     textured,
 )
-from renderer.trace.tiles.tile import FIRST_SPHERE, NOTHING, coordinates
-from renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
-from renderer.trace.vector.gather import gather
-from renderer.trace.vector.lanes import LANES, bits, lowest_bit, mask_of, select, splat
-from renderer.trace.vector.math import (
+from lucida.renderer.trace.tiles.tile import FIRST_SPHERE, NOTHING, coordinates
+from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
+from lucida.renderer.trace.vector.gather import gather
+from lucida.renderer.trace.vector.lanes import LANES, bits, lowest_bit, mask_of, select, splat
+from lucida.renderer.trace.vector.math import (
     dot_lanes,
     fma_lanes,
     inverse_length,
@@ -48,7 +48,7 @@ from renderer.trace.vector.math import (
     select_lanes,
     splat_lanes,
 )
-from renderer.trace.vector.memory import load
+from lucida.renderer.trace.vector.memory import load
 
 GRAZING = np.float32(shared_numbers.GRAZING)
 SHORTEST_MEAN_SQUARE = np.float32(shared_numbers.SHORTEST_MEAN**2)

@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.images.shared_numbers import MIRROR, TEXEL_BITS, WRAP_BITS
-from renderer.scene.flat import CHECKER_DIFFUSE
-from renderer.trace.compile.emit import choose, emitted, f32, i32, i64
-from renderer.trace.reference.vectors import each_times
-from renderer.trace.vector.gather import gather_fours, prefetch_lanes
-from renderer.trace.vector.lanes import (
+from lucida.renderer.images.shared_numbers import MIRROR, TEXEL_BITS, WRAP_BITS
+from lucida.renderer.scene.flat import CHECKER_DIFFUSE
+from lucida.renderer.trace.compile.emit import choose, emitted, f32, i32, i64
+from lucida.renderer.trace.reference.vectors import each_times
+from lucida.renderer.trace.vector.gather import gather_fours, prefetch_lanes
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     f32_of,
     first_of_four,
@@ -33,7 +33,7 @@ from renderer.trace.vector.lanes import (
     vmin,
     vsqrt,
 )
-from renderer.trace.vector.math import atan2_lanes, select_lanes
+from lucida.renderer.trace.vector.math import atan2_lanes, select_lanes
 
 _MOST = (1 << TEXEL_BITS) - 1
 # The bits of a texel's colours, where they are; and what makes their squares light.

@@ -15,12 +15,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import WIDTH
-from renderer.trace.compile.compiled import inlined
-from renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
-from renderer.trace.tiles.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.vector.gather import gather, prefetch
-from renderer.trace.vector.lanes import (
+from lucida.renderer.trace.bvh.bvh16 import WIDTH
+from lucida.renderer.trace.compile.compiled import inlined
+from lucida.renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
+from lucida.renderer.trace.tiles.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
+from lucida.renderer.trace.vector.gather import gather, prefetch
+from lucida.renderer.trace.vector.lanes import (
     LANES,
     fma,
     i32_of,
@@ -32,7 +32,7 @@ from renderer.trace.vector.lanes import (
     splat,
     vfloor,
 )
-from renderer.trace.vector.memory import divider, load, shifted, store
+from lucida.renderer.trace.vector.memory import divider, load, shifted, store
 
 TILE = 16  # pixels: side of a packet's square
 SQUARE = 4  # pixels: side of the square that a vector holds

@@ -21,12 +21,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from renderer.trace.bvh.bvh16 import CORNERS, WIDTH
-from renderer.trace.compile.emit import choose, emitted, f64
-from renderer.trace.reference.vectors import minus, plus, triple
-from renderer.trace.tiles.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
-from renderer.trace.vector.lanes import bits, fma, select, splat, to_f32, to_f64, vabs, vmax
-from renderer.trace.vector.math import load3, select_lanes
+from lucida.renderer.trace.bvh.bvh16 import CORNERS, WIDTH
+from lucida.renderer.trace.compile.emit import choose, emitted, f64
+from lucida.renderer.trace.reference.vectors import minus, plus, triple
+from lucida.renderer.trace.tiles.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
+from lucida.renderer.trace.vector.lanes import bits, fma, select, splat, to_f32, to_f64, vabs, vmax
+from lucida.renderer.trace.vector.math import load3, select_lanes
 
 # A triangle's volume is a sum of terms that can be far larger than it: where the triangle is seen
 # edge-on, or is a vast plain seen from just above. Where they are larger by DOUBTFUL, float32 has

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from renderer.camera.camera import Camera
-from renderer.scene.model import Scene, has_textures
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.model import Scene, has_textures
 
 
 class Variant(StrEnum):

@@ -9,18 +9,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.trace.arguments.image import Image
-from renderer.trace.bvh.instances import World
-from renderer.trace.compile.compiled import inlined, kernel
-from renderer.trace.compile.emit import lesser
-from renderer.trace.compile.stage import StagedCode, new_room, prepared
-from renderer.trace.reference.vectors import triple
-from renderer.trace.tiles.effects import Effects
-from renderer.trace.tiles.lens_frame import is_later_frame, is_own_pixel, tile_view
-from renderer.trace.tiles.refine import packet_depths, refine_square
-from renderer.trace.tiles.shade import add_reflections, shade_square
-from renderer.trace.tiles.surface import SceneArrays, find_surfaces, points_on, square_rays
-from renderer.trace.tiles.tile import (
+from lucida.renderer.trace.arguments.image import Image
+from lucida.renderer.trace.bvh.instances import World
+from lucida.renderer.trace.compile.compiled import inlined, kernel
+from lucida.renderer.trace.compile.emit import lesser
+from lucida.renderer.trace.compile.stage import StagedCode, new_room, prepared
+from lucida.renderer.trace.reference.vectors import triple
+from lucida.renderer.trace.tiles.effects import Effects
+from lucida.renderer.trace.tiles.lens_frame import is_later_frame, is_own_pixel, tile_view
+from lucida.renderer.trace.tiles.refine import packet_depths, refine_square
+from lucida.renderer.trace.tiles.shade import add_reflections, shade_square
+from lucida.renderer.trace.tiles.surface import SceneArrays, find_surfaces, points_on, square_rays
+from lucida.renderer.trace.tiles.tile import (
     NOTHING,
     SQUARE,
     SQUARES,
@@ -30,10 +30,10 @@ from renderer.trace.tiles.tile import (
     scratch_of,
     square_points,
 )
-from renderer.trace.tiles.view import PacketView
-from renderer.trace.vector.lanes import LANES, bits, select, splat
-from renderer.trace.vector.math import load3, splat_lanes
-from renderer.trace.vector.memory import (
+from lucida.renderer.trace.tiles.view import PacketView
+from lucida.renderer.trace.vector.lanes import LANES, bits, select, splat
+from lucida.renderer.trace.vector.math import load3, splat_lanes
+from lucida.renderer.trace.vector.memory import (
     as_int32,
     is_line,
     load,

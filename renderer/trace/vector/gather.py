@@ -11,8 +11,8 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.errors import TypingError
 
-from renderer.trace.compile.emit import instruction, target
-from renderer.trace.vector.types import (
+from lucida.renderer.trace.compile.emit import instruction, target
+from lucida.renderer.trace.vector.types import (
     I32,
     INT32,
     INT64,

@@ -21,8 +21,8 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.errors import TypingError
 
-from renderer.trace.compile.emit import i32, instruction, target
-from renderer.trace.vector.types import (
+from lucida.renderer.trace.compile.emit import i32, instruction, target
+from lucida.renderer.trace.vector.types import (
     F32,
     F64,
     I1,

@@ -14,8 +14,8 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.errors import TypingError
 
-from renderer.trace.compile.emit import BaseTuple, emitted, instruction, target
-from renderer.trace.vector.types import (
+from lucida.renderer.trace.compile.emit import BaseTuple, emitted, instruction, target
+from lucida.renderer.trace.vector.types import (
     ELEMENT,
     INT32,
     INT64,

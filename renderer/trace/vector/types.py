@@ -15,7 +15,7 @@ from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.extending import lower_builtin, models, register_model, type_callable
 
-from renderer.trace.compile.emit import Value, target
+from lucida.renderer.trace.compile.emit import Value, target
 
 LANES = 16
 CPointer = types.CPointer  # type: ignore[attr-defined]

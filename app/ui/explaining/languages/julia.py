@@ -13,7 +13,7 @@ import tokenize
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from renderer.camera.pixels import Indexing
+from lucida.renderer.camera.pixels import Indexing
 
 INDENT = "    "
 VECTOR, SCALAR = "vector", "scalar"

@@ -1,0 +1,199 @@
+"""`lucida animate`: films of each kind, breaks, workers that die, and what is refused."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from itertools import pairwise
+from pathlib import Path
+from unittest.mock import Mock
+
+import av
+import numpy as np
+import psutil
+import pytest
+from PIL import Image
+
+from lucida import LucidaError, __version__, load_scene
+from lucida.app.cameras.films import frames, workers
+from lucida.app.cameras.films.encoding import film_writer
+from lucida.app.cameras.films.paths import around
+from lucida.app.cli import main
+from lucida.renderer.scene.focus import scene_focus
+
+SMALL = ("--size", "32x18", "--renderer", "ray")
+
+
+@pytest.fixture
+def animate(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments):
+        status = main(["animate", "spheres", *arguments])
+        return status, *capsys.readouterr()
+
+    return run
+
+
+def pictures(folder):
+    return {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
+
+
+def test_films_of_each_kind_show_the_same_frames(animate):
+    assert animate("--orbit", "-o", "out", "--frames", "6", *SMALL)[0] == 0
+    assert list(pictures("out")) == [f"{n:06d}.png" for n in range(6)]
+    wanted = [np.asarray(Image.open(f"out/{n:06d}.png"), float) for n in range(6)]
+    assert all(np.abs(one - two).mean() > 1 for one, two in pairwise(wanted))
+    for name, near in (("o.mp4", 12), ("o.gif", 12), ("o.webp", 12)):
+        status, out, _ = animate("--orbit", "-o", name, "--frames", "6", "--fps", "22.5", *SMALL)
+        assert (status, out) == (0, f"{name}: 6 frames, 32x18, 0.2667 s\n")
+        assert not Path(f"{name}.frames").exists()
+        if name == "o.mp4":
+            with av.open(name) as container:
+                codec = container.streams.video[0].codec_context
+                assert (codec.color_primaries, codec.color_trc, codec.colorspace) == (1, 1, 1)
+                found = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+                assert container.streams.video[0].average_rate == 22.5
+        else:
+            with Image.open(name) as image:
+                found, duration_ms = [], 0
+                for n in range(image.n_frames):
+                    image.seek(n)
+                    found.append(np.asarray(image.convert("RGB")))
+                    duration_ms += image.info["duration"]
+            assert abs(duration_ms - 6000 / 22.5) < 5  # not 240: a GIF counts in 10 ms
+        assert len(found) == 6
+        for one, two in zip(found, wanted, strict=True):
+            assert np.abs(one - two).mean() < near
+
+
+def test_the_frames_of_a_folder_are_drawn_once(animate):
+    options = ("--orbit", "-o", "v1.5/", "--frames", "3", *SMALL)
+    assert animate(*options)[0] == 0
+    first = pictures("v1.5")
+    Path("v1.5/000001.png").unlink()
+    assert animate(*options)[0] == 0
+    status, out, _ = animate(*options)
+    assert status == 0 and "v1.5: all 3 frames are there" in out
+    assert pictures("v1.5") == first
+
+
+def test_both_renderers_side_by_side(animate):
+    options = ("--to-parallel", "-o", "out", "--frames", "2", "--size", "32x18")
+    assert animate(*options, "--renderer", "both")[0] == 0
+    image = np.asarray(Image.open("out/000001.png"))
+    assert image.shape == (18, 72, 3) and not image[:, 32:40].any()
+    assert np.abs(image[:, :32].astype(int) - image[:, 40:]).mean() < 1
+
+
+def test_an_interrupted_film_goes_on(animate, monkeypatch):
+    drawn = []
+
+    def draw(scene, look, shot):
+        if len(drawn) == 3:
+            raise KeyboardInterrupt
+        drawn.append(shot)
+        return frames.draw_shot(scene, look, shot)
+
+    options = ("--orbit", "-o", "o.gif", "--frames", "5", *SMALL)
+    monkeypatch.setattr(workers, "draw_shot", draw)
+    assert animate(*options)[0] == 130
+    assert len(pictures("o.gif.frames")) == 3 and not Path("o.gif").exists()
+    monkeypatch.setattr(workers, "draw_shot", frames.draw_shot)
+    broken = Path("o.gif.frames/000001.png")
+    broken.write_bytes(b"")
+    status, _, err = animate(*options)
+    assert status == 2 and f"{broken}: is no picture; delete it" in err
+    broken.unlink()
+    status, out, _ = animate(*options)
+    assert status == 0 and "4 of 5 frames are there" in out
+
+
+@pytest.mark.timeout(180)
+def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
+    scene = load_scene("spheres")
+    focus = scene_focus(scene)
+    look, size = frames.Look("ray", threads=1), (32, 96)
+    cameras = around(scene.view, focus, size, 12)
+    parts = [(0, 32), (32, 64), (64, 96)]
+    shots = [frames.Shot(camera, size, rows) for camera in cameras for rows in (*parts, None)]
+    shots = dict(enumerate(shots))
+    here = dict(workers.drawn_here(scene, look, shots))
+    there, killed = [], False
+    for number, png in workers.drawn_by_workers(scene, look, shots, 2):
+        there.append((number, png))
+        if not killed:
+            killed = kill_a_worker()
+    assert killed
+    assert sorted(number for number, _ in there) == list(shots)  # nothing lost, nothing twice
+    assert dict(there) == here
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [
+        ({}, "has no workers"),
+        ({"tcp://a": __version__, "tcp://b": "0.0.1"}, r"tcp://b has version 0\.0\.1 of Lucida"),
+        (ImportError("No module named 'app'"), "a worker has no Lucida: No module named 'app'"),
+    ],
+)
+def test_a_worker_with_another_version_is_refused(answer, message):
+    client = Mock()
+    client.run.side_effect = [answer]
+    with pytest.raises(LucidaError, match=message):
+        workers.check_versions(client)
+
+
+def kill_a_worker():
+    for child in psutil.Process().children(recursive=True):
+        with suppress(psutil.Error):  # it has ended meanwhile
+            if any("spawn_main" in part for part in child.cmdline()):
+                child.kill()
+                return True
+    return False
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--orbit", "-o", "a.avi"), "-o: the ending '.avi' is unknown"),
+        (("--orbit", "-o", "a.mp4", "--size", "33x18"), "--size: 33x18 has an odd side"),
+        (("--orbit", "-o", "a.gif", "--fps", "60"), "--fps: 60 is too fast for a GIF"),
+        (("--orbit", "-o", "none/a.gif"), "none"),
+        (("--orbit", "-o", "a", "--shadows"), "only image order has it"),
+        (("--path", "keys.toml", "-o", "a"), "keys.toml"),
+        (("-o", "a.gif"), "is required"),
+        (("--orbit", "-o", "a.gif", "--scheduler", "tcp://127.0.0.1:9"), "does not answer"),
+    ],
+)
+def test_mistakes_cost_one_line(animate, monkeypatch, options, message):
+    monkeypatch.setattr(workers, "PATIENCE_S", 1)
+    status, out, err = animate(*options)
+    assert status == 2 and out == ""
+    assert message in err and err.count("\n") == 1
+
+
+def test_what_else_is_in_a_folder_stays(animate):
+    Path("a.gif.frames").mkdir()
+    Path("a.gif.frames/notes.txt").write_text("mine")
+    Image.new("RGB", (8, 8)).save("a.gif.frames/000001.png")
+    status, _, err = animate("--orbit", "-o", "a.gif", "--frames", "2", *SMALL)
+    assert status == 2 and "000001.png: belongs to a film of another size; delete it" in err
+    Path("a.gif.frames/000001.png").unlink()
+    assert animate("--orbit", "-o", "a.gif", "--frames", "2", *SMALL)[0] == 0
+    assert pictures("a.gif.frames") == {"notes.txt": b"mine"}
+
+
+def test_an_mp4_holds_the_colours_of_bt_709(tmp_path):
+    """Decoded by hand: Y from 16 to 235, Cb and Cr within 112 of 128."""
+    colors = [(0, 255, 0), (255, 0, 0), (0, 0, 255), (200, 100, 50)]
+    frames = [tmp_path / f"{number}.png" for number in range(len(colors))]
+    for frame, color in zip(frames, colors, strict=True):
+        Image.new("RGB", (64, 48), color).save(frame)
+    list(film_writer(tmp_path / "a.mp4", (64, 48), 10.0)(tmp_path / "a.mp4", frames))
+    with av.open(str(tmp_path / "a.mp4")) as container:
+        planes = [frame.to_ndarray().astype(float) for frame in container.decode(video=0)]
+    for plane, color in zip(planes, colors, strict=True):
+        y = (plane[:48].mean() - 16) / 219
+        u, v = ((part.mean() - 128) / 224 for part in (plane[48:60], plane[60:]))
+        found = 255 * np.array([y + 1.5748 * v, y - 0.1873 * u - 0.4681 * v, y + 1.8556 * u])
+        assert found == pytest.approx(color, abs=3)

@@ -1,0 +1,143 @@
+"""`lucida render` of many pictures: a large image in parts, the cameras of a data set."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+import pytest
+from PIL import Image
+
+from lucida import Camera, LucidaError, Tracer, load_scene
+from lucida.app.cli import main
+from lucida.app.commands import render_many
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras import PosedCamera
+from lucida.renderer.images import picture
+
+SCENE, SIZE = load_scene("still-life"), (80, 100)
+VIEW = ("--view", "transforms.json", "--all", "--size", "24x16")
+
+
+@pytest.fixture
+def render(tmp_path, monkeypatch, capsys):
+    """Return a function that runs the command, for which 80 x 64 pixels are many."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("lucida.renderer.images.frame.LARGEST_PIXELS", 80 * 64)
+    monkeypatch.setattr(render_many, "LARGEST_PIXELS", 80 * 64)
+    monkeypatch.setattr(render_many, "PART_PIXELS", 80 * 32)
+
+    def run(*arguments):
+        status = main(["render", "still-life", *arguments])
+        return status, *capsys.readouterr()
+
+    return run
+
+
+def image(path):
+    return np.asarray(Image.open(path)).astype(int)
+
+
+@pytest.mark.parametrize("lens", [None, Lens("equidistant")])
+def test_rows_have_the_bits_of_the_whole_image(lens):
+    view = SCENE.view.for_size(SIZE)
+    camera = Camera(view.eye, view.u, view.v, view.w, view.distance, view.viewport, lens=lens)
+    channels = ("color", "depth", "normal", "primitive")
+    with Tracer(SCENE, shadows=True, mirror_depth=2) as tracer:
+        whole = tracer.render(camera, SIZE, channels, 4)
+        for rows in ((0, 32), (32, 96), (96, 100)):
+            part = tracer.render(camera, SIZE, channels, 4, rows=rows)
+            assert part.size == (80, rows[1] - rows[0])
+            for name in channels:
+                wanted = whole.channel(name)[slice(*rows)]
+                assert part.channel(name).tobytes() == wanted.tobytes()
+        with pytest.raises(LucidaError, match=r"rows: \(90, 101\) are not in 0 to 100"):
+            tracer.render(camera, SIZE, rows=(90, 101))
+
+
+def test_a_large_image_is_that_of_its_parts(render):
+    options = ("--samples", "4", "--shadows", "--renderer", "ray")
+    size = ("--size", "80x100")
+    status, out, _ = render("-o", "parts.png", *size, *options)
+    assert status == 0 and out.startswith("parts.png: color, ray, 80x100, ")
+    assert render("-o", "ids.exr", *size, "--channel", "id", *options)[0] == 0
+    assert render("-o", "raster.png", *size)[0] == 0
+    with Tracer(SCENE, shadows=True) as tracer:
+        for first in (0, 50):  # two halves are not large
+            rows = first, first + 50
+            camera = SCENE.view.for_size(SIZE).cropped(rows, SIZE)
+            half = tracer.render(camera, (80, 50), ("color", "id"), 4)
+            with OpenEXR.File("ids.exr", separate_channels=True) as file:
+                ids = file.channels()["id"].pixels[slice(*rows)].view(np.int32)
+            assert (ids != half.id).mean() < 1e-3
+            off = np.abs(image("parts.png")[slice(*rows)] - picture(half))
+            assert (off > 1).mean() < 1e-3
+    assert (np.abs(image("raster.png") - image("parts.png")) > 8).mean() < 0.3
+    assert not list(Path().glob("*.frames"))
+
+
+@pytest.fixture
+def data_set(render):
+    poses = [np.eye(4), np.eye(4), np.eye(4)]
+    for number, pose in enumerate(poses):
+        pose[:3, 3] = 0.5 * number, 0.5, 6
+    names = "images/IMG 1.jpg", "images/b.jpg", "images/c.jpg"
+    frames = [
+        {"file_path": name, "transform_matrix": pose.tolist()}
+        for name, pose in zip(names, poses, strict=True)
+    ]
+    content = {"w": 48, "h": 32, "fl_x": 50, "fl_y": 50, "cx": 24, "cy": 16, "frames": frames}
+    Path("transforms.json").write_text(json.dumps(content))
+    return render
+
+
+def test_all_cameras_of_a_data_set(data_set):
+    status, out, _ = data_set("-o", "all", *VIEW[:3], "--renderer", "ray")
+    assert status == 0 and out.startswith("all: 3 images, color, ray, ")
+    assert sorted(path.name for path in Path("all").iterdir()) == [
+        "IMG 1.png",
+        "b.png",
+        "c.png",
+    ]
+    assert image("all/b.png").shape == (32, 48, 3)
+    one = ("--view", "transforms.json#1", "--renderer", "ray", "-o", "one.png")
+    assert data_set(*one)[0] == 0
+    assert np.array_equal(image("one.png"), image("all/b.png"))
+    assert data_set("-o", "exr", *VIEW, "--channel", "depth", "--format", ".exr")[0] == 0
+    with OpenEXR.File("exr/c.exr", separate_channels=True) as file:
+        assert file.channels()["Z"].pixels.shape == (16, 24)
+
+
+def test_a_data_set_of_one_camera(data_set):
+    content = json.loads(Path("transforms.json").read_text())
+    Path("transforms.json").write_text(json.dumps(content | {"frames": content["frames"][:1]}))
+    status, out, _ = data_set("-o", "one", *VIEW, "--renderer", "ray")
+    assert status == 0 and out.startswith("one: 1 image, ") and Path("one/IMG 1.png").is_file()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("-o", "a.npy", "--size", "80x100"), "80x100 is drawn in parts, which .npy cannot be"),
+        (("-o", "a.png", "--size", "80x100", "--channel", "depth"), "no nearest hit in common"),
+        (
+            ("-o", "a.pfm", "--size", "32x18", "--workers", "2"),
+            "draws an image in parts, which .pfm cannot be",
+        ),
+        (("-o", "a.png", "--size", "20000x2"), "20000x2 is too large"),
+        (("-o", "a", "--all"), "has no cameras; give a data set by --view"),
+        (("-o", "a.png", "--format", ".exr"), "is for --all"),
+    ],
+)
+def test_mistakes_with_many_pictures_cost_one_line(render, options, message):
+    status, out, err = render(*options)
+    assert (status, out) == (2, "") and message in err and err.count("\n") == 1
+    assert not any(Path().iterdir())
+
+
+def test_names_are_those_of_the_photographs_if_they_differ():
+    cameras = [PosedCamera(Camera(), image=f"{folder}/x.jpg") for folder in "ab"]
+    assert render_many.file_names(cameras) == ["000000", "000001"]
+    assert render_many.file_names([PosedCamera(Camera(), name="left: 1")]) == ["left- 1"]

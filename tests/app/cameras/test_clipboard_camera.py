@@ -1,0 +1,166 @@
+"""Cameras as text: each form comes back as it was; what is no camera is told in one line."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from copied_views import NOW, lens_views, read_view, subject, views
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from lucida.app.cameras.reader import MOST_CHARACTERS
+from lucida.app.cameras.text import Form, as_text
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
+
+ROOT = Path(__file__).parents[3]
+
+
+@pytest.mark.parametrize("form", ["view file", "command line", "Python"])
+@given(view=views | lens_views())
+@example(view=View(Camera(eye=(-1e-9, 1e-300, -0.0), near=1e-7)))
+def test_what_is_copied_comes_back_exactly(form: Form, view: View) -> None:
+    assert read_view(as_text(form, subject(view)), NOW) == view
+
+
+@given(views | lens_views())
+def test_the_python_runs_as_it_is(view: View) -> None:
+    names: dict[str, object] = {}
+    exec(as_text("Python", subject(view)), names)
+    assert names["camera"] == view.camera
+    assert names.get("view", View(view.camera)) == view
+
+
+@pytest.mark.parametrize(
+    ("text", "camera"),
+    [
+        (
+            "from lucida import Camera\nc = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)",
+            Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40),
+        ),
+        ("lucida.Camera.canonical()", Camera()),
+        (
+            "r.Camera(lens=r.Lens(model='brown', coefficients={'k1': -0.2}))",
+            Camera(lens=Lens("brown", {"k1": -0.2})),
+        ),
+        ("--lens equisolid", replace(NOW.camera, lens=Lens("equisolid"))),
+        ("Camera((1, 2, 3), distance=2)", Camera((1, 2, 3), distance=2)),
+        (
+            "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfov_y_deg = 40",
+            Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40),
+        ),
+        ("[camera]\neye = [0, 0, 5]", Camera((0, 0, 5))),
+        ("--eye=0,0,5", replace(NOW.camera, eye=(0, 0, 5))),
+        (
+            "lucida spheres --eye 0,0,5 --distance 3 # mine",
+            replace(NOW.camera, eye=(0, 0, 5), distance=3),
+        ),
+    ],
+)
+def test_near_relatives_are_read(text: str, camera: Camera) -> None:
+    assert read_view(text, NOW).camera == camera
+
+
+@pytest.mark.parametrize(
+    ("camera", "view"),
+    [
+        ("eye = [0, 0, 5]", View(Camera((0, 0, 5)), fit=True)),
+        (
+            "eye = [0, 0, 5]\nviewport = [-1, 1, -1, 1]",
+            View(Camera((0, 0, 5), viewport=(-1, 1, -1, 1))),
+        ),
+        (
+            "eye = [0, 0, 5]\ntarget = [0, 0, 0]",
+            View(Camera.look_at((0, 0, 5), (0, 0, 0)), fit=True),
+        ),
+    ],
+)
+def test_of_a_whole_scene_file_the_camera_is_read(camera: str, view: View) -> None:
+    """As the scene has it; a view file's viewport stands as it is."""
+    ball = '[[objects]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n'
+    assert read_view(f"lucida = 1\n[camera]\n{camera}\n{ball}", NOW) == view
+    alone = read_view(f"lucida = 1\n[camera]\n{camera}\n", NOW)
+    assert alone == replace(view, fit="target" in camera)
+
+
+@pytest.mark.parametrize(
+    ("text", "fit"),
+    [
+        ("View(Camera(), fit=True)", True),
+        ("View(Camera(), fit=False)", False),
+        ("View(Camera(), wide=True)", False),
+        ("View(Camera(), fit=wide)", False),
+        ("lucida.View(Camera(), fit=1)", True),
+        ("Picture(Camera(), fit=True)", False),
+    ],
+)
+def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> None:
+    assert read_view(text, NOW) == View(Camera(), fit)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "holds no camera"),
+        ("clip_from_camera = " + "1 " * 16, "camera_from_world: is missing"),
+        ("# [camera]\neye = 3", "eye: is unknown"),
+        ("dear all,", "holds no camera"),
+        ("x" * (MOST_CHARACTERS + 1), "long text"),
+        ("[camera]\neye = [0, 0]", "camera.eye"),
+        ("[camera]\nw = [0, 0, 0]", "camera.w: .*independent"),
+        ("--eye=0,0", "is not 3 numbers"),
+        ("--distance=-1", "--distance: -1 is not above 0"),
+        ('--eye="0,0', "is not 3 numbers"),
+        ("Camera(eye=(0, 0, 5)", "not complete"),
+        ("Camera(eye=(0, 0, x))", "plain numbers"),
+        ("Camera(eye=(0, 0, 5), fov=3)", "fov"),
+        ("Camera(distance=-1)", "distance: -1 is not above 0"),
+        ("print('Camera (' + 'x')", "without a camera"),
+        ("Camera(eye=" + "(" * 5000, "not complete"),
+        ("camera_from_world = [1, 2, 3]", "has 3 numbers; give 16"),
+        (
+            "camera_from_world = " + "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1",
+            "clip_from_camera: is missing",
+        ),
+        (
+            "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\nclip_from_camera = "
+            + "1 " * 16,
+            "clip_from_camera: is no projection",
+        ),
+    ],
+)
+def test_what_is_no_camera_is_told_in_one_line(text: str, told: str) -> None:
+    with pytest.raises(LucidaError) as error:
+        read_view(text, NOW)
+    line = str(error.value)
+    assert line.startswith("clipboard: ")
+    assert re.search(told, line), line
+    assert "\n" not in line
+    assert len(line) < 250
+
+
+@given(st.text(max_size=200))
+@example("camera_from_world=[" + "nan," * 16 + "]")
+@example("[camera]\n" + "a" * 100)
+@example("--fit --eye=inf,0,0")
+@example("--help --eye=0,0,1")
+def test_any_text_is_a_camera_or_one_error(text: str) -> None:
+    try:
+        view = read_view(text, NOW)
+    except LucidaError as error:
+        source = str(error).partition(":")[0]
+    else:
+        source, _ = "clipboard", replace(view.camera)  # checks itself
+    assert source == "clipboard"
+
+
+def test_a_text_has_up_to_a_hundred_thousand_characters() -> None:
+    text = "--eye 1,2,3".ljust(MOST_CHARACTERS)
+    assert read_view(text, NOW).camera.eye == (1.0, 2.0, 3.0)
+    with pytest.raises(LucidaError, match="a long text"):
+        read_view(text + " ", NOW)

@@ -1,0 +1,102 @@
+"""K, R and t as the camera panel says them: right, legible, pasted back as they are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import get_args
+
+import numpy as np
+import pytest
+from copied_views import NOW, SIZE, read_view
+
+from lucida.app.cameras.other_words import other_words
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.intrinsics import PixelOrigin
+from lucida.renderer.files.cameras import PosedCamera, written
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
+
+AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SIZE[1])
+POINTS = np.random.default_rng(3).uniform(-1, 1, (20, 3))
+ORIGINS: tuple[PixelOrigin, ...] = get_args(PixelOrigin)
+
+
+def assert_same(one: Camera, other: Camera) -> None:
+    seen, wanted = one.project(POINTS, SIZE), other.project(POINTS, SIZE)
+    assert np.allclose(seen.row, wanted.row, atol=1e-6)
+    assert np.allclose(seen.column, wanted.column, atol=1e-6)
+
+
+@pytest.mark.parametrize("origin", ORIGINS)
+def test_what_is_copied_is_pasted_by_its_own_pixel_origin(origin: PixelOrigin) -> None:
+    words = other_words(View(AIMED), SIZE, origin)
+    assert_same(read_view(words.copied, NOW).for_size(SIZE), AIMED)
+    names: dict[str, object] = {}
+    exec(words.copied, names)
+    K, R, t = AIMED.intrinsics(SIZE, origin)
+    assert np.allclose(np.array(names["K"]), K, atol=1e-9)
+    assert np.array_equal(np.array(names["R"]), R)
+    assert np.array_equal(np.array(names["t"]), t)
+
+
+@pytest.mark.parametrize("ending", ["", ".json"])
+@pytest.mark.parametrize("origin", ORIGINS)
+def test_a_file_of_opencv_is_read_by_the_origin_that_it_says(
+    origin: PixelOrigin, ending: str
+) -> None:
+    options = Options(pixel_origin=origin, ending=ending)
+    text = written([PosedCamera(AIMED, SIZE)], "opencv", options)[""].decode()
+    assert_same(read_view(text, NOW).for_size(SIZE), AIMED)
+
+
+def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
+    lines = other_words(View(Camera((0, 0, 5))), (100, 100), "corner").read
+    assert lines == (
+        "K  100    0  50",
+        "     0  100  50",
+        "     0    0   1",
+        "R  1   0   0",
+        "   0  -1   0",
+        "   0   0  -1",
+        "t  0",
+        "   0",
+        "   5",
+    )
+
+
+def test_the_origin_moves_the_principal_point_by_half_a_pixel() -> None:
+    centers, corners = (other_words(View(AIMED), SIZE, origin).read for origin in ORIGINS)
+    assert centers[3:] == corners[3:]
+    assert centers[0].split()[-1] == f"{SIZE[0] / 2 - 0.5:g}"
+    assert corners[0].split()[-1] == f"{SIZE[0] / 2:g}"
+
+
+def test_k_stands_as_it_was_pasted_and_beside_it_what_this_image_has() -> None:
+    """fx = 700 of an image of 640 x 480 is another number in the window's image."""
+    text = "K = [[700.125, 0, 300], [0, 690, 250], [0, 0, 1]]\nw = 640\nh = 480\nt = [0, 0, 6]"
+    view = read_view(text, NOW)
+    words = other_words(view, SIZE, "center")
+    assert words.read[:4] == (
+        "as it was given, for 640 x 480",
+        "K  700.125    0  300",
+        "         0  690  250",
+        "         0    0    1",
+    )
+    K = view.for_size(SIZE).intrinsics(SIZE, "center").K
+    assert words.read[4] == f"in this image, {SIZE[0]} x {SIZE[1]}"
+    assert float(words.read[5].split()[1]) == pytest.approx(K[0, 0], rel=1e-4) != 700.125
+    names: dict[str, object] = {}
+    exec(words.copied, names)
+    assert np.allclose(np.array(names["K"]), [[700.125, 0, 300], [0, 690, 250], [0, 0, 1]])
+    assert (names["width"], names["height"]) == (640, 480)
+    assert_same(read_view(words.copied, NOW).for_size(SIZE), view.for_size(SIZE))
+    # Another camera is not the one that was pasted; in an image of that size there is one K.
+    moved = replace(view, camera=replace(view.camera, distance=9.0))
+    assert other_words(moved, SIZE, "center").read[0].startswith("K")
+    assert other_words(view, (640, 480), "center").read[0].startswith("K")
+
+
+def test_a_parallel_camera_has_none() -> None:
+    with pytest.raises(LucidaError, match="no focal length"):
+        other_words(View(Camera(projection="parallel")), SIZE, "center")

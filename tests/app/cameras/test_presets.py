@@ -1,0 +1,263 @@
+"""The classic cameras, against their definitions; and the framing of things."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from copied_views import cameras, vectors
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lucida.app.cameras.presets import MARGIN, PRESETS, Preset, clip_around, framed, look_at
+from lucida.app.cameras.presets import preset_view as make_view
+from lucida.app.state.app_state import is_orthonormal
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.scene import Mesh, Scene, SceneObject, Sphere, shapes
+from lucida.renderer.scene.focus import object_corners, scene_focus
+from lucida.renderer.scene.model import View
+
+PRESET = {preset.name: preset for preset in PRESETS}
+
+SIZE = (1600, 900)
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+
+
+def preset_view(name: str, perspective: bool = False, points: np.ndarray = CUBE) -> View:
+    view = View(Camera.canonical(), fit=True)
+    return make_view(PRESET[name], view, points, points, 16 / 9, perspective)
+
+
+def seen(camera: Camera, world: tuple[float, float, float]) -> np.ndarray:
+    """A direction in the image, (right, up), in units of the world, for parallel rays."""
+    matrix = camera.camera_from_world
+    x, y = matrix[:2, :3] @ np.asarray(world, float)
+    return x * np.linalg.norm(camera.u), y * np.linalg.norm(camera.v)
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "up", "toward"),
+    [
+        ("Front", (1, 0, 0), (0, 1, 0), (0, 0, 1)),
+        ("Back", (-1, 0, 0), (0, 1, 0), (0, 0, -1)),
+        ("Left", (0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+        ("Right", (0, 0, -1), (0, 1, 0), (1, 0, 0)),
+        ("Top", (1, 0, 0), (0, 0, -1), (0, 1, 0)),
+        ("Bottom", (1, 0, 0), (0, 0, 1), (0, -1, 0)),
+    ],
+)
+@pytest.mark.parametrize("perspective", [False, True])
+def test_the_six_sides(name, right, up, toward, perspective: bool) -> None:
+    camera = preset_view(name, perspective).camera
+    assert (camera.u, camera.v, camera.w) == (right, up, toward)
+    assert camera.is_parallel is not perspective
+    assert np.dot(np.subtract(camera.eye, 0.5), toward) > 0.5  # outside the cube, on that side
+    assert camera.determinant == 1
+
+
+def test_isometric_foreshortens_all_three_axes_alike_at_120_degrees() -> None:
+    camera = preset_view("Isometric").camera
+    axes = [np.array(seen(camera, axis)) for axis in np.eye(3)]
+    for axis in axes:
+        assert np.linalg.norm(axis) == pytest.approx(math.sqrt(2 / 3))
+    for first, second in ((0, 1), (1, 2), (2, 0)):
+        cosine = axes[first] @ axes[second] / (2 / 3)
+        assert math.degrees(math.acos(cosine)) == pytest.approx(120)
+    assert axes[1][0] == pytest.approx(0)  # y is upright
+
+
+def test_dimetric_is_that_of_iso_5456() -> None:
+    camera = preset_view("Dimetric").camera
+    x, y, z = (np.array(seen(camera, axis)) for axis in np.eye(3))
+    assert np.linalg.norm(x) == pytest.approx(np.linalg.norm(y))
+    assert np.linalg.norm(z) == pytest.approx(np.linalg.norm(y) / 2)
+    assert math.degrees(math.atan2(-x[1], x[0])) == pytest.approx(7, abs=0.3)
+    assert math.degrees(math.atan2(-z[1], -z[0])) == pytest.approx(42, abs=0.7)
+    assert y[0] == pytest.approx(0)
+
+
+@pytest.mark.parametrize(("name", "factor"), [("Cavalier", 1.0), ("Cabinet", 0.5)])
+def test_the_oblique_views_of_the_unit_cube(name: str, factor: float) -> None:
+    """Its front face is a unit square; its receding edges go off at 45 degrees."""
+    camera = preset_view(name).camera
+    assert seen(camera, (1, 0, 0)) == pytest.approx((1, 0))
+    assert seen(camera, (0, 1, 0)) == pytest.approx((0, 1))
+    away = np.array(seen(camera, (0, 0, -1)))
+    assert np.linalg.norm(away) == pytest.approx(factor)
+    assert math.degrees(math.atan2(away[1], away[0])) == pytest.approx(45)
+    # The rays' angle with the picture's plane: 45 degrees, or arctan 2.
+    sine = abs(camera.w[2]) / np.linalg.norm(camera.w)
+    assert math.tan(math.asin(sine)) == pytest.approx(1 / factor)
+    corners = camera.project(CUBE, SIZE)
+    unit = SIZE[0] / (camera.viewport[1] - camera.viewport[0])
+    assert np.ptp(corners.column) == pytest.approx((1 + factor * math.sqrt(0.5)) * unit)
+    assert np.ptp(corners.row) == pytest.approx((1 + factor * math.sqrt(0.5)) * unit)
+    assert preset_view(name, perspective=True).camera.is_parallel  # they have no other form
+
+
+@pytest.mark.parametrize("perspective", [False, True])
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+@pytest.mark.parametrize("scene", BUILTIN_SCENES)
+def test_every_preset_frames_every_scene(scene: str, preset: Preset, perspective: bool) -> None:
+    loaded = load_scene(scene)
+    focus = scene_focus(loaded)
+    assert len(focus.framed)
+    view = make_view(preset, loaded.view, focus.framed, focus.bounds, 16 / 9, perspective)
+    assert view.fit == loaded.view.fit
+    camera = view.for_size(SIZE)
+    corners = camera.project(focus.framed, SIZE)
+    assert (corners.parameter > 0).all()
+    assert corners.row.min() > -0.5
+    assert corners.column.min() > -0.5
+    assert corners.row.max() < SIZE[1] - 0.5
+    assert corners.column.max() < SIZE[0] - 0.5
+    filled = max(np.ptp(corners.row) / SIZE[1], np.ptp(corners.column) / SIZE[0])
+    assert filled > 0.6  # and they fill it
+    if camera.is_parallel:
+        assert (camera.project(focus.bounds, SIZE).parameter > 0).all()
+
+
+def test_presets_are_legal_named_once_and_orthonormal_but_for_the_oblique() -> None:
+    assert len({preset.name for preset in PRESETS}) == len(PRESETS)
+    for preset in PRESETS:
+        camera = Camera(u=preset.u, v=preset.v, w=preset.w)
+        assert is_orthonormal(camera) is not preset.oblique
+        assert camera.determinant > 0
+
+
+@given(cameras(0.05), st.lists(vectors, min_size=1, max_size=12))
+def test_what_is_framed_is_in_the_picture(camera: Camera, points: list) -> None:
+    after = framed(camera, points)
+    assert (after.u, after.v, after.w, after.distance) == (
+        camera.u,
+        camera.v,
+        camera.w,
+        camera.distance,
+    )
+    if not camera.is_parallel:
+        assert after.viewport == camera.viewport
+    corners = after.project(points, (100, 100))
+    assert (corners.parameter > 0).all()
+    for place in (corners.row, corners.column):
+        assert place.min() > -0.51
+        assert place.max() < 99.51
+    if len(set(points)) > 1 and camera.is_parallel:
+        filled = max(np.ptp(corners.row), np.ptp(corners.column)) / 100
+        assert filled == pytest.approx(1 / MARGIN, rel=1e-3) or np.ptp(points, axis=0).max() < 0.01
+
+
+def test_things_are_framed_for_parallel_rays_by_hand() -> None:
+    """A tenth wider than the cube, which is high for 2 : 1; the eye a quarter of all before it."""
+    camera = Camera(viewport=(-1, 1, -0.5, 0.5), projection="parallel")
+    after = framed(camera, CUBE)
+    assert after.viewport == pytest.approx((-1.1, 1.1, -0.55, 0.55))
+    assert after.eye == pytest.approx((0.5, 0.5, 1.25))
+    after = framed(camera, CUBE, [(9, 9, 3), (0, 0, -1)])
+    assert after.viewport == pytest.approx((-1.1, 1.1, -0.55, 0.55))
+    assert after.eye == pytest.approx((0.5, 0.5, 4))
+    aside = replace(camera, viewport=(0, 2, -0.25, 1.75))
+    after = framed(aside, CUBE)
+    assert after.viewport == pytest.approx((0, 1.1, -0.1375, 0.9625))
+    assert after.eye == pytest.approx((0.5 - 0.55, 0.5 - 0.4125, 1.25))
+
+
+def test_things_are_framed_in_perspective_by_hand() -> None:
+    """A point 1 aside is seen at 1 / 2.2 of the distance, a tenth within the border at 1 / 2."""
+    sides = [(-1, 0, 0), (1, 0, 0)]
+    for distance in (1.0, 3.0):
+        after = framed(Camera(distance=distance), sides)
+        assert after.eye == pytest.approx((0, 0, 2.2 * distance))
+        after = framed(Camera(distance=distance), [*sides, (0, 0, -3)])
+        assert after.eye == pytest.approx((0, 0, 2.2 * distance))
+        aside = Camera(distance=distance, viewport=(0, 1, -0.25, 0.75))
+        after = framed(aside, sides)
+        assert after.eye == pytest.approx((-1.1, -0.55, 2.2 * distance))
+    deeper = framed(aside, [*sides, (0, 0, -3)])  # cx = 1/2, its middle is z = -1.5
+    assert deeper.eye[2] == pytest.approx((3 * 1 + 0.5 * 1.5) * 2.2)
+    assert deeper.eye[0] == pytest.approx(-0.5 / 3 * (deeper.eye[2] + 1.5))
+    moved = framed(aside, np.add([*sides, (0, 0, -3)], (3, -2, 1)))
+    assert moved.eye == pytest.approx(np.add(deeper.eye, (3, -2, 1)))
+    slanting = framed(aside, [(-1, 0, 0), (1, 0, -3)])  # the left one is the nearer one
+    assert slanting.eye[2] == pytest.approx((3 * 1 - 0.5 * 1.5) * 2.2)
+    line = framed(Camera(), [(0, 0, 0), (0, 0, -4)])
+    assert line.eye == pytest.approx((0, 0, 0.2))
+    point = framed(Camera(), [(0, 0, 3)])
+    assert 3 < point.eye[2] < 3 + 1e-6
+
+
+def test_the_presets_lens() -> None:
+    assert preset_view("Front", perspective=True).camera.fov_y_deg == pytest.approx(35)
+    assert preset_view("Front").camera.distance == 1
+
+
+def test_nothing_to_frame_leaves_the_camera() -> None:
+    assert framed(Camera(eye=(1, 2, 3)), np.zeros((0, 3))) == Camera(eye=(1, 2, 3))
+
+
+def test_a_point_has_the_least_extent_of_its_distance_from_the_origin() -> None:
+    """1e-9 of 1 + 1e3, within the margin: half the picture's height, a parallel viewport's."""
+    camera = replace(Camera(), projection="parallel", viewport=(-0.5, 0.5, -0.25, 0.25))
+    bottom, top = framed(camera, [(0.0, 1e3, 0.0)]).viewport[2:]
+    assert (top - bottom) / 2 == pytest.approx(1e-9 * 1001 * MARGIN, rel=1e-6)
+
+
+def test_a_floor_is_not_framed_but_a_lone_one_is() -> None:
+    ball = SceneObject(Sphere((1, 0, 0), 0.5))
+    floor = SceneObject(shapes.rectangle(40.0, 40.0))
+    both = scene_focus(Scene((floor, ball)))
+    assert np.array_equal(both.framed, object_corners(ball))
+    assert len(both.bounds) == 8
+    assert np.ptp(both.bounds, axis=0).max() > 30
+    assert len(scene_focus(Scene((floor,))).framed) == 8
+    assert not len(scene_focus(Scene(())).framed)
+
+
+def test_the_corners_of_a_mesh_move_with_it() -> None:
+    box = load_scene("still-life").objects[3]
+    assert isinstance(box.shape, Mesh)
+    moved = np.array(box.shape.transform)
+    moved[:3, 3] += (1, 2, 3)
+    other = replace(box, shape=replace(box.shape, transform=moved))
+    assert object_corners(other) == pytest.approx(object_corners(box) + np.array([1, 2, 3]))
+
+
+class TestLookAt:
+    def test_it_aims_and_leaves_the_rest(self) -> None:
+        view = View(Camera(distance=2.0, viewport=(-1, 1, 0, 1), near=0.5), fit=True)
+        after = look_at(view, (3, 4, 5), (0, 1, 0), (0, 2, 0))
+        camera = after.camera
+        assert after.fit
+        assert (camera.distance, camera.viewport, camera.near) == (2.0, (-1, 1, 0, 1), 0.5)
+        assert camera.eye == (3, 4, 5)
+        assert np.cross(np.subtract((3, 4, 5), (0, 1, 0)), camera.w) == pytest.approx(np.zeros(3))
+
+
+class TestClipAround:
+    def test_it_cuts_nothing_off(self) -> None:
+        camera = Camera(eye=(0.5, 0.5, 4))
+        near, far = clip_around(camera, CUBE)
+        assert 2.9 < near < 3
+        assert 4 < far < 4.1
+
+    def test_a_hundredth_of_room_and_three_digits(self) -> None:
+        """1.01 x 4.567 = 4.61267 and 0.99 x 3.567 = 3.53133; outwards."""
+        assert clip_around(Camera(eye=(0.5, 0.5, 4.567)), CUBE) == (3.53, 4.62)
+        doubled = Camera(eye=(0.5, 0.5, 4.567), w=(0, 0, 2))
+        assert clip_around(doubled, CUBE) == (1.76, 2.31)
+        assert clip_around(Camera(eye=(0, 0, 456.7)), [(0, 0, 0)]) == (452, 462)
+
+    def test_near_is_a_thousandth_of_far_where_things_begin_before_it(self) -> None:
+        camera = Camera()
+        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0009)]) == (1.01 / 1000, 1.01)
+        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0011)]) == (0.00108, 1.01)
+        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0010197)]) == (1.01 / 1000, 1.01)
+
+    def test_an_eye_among_things_and_behind_them(self) -> None:
+        near, far = clip_around(Camera(eye=(0.5, 0.5, 0.5)), CUBE)
+        assert 0 < near < far
+        assert far >= 0.5
+        assert clip_around(Camera(eye=(0, 0, -5)), CUBE) == (0.1, 100.0)
+        assert clip_around(Camera(), np.zeros((0, 3))) == (0.1, 100.0)

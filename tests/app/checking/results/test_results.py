@@ -1,0 +1,214 @@
+"""A class's answers: kept line by line, read whatever else is in the files, counted, drawn."""
+
+from __future__ import annotations
+
+import json
+from datetime import UTC, datetime, timedelta
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from both_lectures import both_lectures
+
+from lucida.app.checking.results.model import ClassAnswer, NamedMistake, class_results
+from lucida.app.checking.results.page import page
+from lucida.app.checking.results.reading import read_answers
+from lucida.app.cli import main
+from lucida.app.lecture.answer_log import AnswerLog
+from lucida.app.state.kept_lecture import Answers
+from lucida.renderer.system.errors import LucidaError
+
+FLIPPED, MIDDLE = "rows count upwards", "corners, not middles"
+
+
+@pytest.fixture(scope="module")
+def lecture():
+    return both_lectures()
+
+
+def answer(lecture, log: AnswerLog, title: str, **fields) -> None:
+    """Answer a step as the column does."""
+    step = next(step for step in lecture.steps if step.title == title)
+    answers = Answers(**fields)
+    asked = answers.texts if answers.chosen is None else answers.chosen
+    answers.verdict = step.exercise.check(asked)
+    log.exercise(lecture, step, answers)
+
+
+RAY = "Exercise: a pixel's ray"
+
+
+def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_path):
+    log = AnswerLog(tmp_path / "answers.jsonl")
+    first = {"origin": "0 0 0", "direction": "0.0625, -0.3125, -1"}
+    answer(lecture, log, RAY, texts=first)
+    answer(lecture, log, RAY, texts={"origin": "here", "direction": "there"})  # no answer
+    answer(lecture, log, "Exercise: which lens?", chosen=1)
+    log.name = "Ada"
+    right = {"origin": "0 0 0", "direction": "1/16, 5/16, -1"}
+    answer(lecture, log, RAY, texts=right, solved=True)
+    lines = [json.loads(line) for line in (tmp_path / "answers.jsonl").read_text().splitlines()]
+    assert log.count == len(lines) and log.problem == ""
+    assert {line["sitting"] for line in lines} == {lines[0]["sitting"]}
+    assert [line.get("name", "") for line in lines[:3]] == ["", "", "Ada"]
+    answers, problems = read_answers([tmp_path / "answers.jsonl"])
+    assert problems == []
+    choice = next(one for one in answers if one.step == "Exercise: which lens?")
+    assert choice.mistakes[0].read == "Everything around the eye"
+    titles = {step.title for step in lecture.steps}
+    assert {m.read for one in answers for m in one.mistakes} <= titles
+    assert answers[2].right and answers[2].helped and answers[2].student == "Ada"
+
+
+def test_a_file_of_something_else_is_not_written_to(tmp_path):
+    path = tmp_path / "thesis.txt"
+    path.write_text("Chapter 1\n")
+    with pytest.raises(LucidaError, match="something else"):
+        AnswerLog(path)
+    assert path.read_text() == "Chapter 1\n"
+    path.write_text("")
+    AnswerLog(path)
+
+
+def test_an_answer_follows_a_line_that_a_crash_cut(lecture, tmp_path):
+    path = tmp_path / "answers.jsonl"
+    answer(lecture, AnswerLog(path), "Exercise: which lens?", chosen=1)
+    path.write_bytes(path.read_bytes() + b'{"lucida": "ans')
+    answer(lecture, AnswerLog(path), "Exercise: which lens?", chosen=2)
+    answers, problems = read_answers([path])
+    assert len(answers) == 2
+    assert problems == [f"{path}:2: is no JSON; delete the line"]
+
+
+LINE = {"lucida": "answer", "time": "2026-11-24T10:00:00Z", "sitting": "s", "step": "One"}
+
+
+def written(path: Path, *lines: object) -> Path:
+    path.write_text("\n".join(json.dumps(line) for line in lines))
+    return path
+
+
+def test_broken_and_foreign_lines_cost_a_line_each(tmp_path):
+    good = {**LINE, "right": True}
+    foreign = {"score": 3}
+    path = written(tmp_path / "a.jsonl", good, foreign, {**good, "time": "noon"}, [1], good)
+    other = tmp_path / "b.bin"
+    other.write_bytes(b"\xff\xfe\n" * 100)
+    answers, problems = read_answers([path, other, tmp_path / "none", path])
+    assert len(answers) == 2
+    assert [line.split(": ")[0] for line in problems[:3]] == [f"{path}:{n}" for n in (2, 3, 4)]
+    assert all("; " in line for line in problems if "more lines" not in line)
+    assert 3 < len(problems) < 30  # a file of nothing else does not flood the terminal
+
+
+def made(student: str, step: str, minute: int, mistake: str = "", helped: bool = False):
+    time = datetime(2026, 11, 24, 10) + timedelta(minutes=minute)
+    mistakes = (NamedMistake(mistake, "why", "Two"),) if mistake else ()
+    return ClassAnswer(student, step, not mistake, time, mistakes, helped)
+
+
+def test_counts_by_step_and_mistake():
+    results = class_results(
+        [
+            made("a", "Two", 0),
+            made("b", "Two", 1, FLIPPED),
+            made("b", "Two", 2, FLIPPED),
+            made("b", "Two", 3),
+            made("c", "Two", 4, FLIPPED),
+            made("c", "Two", 5, helped=True),
+            made("c", "One", 6, MIDDLE),
+            made("d", "Other", 7, MIDDLE),
+        ],
+        ["One", "Two"],
+    )
+    assert [step.title for step in results.steps] == ["One", "Two", "Other"]
+    two = results.steps[1]
+    assert (two.at_once, two.later, two.not_yet) == (1, 1, 1)
+    # Equally many students: first the mistake that more of them still make.
+    middle, flipped = results.mistakes
+    assert (middle.students, middle.times, middle.stuck) == (2, 2, 2)
+    assert (flipped.students, flipped.times, flipped.stuck) == (2, 3, 1)
+    assert results.step_name(flipped.mistake.read) == "step 2, Two"
+
+
+@pytest.mark.parametrize("span", [0, 3, 50, 600, 60 * 24 * 3, 60 * 24 * 200, 60 * 24 * 9000])
+def test_every_answer_is_in_one_column_of_a_chart_that_can_be_read(span):
+    answers = [made("a", "One", round(part * span / 9), FLIPPED) for part in range(10)]
+    timeline = class_results(answers, ["One"]).timeline
+    assert len(timeline.starts) == len(timeline.labels) <= 25
+    assert sum(timeline.wrong) == sum(timeline.mistakes[0][1]) == 10
+    assert timeline.starts[0] <= answers[0].time < timeline.starts[0] + timeline.width
+
+
+class Tags(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: set[str] = set()
+        self.attributes: set[str] = set()
+        self.text = ""
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+        self.attributes |= {name for name, _ in attrs}
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def test_the_page_is_plain_and_all_text_is_escaped(tmp_path):
+    evil = '<script>alert(1)</script><img src=x onerror="1">\x1b[31m'
+    line = {**LINE, "right": False, "mistake": evil, "reply": evil, "read": evil, "step": evil}
+    formula = {**LINE, "right": False, "mistake": r"$R\mathbf{e}$ is **0**", "name": "Ada Secret"}
+    path = written(tmp_path / f"{'x' * 9}<b>.jsonl", line, formula, {"a": "<i>"})
+    text = page(class_results(*_read(path)))
+    tags = Tags()
+    tags.feed(text)
+    assert not tags.tags & {"script", "img", "link", "iframe"}
+    assert not any(name.startswith("on") or name in ("src", "href") for name in tags.attributes)
+    assert "Ada" not in text and "\x1b" not in text and "Re is 0" in tags.text
+    assert "<script>alert(1)</script>" in tags.text
+
+
+def _read(path: Path):
+    answers, problems = read_answers([path])
+    return answers, ["One"], problems
+
+
+def test_checks_count_in_the_same_page(tmp_path, capsys):
+    """The same mistake, in the lecture and in code."""
+    code, out = tmp_path / "rays.py", tmp_path / "results.json"
+    code.write_text(
+        "import numpy as np\n"
+        "def viewing_ray(i, j, width, height, camera):\n"
+        "    u, v, w, e = map(np.array, (camera.u, camera.v, camera.w, camera.eye))\n"
+        "    us = camera.left + (camera.right - camera.left) * (j + 0.5) / width\n"
+        "    vs = camera.bottom + (camera.top - camera.bottom) * (i + 0.5) / height\n"
+        "    if camera.projection == 'parallel':\n"
+        "        return e + us * u + vs * v, -w\n"
+        "    return e, us * u + vs * v - camera.distance * w\n"
+    )
+    assert main(["check", str(code), "--task", "viewing-ray", "--json", str(out)]) == 1
+    lines = written(
+        tmp_path / "a.jsonl",
+        {**LINE, "right": False, "mistake": FLIPPED, "read": "From pixel to (u, v)"},
+        {"no": "answer"},
+    )
+    result = tmp_path / "class.html"
+    capsys.readouterr()
+    assert main(["lecture", "--results", str(lines), str(out), "-o", str(result)]) == 0
+    said = capsys.readouterr()
+    assert said.err.count("\n") == 1 and ":2: " in said.err
+    tags = Tags()
+    tags.feed(result.read_text())
+    assert "2 of 2 students" in tags.text and "Your code: viewing-ray" in tags.text
+    assert "From pixel to (u, v)" in tags.text
+    assert str(datetime.now(UTC).year) in tags.text
+    assert main(["lecture", "--results", str(tmp_path / "none"), "-o", str(result)]) == 2
+    capsys.readouterr()
+    assert main(["lecture", "--results", str(lines)]) == 2
+    assert capsys.readouterr().err == "lucida: --results: has no page to write; add -o class.html\n"
+
+
+def test_the_class_ends_on_the_day_of_its_last_answer():
+    answers = [made("a", "One", 60 * hour, FLIPPED) for hour in (0, 24 * 100)]
+    assert class_results(answers, []).summary.endswith("24 November 2026 to 4 March 2027")

@@ -1,0 +1,83 @@
+"""Cases of hits and images: clear ones, in float32 too, and what pixels of an image are judged."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.kinds.hits import MARGIN
+from lucida.app.checking.kinds.shapes import hits
+
+TASKS = {task.name: task for task in BUILTIN}
+
+
+def cases(name, count):
+    return KINDS[name].cases(replace(TASKS[name], count=count))
+
+
+def differ(name, made, given):
+    found, problems = KINDS[name].given(TASKS[name], made, given)
+    assert not problems
+    return KINDS[name].wrong(TASKS[name], made, found)
+
+
+def sphere32(origin, direction, center, radius):
+    o, d, c = (np.float32(part) for part in (origin, direction, center))
+    oc = o - c
+    a, h, k = d @ d, oc @ d, oc @ oc - np.float32(radius) ** 2
+    disc = h * h - a * k
+    if disc < 0:
+        return None
+    roots = [(-h - np.sqrt(disc)) / a, (-h + np.sqrt(disc)) / a]
+    assert all(root.dtype == np.float32 for root in roots)
+    return next((float(root) for root in roots if root > 0), None)
+
+
+def triangle32(origin, direction, a, b, c):
+    o, d, a, b, c = (np.float32(part) for part in (origin, direction, a, b, c))
+    n = np.cross(b - a, c - a)
+    if n @ d == 0:
+        return None
+    t = (n @ (a - o)) / (n @ d)
+    p = o + t * d
+    sides = [np.cross(q - r, p - r) @ n for r, q in ((a, b), (b, c), (c, a))]
+    return float(t) if t > 0 and min(sides) > 0 else None
+
+
+@pytest.mark.parametrize(
+    ("name", "solve"), [("hit-sphere", sphere32), ("hit-triangle", triangle32)]
+)
+def test_float32_is_right_in_two_thousand_cases(name, solve):
+    made = cases(name, 2000)
+    given = [solve(*(value for _, value in case.arguments)) for case in made]
+    assert not differ(name, made, given).any()
+    count = sum(answer is not None for answer in given)
+    assert 600 < count < 1700
+    nearly = [None if answer is None else answer * 1.02 for answer in given]
+    assert np.count_nonzero(differ(name, made, nearly)) == count
+
+
+@pytest.mark.parametrize("name", ["hit-sphere", "hit-triangle"])
+def test_what_is_asked_is_clear(name):
+    for case in cases(name, 300):
+        shape = {**case.values, "type": name.removeprefix("hit-")}
+        assert hits(case.values["origin"], case.values["direction"], shape)[1] > MARGIN
+
+
+def test_a_threshold_that_is_met():
+    for inclusive in (True, False):
+        task = replace(TASKS["to-bitmap"], inclusive=inclusive)
+        for case in KINDS["to-bitmap"].cases(task):
+            gray, threshold = np.array(case.values["gray"]), case.values["threshold"]
+            assert (gray == threshold).any()
+            assert (case.right[gray == threshold] == inclusive).all()
+
+
+@pytest.mark.parametrize("name", ["hit-sphere", "closest-hit", "basis", "memory-offset"])
+def test_answers_that_are_missing_are_wrong(name):
+    made = cases(name, 5)
+    assert differ(name, made, []).all()

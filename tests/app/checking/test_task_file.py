@@ -1,0 +1,220 @@
+"""Task files: what they say, and what is said of mistakes in them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.cases import shots
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.task_file import load_tasks
+from lucida.renderer.system.errors import LucidaError
+
+RAYS = '[[tasks]]\nkind = "viewing-ray"\n'
+
+
+def load(folder, text):
+    path = folder / "hw.toml"
+    path.write_text(text, "utf-8")
+    return load_tasks(path)
+
+
+def test_a_task_without_more_is_the_built_in_one(tmp_path):
+    for built_in in BUILTIN[:2] + BUILTIN[5:]:
+        task = load(tmp_path, f'[[tasks]]\nkind = "{built_in.kind}"\npoints = {built_in.points}')
+        assert task.tasks == (built_in,)
+
+
+def test_all_that_a_file_can_say(tmp_path):
+    (tmp_path / "corner.toml").write_text("[camera]\neye = [1, 2, 3]\n")
+    found = load(
+        tmp_path,
+        """
+        title = "Homework 2"
+        seed = 5
+        feedback = "verdict"
+        seconds = 3
+        memory_mb = 256
+        [conventions]
+        pixels_from = 1
+        rows = "bottom"
+        axes = { x = "left", z = "forward" }
+        vectors = "row"
+        unit = true
+        origin = "on-ray"
+        camera = { pos = "eye", c2w = "camera_to_world", wide = "viewport_width" }
+        [[tasks]]
+        kind = "viewing-ray"
+        name = "rays"
+        function = "generate_ray"
+        text = "Write it."
+        points = 2.5
+        arguments = { x = "x01", y = "y01", camera = "camera" }
+        returns = ["direction", "origin"]
+        vectorised = true
+        projection = "both"
+        cameras = ["moved", "turned"]
+        views = ["spheres", "corner.toml", { eye = [0, 0, 9] }]
+        size = [12, 8]
+        cases = 7
+        seed = 6
+        feedback = "first-wrong"
+        [[tasks]]
+        kind = "memory-offset"
+        order = "column-major"
+        stride = 4
+        pixels_from = 0
+        [[tasks]]
+        kind = "to-bitmap"
+        at_threshold = 0
+        [[tasks]]
+        kind = "to-gray"
+        weights = [0.299, 0.587, 0.114]
+        """,
+    )
+    assert found.title == "Homework 2"
+    assert (found.limits.seconds, found.limits.memory_mb) == (3.0, 256)
+    rays, offset, bits, gray = found.tasks
+    says = rays.conventions
+    assert (rays.name, rays.function, rays.points, rays.text) == (
+        "rays", "generate_ray", 2.5, "Write it.",
+    )  # fmt: skip
+    assert says.arguments == (("x", "x01"), ("y", "y01"), ("camera", "camera"))
+    assert says.camera[:2] == (("pos", "eye"), ("c2w", "camera_to_world"))
+    assert (says.base, says.rows, says.axes) == (1, "bottom", (-1, 1, -1))
+    assert says.row_vectors and says.unit and says.any_origin and says.space == "world"
+    assert says.returns == ("direction", "origin") and rays.vectorised
+    assert rays.projections == ("perspective", "parallel") and rays.cameras == ("moved", "turned")
+    assert (rays.size, rays.count, rays.seed) == ((12, 8), 7, 6)
+    assert rays.feedback == "first-wrong" and offset.feedback == "verdict" and offset.seed == 5
+    assert [view.camera.eye[2] for view in rays.views[1:]] == [3.0, 9.0]
+    assert len(list(shots(rays))) == 10
+    assert offset.conventions.base == 0 and offset.column_major and offset.stride == 4
+    assert not bits.inclusive and gray.weights == (0.299, 0.587, 0.114)
+
+
+def test_the_built_in_text_is_not_told_where_it_is_not_true(tmp_path):
+    text = '[[tasks]]\nkind = "memory-offset"\nstride = 4\n[[tasks]]\nkind = "viewing-ray"\n'
+    offset, rays = load(tmp_path, text + 'returns = ["direction"]\n').tasks
+    assert offset.text == "See the course's own text. Give a whole number."
+    assert rays.text == "See the course's own text. Give direction."
+
+
+def test_what_such_tasks_ask(tmp_path):
+    text = '[[tasks]]\nkind = "memory-offset"\norder = "column-major"\nstride = 1\npixels_from = 1'
+    (task,) = load(tmp_path, text).tasks
+    for case in KINDS["memory-offset"].cases(task):
+        i, j, _ = (value for _, value in case.arguments)
+        assert case.right == (j - 1) * case.size[1] + i - 1
+    text = '[[tasks]]\nkind = "basis"\narguments = ["eye", "forward", "up"]\n'
+    (task,) = load(tmp_path, text + 'returns = ["forward", "left"]').tasks
+    kind = KINDS["basis"]
+    cases = kind.cases(task)
+    answers = [[case.values["forward"], (-case.right[0]).tolist()] for case in cases]
+    given, problems = kind.given(task, cases, answers)
+    assert not problems and not kind.wrong(task, cases, given).any()
+    assert kind.answer_text(task, cases[0], cases[0].right).startswith("forward (0, 0, -1), left (")
+    answers[0][1] = [-x for x in answers[0][1]]
+    given, _ = kind.given(task, cases, answers)
+    assert np.flatnonzero(kind.wrong(task, cases, given)).tolist() == [0]
+
+
+MISTAKES = {
+    'kind = "rays"': (6, "tasks[1].kind", "'rays' is unknown"),
+    "points = -1": (7, "tasks[1].points", "expected a number >= 0"),
+    'function = "a b"': (7, "tasks[1].function", "'a b' is no name"),
+    'arguments = ["i", "k"]': (7, "tasks[1].arguments[1]", "'k' is unknown"),
+    "arguments = []": (7, "tasks[1].arguments", "is empty"),
+    'arguments = ["i", "i"]': (7, "tasks[1].arguments", "names a word twice"),
+    'arguments = ["camera"]': (7, "tasks[1].arguments", "no word for the pixel"),
+    'camera = { fov = "fov" }': (7, "tasks[1].camera.fov", "'fov' is unknown"),
+    'returns = ["origin", "way"]': (7, "tasks[1].returns[1]", "'way' is unknown"),
+    'cameras = ["turnd"]': (7, "tasks[1].cameras[0]", "did you mean 'turned'"),
+    "cameras = []": (7, "tasks[1].cameras", "is empty"),
+    "cases = 0": (7, "tasks[1].cases", "there are no views"),
+    "size = [500, 500]": (7, "tasks[1].size", "500000"),
+    "seed = -1": (7, "tasks[1].seed", "expected a whole number >= 0"),
+    "pixels_from = 2": (7, "tasks[1].pixels_from", "2 is unknown"),
+    "weight = 1": (7, "tasks[1].weight", "did you mean 'weights'"),
+    "unit = 1": (7, "tasks[1].unit", "give true or false"),
+    'views = ["nowhere.toml"]': (7, "tasks[1].views[0]", "nowhere.toml"),
+    "views = [{ eye = [0, 0] }]": (7, "tasks[1].views[0].eye", "has 2 entries"),
+    'name = "first"': (7, "tasks[1].name", "'first' is there already"),
+    'arguments = ["i", "j", "fov_y"]\ncameras = ["skewed"]': (8, "tasks[1].cameras[0]", "skewed"),
+    'arguments = ["i", "j", "fov_y"]\nviews = [{ u = [2, 0, 0] }]': (
+        8, "tasks[1].views[0]", "cannot be told",
+    ),
+    'arguments = ["i", "j", "fov_y"]\nprojection = "parallel"': (
+        8, "tasks[1].projection", "has no fov_y",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("line", MISTAKES)
+def test_mistakes_name_file_line_and_field(tmp_path, line):
+    number, field, words = MISTAKES[line]
+    kind = line if line.startswith("kind") else f'kind = "viewing-ray"\n{line}'
+    text = f'[[tasks]]\nkind = "viewing-ray"\nname = "first"\n\n[[tasks]]\n{kind}\n'
+    with pytest.raises(LucidaError) as told:
+        load(tmp_path, text)
+    assert str(told.value).startswith(f"{tmp_path / 'hw.toml'}:{number}: {field}: ")
+    assert words in str(told.value) and told.value.remedy
+
+
+OTHERS = {
+    "tasks = []": ("1: tasks", "holds 0 tasks"),
+    "title = 3": ("1: title", "give text"),
+    "seconds = 0\n" + RAYS: ("1: seconds", "expected a number > 0"),
+    "memory_mb = 1\n" + RAYS: ("1: memory_mb", "expected a whole number >= 64"),
+    '[conventions]\ncamera = { a = "b" }\n' + RAYS: ("2: conventions.camera.a", "unknown"),
+    "[conventions]\nrow = 1\n" + RAYS: ("2: conventions.row", "did you mean 'rows'"),
+    '[[tasks]]\nkind = "basis"\ncameras = ["turned"]': ("3: tasks[0].cameras", "no cameras"),
+    '[[tasks]]\nkind = "basis"\nsize = [3, 4]': ("3: tasks[0].size", "no cameras"),
+    '[[tasks]]\nkind = "basis"\nvectorised = true': ("3: tasks[0].vectorised", "no pixels"),
+    '[[tasks]]\nkind = "basis"\nreturns = ["w", "back"]': ("3: tasks[0].returns", "twice"),
+    '[[tasks]]\nkind = "hit-sphere"\nreturns = ["t"]': ("3: tasks[0].returns", "leave it out"),
+    '[[tasks]]\nkind = "closest-hit"\nreturns = ["t"]': ("3: tasks[0].returns", "one thing"),
+    "[[tasks]\n": ("1: column", ""),
+    "lucida = 9": ("1: lucida", "version 9"),
+}
+
+
+@pytest.mark.parametrize("text", OTHERS)
+def test_mistakes_in_the_rest_of_the_file(tmp_path, text):
+    where, words = OTHERS[text]
+    with pytest.raises(LucidaError) as told:
+        load(tmp_path, text)
+    assert str(told.value).startswith(f"{tmp_path / 'hw.toml'}:{where}")
+    assert words in str(told.value)
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(LucidaError, match="does not exist"):
+        load_tasks(tmp_path / "hw.toml")
+
+
+VISION = RAYS + 'projection = "perspective"\narguments = ["column", "row", "K", "R", "t"]\n'
+
+
+def test_the_words_of_computer_vision_bring_their_axes(tmp_path):
+    (task,) = load(tmp_path, VISION).tasks
+    assert task.conventions.axes == (1, -1, -1) and "skewed" not in task.cameras
+    assert task.conventions.first_center == 0.0
+    (task,) = load(tmp_path, VISION + 'pixel_origin = "corner"').tasks
+    assert task.conventions.first_center == 0.5
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ('axes = { x = "left" }', "axes: are not those of K, R and t"),
+        ('rows = "bottom"', "rows: begin at the top for K, R and t"),
+        ('projection = "both"', "a parallel view has no K"),
+        ("views = [{ u = [1, 0, 0], v = [0, 2, 0], w = [0, 0, 1] }]", "or K, R, t"),
+    ],
+)
+def test_what_k_r_and_t_cannot_tell_is_refused(more, told, tmp_path):
+    text = VISION.replace('projection = "perspective"\n', "") if "projection" in more else VISION
+    with pytest.raises(LucidaError, match=told):
+        load(tmp_path, text + more)

@@ -1,0 +1,255 @@
+"""Each word of a convention, by what a course's student makes of it: then the ray is right."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.calls import Run
+from lucida.app.checking.cases import shots
+from lucida.app.checking.checked import judged
+from lucida.app.checking.conventions import (
+    CAMERA_WORDS,
+    PAIRS,
+    PIXEL_WORDS,
+    Conventions,
+    camera_values,
+)
+from lucida.app.checking.courses import course_names, task_path
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.task_file import load_tasks
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.model import View
+
+KIND = KINDS["viewing-ray"]
+BASE = next(task for task in BUILTIN if task.name == "viewing-ray")
+
+
+def a(values):
+    return np.array(values, float)
+
+
+def unit(vector):
+    return vector / np.linalg.norm(vector)
+
+
+def course(arguments, camera=None, returns=("origin", "direction"), **more):
+    """A task in a course's words."""
+    fields = {"camera": tuple(camera.items())} if camera else {}
+    conventions = Conventions(
+        arguments=tuple((word, word) for word in arguments), returns=returns, **fields, **more
+    )
+    return replace(BASE, conventions=conventions, count=12)
+
+
+def tried(task, function):
+    """The result of a function in this process, which is given its values by name."""
+    cases = KIND.cases(task)
+    values = []
+    for call in KIND.calls(task, cases):
+        made = function(**dict(call.arguments))
+        values.append([np.asarray(part, float).tolist() for part in made])
+    return judged(task, cases, Run(tuple(values)))
+
+
+def from_the_top(xy01, camera):
+    s, t = xy01
+    point = a(camera["top_left"]) + s * a(camera["horizontal"]) - t * a(camera["vertical"])
+    return camera["origin"], point - a(camera["origin"])
+
+
+def row_vectors(i, j, width, height, camera):
+    x = (2 * (j + 0.5) / width - 1) * math.tan(camera["fov"] / 2)
+    y = (1 - 2 * (i + 0.5) / height) * math.tan(camera["fov"] / 2) * height / width
+    matrix = a(camera["matrix"])
+    return matrix[3, :3], a([x, y, -1]) @ matrix[:3, :3]
+
+
+def target_and_up(i, j, size, eye, target, up, fov_y):
+    w = unit(a(eye) - a(target))
+    u = unit(np.cross(up, w))
+    v = np.cross(w, u)
+    half = math.tan(math.radians(fov_y) / 2)
+    width, height = size
+    x = (2 * (j + 0.5) / width - 1) * half * width / height
+    return (eye, x * u + (1 - 2 * (i + 0.5) / height) * half * v - w)
+
+
+def upside_down(x_pixel, y_pixel, size, viewport, distance, rotation, eye):
+    """y downwards and z forwards, as in computer vision."""
+    left, right, bottom, top = viewport
+    x = left + x_pixel / size[0] * (right - left)
+    y = -top + y_pixel / size[1] * (top - bottom)
+    return eye, a(rotation) @ [x, y, distance]
+
+
+def by_k_r_t(column, row, K, R, t):
+    rotation = a(R)
+    return -rotation.T @ a(t), rotation.T @ np.linalg.inv(a(K)) @ [column, row, 1]
+
+
+def by_focal_lengths(xy_pixel, camera):
+    """As COLMAP has it: integers at the pixels' corners."""
+    x = (xy_pixel[0] - camera["cx"]) / camera["fx"]
+    y = (xy_pixel[1] - camera["cy"]) / camera["fy"]
+    pose = a(camera["pose"])
+    assert np.allclose(pose @ a(camera["back"]), np.eye(4))
+    return pose[:3, 3], pose[:3, :3] @ [x, y, 1]
+
+
+def sized(xy11, camera):
+    u, v, w = (a(camera[name]) for name in "uvw")
+    x, y = xy11[0] / 2 * camera["wide"], xy11[1] / 2 * camera["high"]
+    return (a(camera["eye"]) + x * u + y * v, -w)
+
+
+def vision(arguments, camera=None, **more):
+    task = course(arguments, camera, axes=(1, -1, -1), **more)
+    return replace(task, cameras=("canonical", "moved", "turned", "off-axis"))
+
+
+BOTTOM = {"rows": "bottom"}
+COURSES = {
+    "from the top": (
+        course(
+            ["xy01", "camera"],
+            {
+                "origin": "eye",
+                "top_left": "top_left",
+                "horizontal": "horizontal",
+                "vertical": "vertical",
+            },
+        ),
+        from_the_top,
+    ),
+    "row vectors": (
+        course(
+            ["i", "j", "width", "height", "camera"],
+            {"fov": "fov_x_rad", "matrix": "camera_to_world"},
+            row_vectors=True,
+        ),
+        row_vectors,
+    ),
+    "target and up": (
+        course(["i", "j", "size", "eye", "target", "up", "fov_y"]),
+        target_and_up,
+    ),
+    "y downwards": (
+        course(
+            ["x_pixel", "y_pixel", "size", "viewport", "distance", "rotation", "eye"],
+            axes=(1, -1, -1),
+        ),
+        upside_down,
+    ),
+    "K, R and t": (vision(["column", "row", "K", "R", "t"]), by_k_r_t),
+    "K, R and t from 1": (vision(["column", "row", "K", "R", "t"], base=1), by_k_r_t),
+    "focal lengths": (
+        vision(
+            ["xy_pixel", "camera"],
+            {
+                **{name: name for name in ("fx", "fy", "cx", "cy")},
+                "pose": "world_from_cam",
+                "back": "cam_from_world",
+            },
+        ),
+        by_focal_lengths,
+    ),
+    "parallel by its size": (
+        replace(
+            course(
+                ["xy11", "camera"],
+                {
+                    **{name: name for name in ("eye", "u", "v", "w")},
+                    "wide": "viewport_width",
+                    "high": "viewport_height",
+                },
+                **BOTTOM,
+            ),
+            projections=("parallel",),
+            cameras=("canonical", "moved", "turned"),
+        ),
+        sized,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_a_course_s_words_lead_to_the_right_ray(name):
+    task, function = COURSES[name]
+    result = tried(task, function)
+    assert result.status == "right", result.first
+
+
+@pytest.mark.parametrize("base", [0, 1])
+def test_half_a_pixel_and_a_transposed_r_are_told_in_the_words_of_vision(base):
+    """No line of code is told: the table's lines have other words."""
+    task, function = COURSES["K, R and t"]
+    task = replace(task, conventions=replace(task.conventions, base=base))
+
+    def shifted(column, row, **rest):
+        return function(column + 0.5, row + 0.5, **rest)
+
+    said = " ".join(tried(task, shifted).diagnosis.sentences)
+    assert f"the first pixel's is at {base}" in said and "As if it read" not in said
+    transposed = tried(task, lambda R, **rest: function(R=a(R).T, **rest))
+    assert any("its transpose" in sentence for sentence in transposed.diagnosis.sentences)
+
+
+def test_views_of_a_file_are_mirrored_too_where_the_course_is():
+    (task, *_) = load_tasks(task_path("ray-tracer-challenge")).tasks
+    camera = Camera.look_at((3, 2, 4), (0, 0, 0), distance=1.5).fitted((8, 6))
+    task = replace(task, views=(View(camera, False),), count=0)
+    (shot,) = shots(task)
+    assert shot.camera.determinant < 0
+
+
+def test_parts_in_another_order_or_one_alone():
+    task, function = COURSES["from the top"]
+    swapped = replace(task.conventions, returns=("direction", "origin"))
+    swapped_task = replace(task, conventions=swapped)
+    assert tried(swapped_task, lambda **v: function(**v)[::-1]).status == "right"
+    assert tried(swapped_task, function).status == "wrong"
+    alone = replace(task, conventions=replace(task.conventions, returns=("direction",)))
+    assert tried(alone, lambda **v: function(**v)[1:]).status == "right"
+
+
+def test_every_word_has_been_used_here():
+    """Or by a course, whose own functions are in courses/written."""
+    tasks = [task for task, _ in COURSES.values()]
+    tasks += [task for name in course_names() for task in load_tasks(task_path(name)).tasks]
+    used = {word for task in tasks for word in task.conventions.words}
+    used |= {part for word in used & PAIRS.keys() for part in PAIRS[word]}
+    known = {*PIXEL_WORDS, *CAMERA_WORDS, *PAIRS}
+    rest = known - used
+    assert rest == {"ij", "ji", "fov_long", "fov_short_rad"}
+
+
+@pytest.mark.parametrize("axes", [(1, 1, 1), (-1, 1, 1), (1, 1, -1), (1, -1, -1), (-1, -1, 1)])
+def test_matrices_are_rotations_whichever_way_the_axes_point(axes):
+    conventions = replace(COURSES["row vectors"][0].conventions, axes=axes)
+    task = replace(COURSES["row vectors"][0], conventions=conventions)
+    for shot in shots(task):
+        values = camera_values(shot, conventions)
+        assert np.linalg.det(values["rotation"]) == pytest.approx(1)
+        to_world, back = a(values["camera_to_world"]), a(values["world_to_camera"])
+        assert np.allclose(back @ to_world, np.eye(4))
+
+
+def test_angles_need_a_camera_that_they_tell():
+    for word in ("target", "up", "forward", "fov_x", "fov_short_rad"):
+        assert Conventions(arguments=((word, word),)).needs_rigid
+    for word in ("eye", "viewport_width", "aspect", "rotation"):
+        assert not Conventions(arguments=((word, word),)).needs_rigid
+    task, _ = COURSES["target and up"]
+    for shot in shots(task):
+        camera, (width, height) = shot.camera, shot.size
+        left, right, bottom, top = camera.viewport
+        assert left == -right and bottom == -top
+        assert (right - left) / (top - bottom) == pytest.approx(width / height)
+        back = unit(np.subtract(camera.eye, shot.target))
+        assert np.allclose(back, camera.w)
+        assert np.allclose(unit(np.cross(shot.up, camera.w)), camera.u)

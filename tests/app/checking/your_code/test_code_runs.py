@@ -1,0 +1,287 @@
+"""The thread that runs a file: the newest question wins, what is endless is not run again."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from right_code import right_ray
+from waiting import wait_for
+
+from lucida.app.checking.calls import Call, Failure, Limits, Run
+from lucida.app.checking.running.file import NotRunnableError
+from lucida.app.checking.your_code import runs as runs_module
+from lucida.app.checking.your_code.report import CodeQuestion
+from lucida.app.checking.your_code.runs import CodeRuns
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.system.errors import LucidaError
+
+QUESTION = CodeQuestion("rays.py", 1, "", Camera.canonical(), (4, 3))
+OTHER = replace(QUESTION, camera=replace(QUESTION.camera, distance=2.0))
+
+
+class FakeStudent:
+    """Answers right, unless it is told to hang, to fail, to be none."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.files = ("vectors.py",)
+        self.names = frozenset(("viewing_ray",))
+        self.gate: threading.Event | None = None  # a run waits for it
+        self.error: Exception | None = None
+        self.ended = threading.Event()
+        self.runs: list[Sequence[Call]] = []
+        self.closed = False
+        self.answered = 0
+
+    def functions(self) -> frozenset[str] | None:
+        if self.error is not None:
+            raise self.error
+        return self.names
+
+    def call(self, calls: Sequence[Call]) -> Run:
+        self.runs.append(calls)
+        self.ended.clear()
+        if self.gate is not None:
+            gate, self.gate = self.gate, None
+            self.answered = 6
+            while not gate.is_set() and not self.ended.is_set():
+                gate.wait(0.001)
+            if self.ended.is_set():
+                return Run((), "", Failure("ended", "rays.py: was stopped", call=0))
+        self.answered = len(calls)
+        return Run(tuple(self.answer(call) for call in calls), "printed")
+
+    def answer(self, call: Call) -> Any:
+        return right_ray(dict(call.arguments))
+
+    def restart(self) -> None:
+        pass
+
+    def stop(self) -> None:
+        self.ended.set()
+
+    def close(self) -> None:
+        self.closed = True
+        self.ended.set()
+
+
+class Desk:
+    """Runs, and the students that they have made."""
+
+    def __init__(self) -> None:
+        self.made: list[FakeStudent] = []
+        self.prepare = lambda student: None
+        self.runs = CodeRuns(lambda: None, self._make)
+
+    def _make(self, path: Path, limits: Limits) -> FakeStudent:
+        student = FakeStudent(path)
+        self.prepare(student)
+        self.made.append(student)
+        return student
+
+    def told(self, question: CodeQuestion):
+        """The last report of a question."""
+        self.runs.follow(question)
+        return self.settled()
+
+    def settled(self):
+        def is_done() -> bool:
+            self.runs.poll()
+            return not self.runs.busy
+
+        wait_for(is_done)
+        return self.runs.report
+
+    def hangs(self) -> threading.Event:
+        gate = threading.Event()
+        self.prepare = lambda student: setattr(student, "gate", gate)
+        return gate
+
+
+@pytest.fixture
+def desk():
+    one = Desk()
+    yield one
+    one.runs.close()
+
+
+def test_the_camera_s_rays_come_first_then_the_tasks(desk):
+    report = desk.told(QUESTION)
+    assert report.question == QUESTION
+    assert report.rays.result.status == "right"
+    assert report.chosen.name == "viewing-ray"
+    assert [task.name for task in report.tasks] == ["viewing-ray", "viewing-ray-parallel"]
+    assert report.output == "printed"
+    assert report.results.keys() == {"viewing-ray", "viewing-ray-parallel"}
+    assert report.at > 0
+    (student,) = desk.made
+    assert student.path == Path("rays.py")
+    assert desk.runs.files == ("vectors.py",)
+    assert len(student.runs[0]) == 12  # pixels of the canvas
+    assert len(student.runs) == 3
+
+
+def test_the_same_question_is_asked_once_and_old_answers_are_kept(desk):
+    desk.told(QUESTION)
+    desk.told(QUESTION)
+    assert len(desk.made[0].runs) == 3
+    other = desk.told(OTHER)
+    assert other.rays.result.status == "right"
+    assert other.results.keys() == {"viewing-ray", "viewing-ray-parallel"}
+    assert len(desk.made[0].runs) == 4  # the tasks are tried once
+    again = desk.told(QUESTION)
+    assert again.rays.camera == QUESTION.camera
+    assert len(desk.made[0].runs) == 4  # undo runs nothing anew
+    assert len(desk.made) == 1
+
+
+def test_a_saved_file_is_run_anew_in_another_process(desk):
+    desk.told(QUESTION)
+    newer = replace(QUESTION, version=2)
+    report = desk.told(newer)
+    assert report.question == newer
+    assert len(desk.made) == 2
+    assert desk.made[0].closed
+    assert len(desk.made[1].runs) == 3
+
+
+def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
+    monkeypatch.setattr(runs_module, "OVERTAKEN_S", 0.0)
+    desk.hangs()
+    desk.runs.follow(QUESTION)
+    wait_for(lambda: desk.made and desk.made[0].answered == 6)
+    assert desk.runs.progress == 0.5
+    assert desk.runs.running_s > 0
+    desk.runs.tick()
+    assert not desk.made[0].ended.is_set()  # it is still wanted
+    desk.runs.follow(OTHER)
+    wait_for(lambda: desk.runs.tick() or desk.made[0].ended.is_set())
+    report = desk.settled()
+    assert report.question == OTHER
+    assert report.rays.result.status == "right"
+    assert desk.runs.running_s == 0
+    assert desk.runs.progress == 0
+
+
+def test_what_was_stopped_is_not_run_again_by_itself(desk):
+    desk.hangs()
+    desk.runs.follow(QUESTION)
+    wait_for(lambda: desk.made and desk.made[0].answered == 6)
+    desk.runs.stop()
+    assert not desk.made[0].ended.is_set()  # that takes long: not in the window's thread
+    desk.runs.tick()
+    report = desk.settled()
+    assert report.rays.result.failure.text == "rays.py: was stopped"
+    assert report.halted
+    assert not report.results  # nor the tasks
+    assert desk.told(OTHER).question == QUESTION
+    assert len(desk.made[0].runs) == 1
+    desk.prepare = lambda student: None
+    assert desk.told(replace(QUESTION, version=2)).rays.result.status == "right"
+
+
+@pytest.mark.parametrize("wish", [{"size": (2, 1)}, {"task": "viewing-ray-parallel"}])
+def test_fewer_pixels_or_another_task_run_a_file_that_took_too_long(desk, wish):
+    def call(calls):
+        if len(calls) > 2:
+            return Run((), "", Failure("time", "the time limit is over", call=0))
+        return Run(tuple(right_ray(dict(one.arguments)) for one in calls), "")
+
+    desk.prepare = lambda student: setattr(student, "call", call)
+    assert desk.told(QUESTION).halted
+    assert desk.told(OTHER).question == QUESTION  # not for another camera
+    wished = replace(QUESTION, **wish)
+    report = desk.told(wished)
+    assert report.question == wished
+    assert report.halted is ("size" not in wish)
+
+
+def test_tasks_of_a_function_that_runs_endlessly_are_not_tried(desk):
+    def is_endless(student):
+        student.call = lambda calls: Run((), "", Failure("time", "the time limit is over", call=0))
+
+    desk.prepare = is_endless
+    report = desk.told(QUESTION)
+    assert {result.failure.kind for result in report.results.values()} == {"time"}
+    assert report.halted
+
+
+@pytest.mark.parametrize(
+    ("error", "text", "output"),
+    [
+        (
+            NotRunnableError(Failure("syntax", "rays.py, line 3: SyntaxError"), "said"),
+            "line 3",
+            "said",
+        ),
+        (LucidaError("", "Python files need Python"), "need Python", ""),
+    ],
+)
+def test_a_file_that_cannot_be_run_is_told(desk, error, text, output):
+    desk.prepare = lambda student: setattr(student, "error", error)
+    report = desk.told(QUESTION)
+    assert text in report.failure.text
+    assert report.output == output
+    assert report.rays is None
+    desk.prepare = lambda student: None
+    assert desk.told(replace(QUESTION, version=2)).rays.result.status == "right"
+
+
+def test_a_failure_of_our_own_is_told(desk):
+    def breaks(student):
+        student.answer = lambda call: object()
+        student.call = lambda calls: 1 / 0
+
+    desk.prepare = breaks
+    report = desk.told(QUESTION)
+    assert "ZeroDivisionError" in report.failure.text
+
+
+def test_forgetting_ends_the_process(desk):
+    desk.told(QUESTION)
+    desk.runs.forget()
+    assert desk.runs.report is None
+    wait_for(lambda: desk.made[0].closed)
+    assert desk.told(QUESTION).rays.result.status == "right"
+    assert len(desk.made) == 2
+    assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
+
+
+def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):
+    monkeypatch.setattr(runs_module, "REST_S", -1.0)  # each run is slow, no wait is long
+    waited = []
+    # How long it rests before it asks on is seen nowhere else.
+    monkeypatch.setattr(desk.runs._asked, "wait", lambda seconds: waited.append(seconds))
+    desk.told(QUESTION)
+    assert len(waited) == 1  # before the tasks
+    desk.told(OTHER)
+    assert len(waited) == 3
+    desk.told(QUESTION)  # kept
+    assert len(waited) == 4
+
+
+def test_wrong_rays_are_told_first_then_why(desk):
+    seen = []
+    wake = desk.runs._wake  # each report that a frame could see
+    desk.runs._wake = lambda: (seen.append(desk.runs.report), wake())
+
+    def mirrored(student):
+        right = student.answer
+        student.answer = lambda call: [
+            right(call)[0],
+            [-right(call)[1][0], *right(call)[1][1:]],
+        ]
+
+    desk.prepare = mirrored
+    report = desk.told(QUESTION)
+    assert seen[0].rays.result.status == "wrong"
+    assert seen[0].diagnosis is None
+    assert report.diagnosis is not None
+    assert report.diagnosis.sentences
+    assert report.results["viewing-ray"].diagnosis is not None
+    assert report.rays is seen[0].rays  # the pictures stay

@@ -1,0 +1,109 @@
+"""The words for a file, and their order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from right_code import right_ray
+
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.calls import Failure, Run
+from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.your_code.model import RAY, cases_for, rays_of
+from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.checking.your_code.words import told_of, verdict_of
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import Indexing
+
+SIZE = (4, 3)
+CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
+TASK = next(task for task in BUILTIN if task.kind == RAY)
+PARALLEL = next(task for task in BUILTIN if task.projections == ("parallel",))
+RIGHT = TaskResult(TASK, "right", 3.0, 379)
+QUESTION = CodeQuestion("rays.py", 1, "", CAMERA, SIZE)
+
+
+def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> CodeReport:
+    cases = cases_for(TASK, CAMERA, SIZE)
+    if run is None:
+        calls = KINDS[RAY].calls(TASK, cases)
+        run = Run(tuple(answer(dict(call.arguments)) for call in calls))
+    rays = rays_of(TASK, CAMERA, SIZE, cases, run)
+    found = CodeReport(QUESTION, (TASK, PARALLEL), TASK, rays, {TASK.name: RIGHT})
+    return replace(found, **changes)
+
+
+def mirrored(known: dict[str, Any]) -> list[list[float]]:
+    origin, direction = right_ray(known)
+    return [origin, [-direction[0], *direction[1:]]]
+
+
+def texts(one: CodeReport, pixel: tuple[int, int] | None = None) -> list[str]:
+    return [line.text for line in told_of(one, pixel, Indexing.LECTURE)]
+
+
+def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
+    found = told_of(report(), None, Indexing.LECTURE)
+    assert [line.text for line in found] == [
+        "Every ray is correct.",
+        "viewing-ray: correct in all of 379 cases.",
+    ]
+    assert {line.role for line in found} == {"good"}
+    assert "being tried" in texts(report(results={}))[-1]
+
+
+def test_wrong_rays_are_told_with_the_reason_of_the_camera_that_names_it():
+    found = texts(report(mirrored, results={}))
+    assert found[:2] == ["12 of 12 rays are wrong.", "looking for the reason ..."]
+    own = Diagnosis(("u points left.",))
+    others = Diagnosis(("of many cameras",))
+    wrong = replace(RIGHT, status="wrong", diagnosis=others)
+    assert texts(report(mirrored, diagnosis=own, results={}))[1] == "u points left."
+    both = report(mirrored, diagnosis=own, results={TASK.name: wrong})
+    assert texts(both)[1] == "of many cameras"
+    named = replace(own, candidates=((),))
+    assert texts(replace(both, diagnosis=named))[1] == "u points left."
+
+
+def test_the_marked_pixel_in_numbers():
+    found = texts(report(mirrored), (1, 2))
+    first = next(k for k, text in enumerate(found) if text.startswith("pixel"))
+    assert found[first] == "pixel (2, 3), from 1, of the pictures:"
+    assert found[first + 1].startswith("yours    (1, 2, 5) + t (")
+    assert found[first + 2].startswith("correct  (1, 2, 5) + t (")
+    assert found[first + 1] != found[first + 2]
+    half = report(run=Run((right_ray(dict(cases_for(TASK, CAMERA, SIZE)[0].arguments)),)))
+    assert not any(text.startswith("pixel") for text in texts(half, (1, 2)))  # it has not come
+
+
+def test_an_exception_is_told_with_its_own_lines():
+    failure = Failure("exception", "rays.py, line 3: ZeroDivisionError", ("File x", "1 / 0"))
+    found = told_of(report(run=Run((), "said\n", failure), output="said\n"), None, Indexing.LECTURE)
+    assert [(line.role, line.text) for line in found[:3]] == [
+        ("bad", "rays.py, line 3: ZeroDivisionError"),
+        ("code", "File x"),
+        ("code", "1 / 0"),
+    ]
+    assert [line.text for line in found[-2:]] == ["printed:", "said"]
+    assert not any("right" in line.text for line in found)
+
+
+def test_a_file_that_answers_nothing():
+    failure = Failure("syntax", "rays.py, line 2: SyntaxError", ("    x = (",))
+    found = CodeReport(QUESTION, failure=failure, output="before")
+    assert texts(found) == ["rays.py, line 2: SyntaxError", "    x = (", "printed:", "before"]
+    assert "none of the functions" in texts(CodeReport(QUESTION))[0]
+
+
+def test_a_function_with_nothing_in_it_is_told_what_it_is_to_do():
+    empty = report(lambda known: None)
+    assert texts(empty)[0].startswith("viewing_ray returns nothing yet. The viewing ray of pixel")
+    failed = replace(RIGHT, status="failed", failure=Failure("answer", "returned None, not"))
+    other = CodeReport(QUESTION, (TASK,), TASK, results={TASK.name: failed})
+    assert texts(other)[0].startswith("viewing_ray returns nothing yet.")
+    assert verdict_of(other, TASK) == "empty"
+    assert verdict_of(other, PARALLEL) == ""
+    assert verdict_of(report(), TASK) == "right"

@@ -1,0 +1,256 @@
+"""The command line as its users meet it: arguments, one line for every mistake, exit status."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from argparse import ArgumentTypeError
+from pathlib import Path
+
+import pytest
+
+from lucida import __version__
+from lucida.app.cli import main
+from lucida.app.commands import COMMANDS, WITHOUT_FILE, arguments, render, view
+from lucida.renderer.files import BUILTIN_SCENES
+
+ROOT = Path(__file__).parents[3]
+NAMES = [command.NAME for command in COMMANDS]
+VIEW = """\
+[camera]
+eye = [0.0, 0.0, 5.0]
+u = [1.0, 0.0, 0.0]
+v = [0.0, 1.0, 0.0]
+w = {w}
+distance = 1.0
+viewport = [-0.5, 0.5, -0.5, 0.5]
+projection = "perspective"
+"""
+
+
+@pytest.fixture(autouse=True)
+def in_an_empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("LUCIDA_TRACEBACK", raising=False)
+    return tmp_path
+
+
+def run_python(*arguments: str, **options) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, *arguments], text=True, timeout=120, check=False, **options
+    )
+
+
+class TestHelp:
+    @pytest.mark.parametrize("arguments", [[], *[[name] for name in NAMES]])
+    def test_it_is_printed(self, capsys, arguments):
+        assert main([*arguments, "--help"]) == 0
+        told = capsys.readouterr()
+        assert not told.err
+        assert "example" in told.out
+        assert all(len(line) <= 100 for line in told.out.splitlines())
+
+    def test_the_window_s_names_every_command(self, capsys):
+        main(["--help"])
+        told = capsys.readouterr().out
+        assert all(f"lucida {name} " in told for name in NAMES)
+
+    def test_version(self, capsys):
+        assert main(["--version"]) == 0
+        assert capsys.readouterr().out == f"lucida {__version__}\n"
+
+    @pytest.mark.parametrize("arguments", [["--version"], ["--help"], ["render", "--help"]])
+    def test_nothing_heavy_is_loaded_for_it(self, arguments):
+        program = (
+            "import sys; from lucida.app.cli import main; main(sys.argv[1:]);"
+            "print(*(name.partition('.')[0] for name in sys.modules), sep='\\n', file=sys.stderr)"
+        )
+        # The project's own place, for a run without an installation.
+        path = os.pathsep.join(filter(None, sys.path))
+        end = run_python(
+            "-c",
+            program,
+            *arguments,
+            capture_output=True,
+            env={**os.environ, "PYTHONPATH": path},
+        )
+        assert end.returncode == 0
+        loaded = set(end.stderr.split())
+        assert "app" in loaded
+        heavy = {"numba", "llvmlite", "moderngl", "imgui_bundle", "glfw", "trimesh", "numpy", "PIL"}
+        assert not loaded & heavy
+
+
+class TestWindow:
+    """`lucida` without a command's name; the window itself is left out."""
+
+    @pytest.mark.parametrize(
+        ("line", "scene"),
+        [
+            ("", None),
+            ("spheres", "spheres"),
+            ("./render", "./render"),
+            ("-- render", "render"),
+            ("--size 640x480 render", "render"),
+        ],
+    )
+    def test_which_scene(self, monkeypatch, line, scene):
+        seen = []
+        monkeypatch.setattr(view, "run", lambda arguments: seen.append(arguments.scene) or 0)
+        assert main(line.split()) == 0
+        assert seen == [scene]
+
+
+class TestMistakes:
+    """One line on standard error that says what and the remedy, nothing else; exit status 2."""
+
+    @pytest.mark.parametrize(
+        ("line", "told"),
+        [
+            ("--nosuch", "unrecognized arguments: --nosuch; see 'lucida --help'"),
+            ("nosuch", "nosuch"),
+            ("spheres two", "unrecognized arguments: two"),
+            ("--screenshot a.gif", r"a\.gif: the ending '\.gif' is unknown; give one of \.png"),
+            ("--screenshot a.ppm", r"a\.ppm: \.ppm cannot hold this picture; give one of \.png"),
+            ("--size 10x900", "--size: 10x900 is too small for the window; give at least 64x64"),
+            ("render spheres -o a", "a: has no ending; give one of .png"),
+            ("render spheres -o a.jpg", r"a\.jpg: the ending '\.jpg' is unknown"),
+            ("render spheres -o no/a.png", "no/a.png: folder .* does not exist; make it first"),
+            ("render spheres -o a.png --size 0x9", "--size: 0x9 has no pixels; give at least 1x1"),
+            ("render spheres -o a.png --size 99999x9", "--size: 99999x9 is too large; stay within"),
+            ("render spheres -o a.png --size ٣x٣", "is not a size"),
+            ("render spheres -o a.png --samples 3", "--samples: '3' is not possible; give one of"),
+            ("render spheres -o a.png --shadows", "argument --shadows: only image order has it"),
+            ("render spheres -o a.png --mirrors 1", "add --renderer ray"),
+            ("render spheres -o a.png --threads 0", "'0' is not a number of threads; give 1 to"),
+            ("render spheres -o a.png --exposure 1e9", "'1e9' is not an exposure"),
+            ("render spheres -o a.png --renderer both", "--renderer: invalid choice: 'both'"),
+            ("render spheres -o a.png --backend glx", "--backend: invalid choice: 'glx'"),
+            ("render nosuch -o a.png", "nosuch"),
+            ("render nosuch.toml -o a.png", "nosuch.toml"),
+            ("render spheres -o a.png --view flat.toml", "flat.toml: camera.w: .* independent"),
+            ("render spheres -o a.png --view broken.toml", "broken.toml: "),
+            ("compare spheres -o a.exr", r"a\.exr: \.exr cannot hold this picture"),
+            ("pick spheres", "required: ROW, COLUMN; see 'lucida pick --help'"),
+            ("pick spheres 1.5 3", "argument ROW: '1.5' is not a whole number; give e.g. 12"),
+            ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
+            ("pick spheres 0 9 --size 9x9", "COLUMN: 9 is outside an image of 9x9; give 0 to 8"),
+            ("pick spheres 0 1 --from 1", "ROW: 0 is outside an image of 1280x720; give 1 to 720"),
+            ("scenes all", "scenes: takes no file; lucida scene all describes one"),
+            ("scenes --all", "unrecognized arguments: --all; see 'lucida scenes --help'"),
+            ("install-desktop here", "install-desktop: is no longer part of Lucida; start lucida"),
+            ("camera a.json --undistort=out", "--undistort: is no longer part of Lucida; COLMAP's"),
+            (
+                "lecture --results no no2 -o a.html",
+                "--results: no: cannot be read: no such file or directory",
+            ),
+        ],
+    )
+    def test_mistake(self, capsys, in_an_empty_folder, line, told):
+        (in_an_empty_folder / "flat.toml").write_text(VIEW.format(w="[0.0, 0.0, 0.0]"))
+        (in_an_empty_folder / "broken.toml").write_text("[camera\n")
+        before = sorted(in_an_empty_folder.iterdir())
+        assert main(line.split()) == 2
+        output = capsys.readouterr()
+        assert not output.out
+        assert re.fullmatch(r"lucida[^\n]*: [^\n]+\n", output.err)
+        assert re.search(told, output.err)
+        assert "internal error" not in output.err
+        assert sorted(in_an_empty_folder.iterdir()) == before
+
+    @pytest.mark.parametrize("name", NAMES)
+    def test_a_misspelt_command(self, capsys, name):
+        misspelt = {name[:-1], name[0] + name[2:], name[:-2] + name[-1] + name[-2], name.upper()}
+        for word in misspelt - set(NAMES):
+            assert main([word, "x.obj", "-o", "a b.png"]) == 2
+            told = capsys.readouterr().err
+            assert re.fullmatch(
+                rf"lucida: '{word}' is neither a command nor a scene; [^\n]+\n", told
+            )
+            close = re.search(r"did you mean lucida ([\w-]+)( x\.obj -o 'a b\.png')?\?", told)
+            assert close and close[1] in (name, "scene", "scenes")
+            assert bool(close[2]) == (name not in WITHOUT_FILE)
+
+    def test_a_word_like_no_command_before_a_scene(self, capsys):
+        assert main(["view", "x.obj"]) == 2
+        assert capsys.readouterr().err == (
+            "lucida: 'view' is neither a command nor a scene; see 'lucida --help'\n"
+        )
+
+    def test_a_scene_s_name_that_is_like_no_command(self, monkeypatch, tmp_path):
+        seen = []
+        monkeypatch.setattr(view, "run", lambda arguments: seen.append(arguments.scene) or 0)
+        (tmp_path / "rendr").mkdir()
+        for name in ("Spheres", "colums", "x", "rendr", "rendr.obj", "bunny"):
+            assert main([name]) == 0
+        assert len(seen) == 6
+
+    @pytest.mark.parametrize("name", ["a\nb", "\x1b[31m", "\udcff"])
+    @pytest.mark.parametrize(
+        "line", ["render {} -o a.png", "render spheres -o {}", "--size {}", "--{}"]
+    )
+    def test_a_name_that_a_terminal_would_obey(self, capsys, name, line):
+        assert main([part.format(name) for part in line.split()]) == 2
+        told = capsys.readouterr().err
+        assert told.endswith("\n")
+        assert told[:-1].isprintable()
+
+    def test_a_failure_inside_is_one_line_too(self, capsys, monkeypatch):
+        def fail(arguments):
+            raise RuntimeError("no\nluck")
+
+        monkeypatch.setattr(render, "run", fail)
+        assert main(["render", "spheres", "-o", "a.png"]) == 2
+        told = capsys.readouterr().err
+        assert told.startswith("lucida: internal error: RuntimeError no luck; LUCIDA_TRACEBACK=1")
+        assert told.count("\n") == 1
+        monkeypatch.setenv("LUCIDA_TRACEBACK", "1")
+        assert main(["render", "spheres", "-o", "a.png"]) == 2
+        assert "Traceback" in capsys.readouterr().err
+
+
+def test_numbers_at_their_bounds_are_taken_and_others_are_not():
+    whole, real = arguments.whole(1, 3, "is bad"), arguments.real(lambda x: 0 < x <= 3, "is bad")
+    assert (whole("1"), whole("3"), real("3"), real("1e-3")) == (1, 3, 3.0, 0.001)
+    for parse, texts in ((whole, "0 4 x -1 1.5 ٣"), (real, "0 3.1 x nan -1")):
+        for text in texts.split():
+            with pytest.raises(ArgumentTypeError, match=f"'{text}' is bad"):
+                parse(text)
+
+
+class TestEnds:
+    def test_interrupted(self, capsys, monkeypatch):
+        def interrupt(arguments):
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr(render, "run", interrupt)
+        assert main(["render", "spheres", "-o", "a.png"]) == 130
+        assert capsys.readouterr().err == "lucida: interrupted\n"
+
+    @pytest.mark.skipif(sys.platform == "win32", reason="a reader that left is POSIX's SIGPIPE")
+    def test_a_reader_that_leaves(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        try:
+            end = run_python(
+                "-m", "lucida", "scenes", stdout=writing, stderr=subprocess.PIPE, cwd=ROOT
+            )
+        finally:
+            os.close(writing)
+        assert end.returncode == 141
+        assert not end.stderr
+
+    @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="/dev/full is Linux's")
+    def test_output_that_cannot_be_written(self):
+        with open("/dev/full", "w") as full:
+            end = run_python(
+                "-m", "lucida", "scenes", stdout=full, stderr=subprocess.PIPE, cwd=ROOT
+            )
+        assert end.returncode == 2
+        assert re.fullmatch("lucida: [^\n]*space[^\n]*\n", end.stderr)
+
+    def test_scenes_are_those_of_the_renderer(self, capsys):
+        assert main(["scenes"]) == 0
+        assert tuple(capsys.readouterr().out.split()) == BUILTIN_SCENES

@@ -1,0 +1,267 @@
+"""`lucida check` and `lucida tasks`: exit statuses, reports, and what is said of mistakes."""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import pytest
+from both_lectures import both_lectures
+
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.cli import main
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files.views import save_view
+from lucida.renderer.scene.model import View
+
+RIGHT = """\
+def memory_offset(i, j, width):
+    return i * width + j
+"""
+WRONG = RIGHT.replace("j\n", "j + 1\n")
+RAISES = RIGHT.replace("return", "return 1 // (").replace("+ j", "+ j)")
+ALSO = """
+def hit_sphere(origin, direction, center, radius):
+    print("called")
+    return 1.5
+"""
+TASKS = """\
+feedback = "{feedback}"
+[[tasks]]
+kind = "memory-offset"
+points = 2
+[[tasks]]
+kind = "hit-sphere"
+points = 3
+"""
+
+
+@pytest.fixture
+def check(tmp_path, capsys, monkeypatch):
+    """Runs `lucida check` with a file of this text; the status, what was printed, and errors."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(text, *words):
+        if text is not None:
+            (tmp_path / "answer.py").write_text(text, "utf-8")
+            words = ("answer.py", *words)
+        status = main(["check", *words])
+        told = capsys.readouterr()
+        return status, told.out, told.err
+
+    return run
+
+
+def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
+    status, out, err = check(RIGHT)
+    assert (status, out) == (0, "correct memory-offset  1 of 1 point\n")
+    assert err.startswith("lucida: The program has your rights") and err.count("\n") == 1
+    status, out, _ = check(WRONG)
+    assert status == 1
+    assert out.startswith("wrong   memory-offset  0 of 1 point\n")
+    assert "memory_offset(i=0, j=0, W=8)\n" in out
+    assert "correct: 0\n" in out and "given: 1\n" in out
+    status, out, _ = check(RAISES)
+    assert status == 2
+    assert out.startswith("failed  memory-offset") and "ZeroDivisionError" in out
+    assert "memory_offset(i=0, j=0, W=8)" in out
+
+
+def test_an_answer_that_changes_when_it_is_asked_again(check):
+    text = (
+        "calls = []\ndef memory_offset(i, j, width):\n    calls.append(i)\n    return len(calls)\n"
+    )
+    _, out, _ = check(text)
+    assert "Asked again, the first wrong case has another answer" in out
+    _, out, _ = check(WRONG)
+    assert "Asked again" not in out
+
+
+def test_several_tasks_are_told_in_their_order_with_a_sum(check):
+    status, out, _ = check(WRONG + ALSO)
+    heads = [line for line in out.splitlines() if not line.startswith(" ")]
+    assert status == 1
+    assert [line.split()[1] for line in heads[:2]] == ["memory-offset", "hit-sphere"]
+    assert heads[2] == "0 of 2 tasks correct, 0 of 3 points"
+    status, out, _ = check(RAISES + ALSO)
+    assert status == 2 and out.count("wrong ") == 1
+
+
+def test_a_file_with_none_of_the_functions(check):
+    status, out, err = check("def other():\n    pass\n")
+    assert (status, out) == (2, "")
+    assert "lucida: answer.py: it has none of the functions" in err and "basis" in err
+    for name, wanted in (("viewingRay", "viewing_ray"), ("hit_spere", "hit_sphere")):
+        _, _, err = check(f"def {name}():\n    pass\n")
+        assert err.endswith(f"asked for; is {name} to be {wanted}?\n")
+
+
+def test_a_named_task_must_be_there(check, tmp_path):
+    status, out, _ = check(RIGHT, "--task", "hit-sphere")
+    assert status == 2 and "there is no function hit_sphere" in out
+    status, _, err = check(RIGHT, "--task", "hit-spere")
+    assert status == 2 and "did you mean 'hit-sphere'" in err
+    status, out, _ = check(RIGHT + ALSO, "--task", "memory_offset")
+    assert status == 0 and out.count("\n") == 1
+    (tmp_path / "hw.toml").write_text('[[tasks]]\nkind = "memory-offset"\nfunction = "place"\n')
+    renamed = RIGHT.replace("memory_offset", "place")
+    assert check(renamed, "--tasks", "hw.toml", "--task", "place")[0] == 0
+
+
+def test_a_file_that_does_not_run(check, tmp_path):
+    status, _, err = check("def f(:\n", "--json", "r.json")
+    assert status == 2 and err.splitlines()[-1].startswith("lucida: answer.py, line 1")
+    values = json.loads((tmp_path / "r.json").read_text())
+    assert values["score"] == 0 and "line 1" in values["output"]
+    assert len(values["tests"]) == len(BUILTIN)
+    assert all("line 1" in test["output"] for test in values["tests"])
+    status, _, err = check(None, "nowhere.py", "--json", "r.json")
+    assert status == 2 and "nowhere.py" in err
+    assert "nowhere.py" in json.loads((tmp_path / "r.json").read_text())["output"]
+
+
+def test_a_file_that_fails_while_it_is_imported(check, tmp_path):
+    text = "print('so far')\ndef help():\n    return 1 / 0\nhelp()\n" + RIGHT
+    status, out, err = check(text, "--json", "r.json")
+    assert (status, out) == (2, "") and "ZeroDivisionError" in err.splitlines()[-1]
+    assert "return 1 / 0" in err and "so far" in err
+    told = json.loads((tmp_path / "r.json").read_text())["output"]
+    assert "return 1 / 0" in told and "so far" in told
+
+
+def test_what_was_printed_is_shown(check):
+    text = RIGHT.replace("    return", "    print('row', i)\n    return")
+    status, out, _ = check(text)
+    lines = out.splitlines()
+    assert status == 0 and lines[1:3] == ["        printed:", "          row 0"]
+    assert lines[-1] == "          ... and 16 lines more"
+
+
+@pytest.mark.parametrize("feedback", ["nothing", "verdict", "first-wrong", "diagnosis"])
+def test_no_more_is_told_than_the_feedback_says(check, tmp_path, feedback):
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback=feedback))
+    status, out, _ = check(RIGHT + ALSO, "--tasks", "hw.toml", "--json", "r.json")
+    text = (tmp_path / "r.json").read_text()
+    values = json.loads(text)
+    assert status == 1 and values["score"] == 2.0
+    told = ("wrong" in out, "given: 1.5" in out)
+    shown = ["visible" if feedback != "nothing" else "hidden"] * 2
+    assert [test["visibility"] for test in values["tests"]] == shown
+    if feedback == "nothing":
+        assert told == (False, False) and out.startswith(
+            "tried   memory-offset\ntried   hit-sphere\n2 tasks were"
+        )
+        assert "given" not in text and "right" not in text
+    elif feedback == "verdict":
+        assert told == (True, False) and "given" not in text and "center=" not in text
+    else:
+        assert told == (True, True) and "given: 1.5" in text
+
+
+def test_a_failure_is_told_whatever_the_feedback_is(check, tmp_path):
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback="nothing"))
+    status, out, _ = check(RAISES + ALSO, "--tasks", "hw.toml")
+    assert status == 2 and "ZeroDivisionError" in out
+
+
+def test_a_starter_is_never_written_over_another_file(check, tmp_path):
+    status, out, _ = check(None, "--starter", "viewing-ray", "-o", "rays.py")
+    assert (status, out) == (0, "rays.py: viewing_ray\n")
+    text = (tmp_path / "rays.py").read_text("utf-8")
+    assert "def viewing_ray(i, j, W, H, camera):" in text and "parallel" in text
+    assert text.isascii() and max(map(len, text.splitlines())) <= 100
+    status, _, err = check(None, "--starter", "viewing-ray", "-o", "rays.py")
+    assert status == 2 and "rays.py: -o: is there already" in err
+    assert (tmp_path / "rays.py").read_text("utf-8") == text
+    status, out, _ = check(None, "rays.py")
+    assert status == 2 and "returned None" in out
+    status, out, _ = check(None, "--starter", "viewing-ray")
+    assert (status, out) == (0, text)
+    assert main(["check", "--starter", "all", "-o", "all.py"]) == 0
+    compile((tmp_path / "all.py").read_text("utf-8"), "all.py", "exec")
+    assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 13  # and normalized()
+
+
+CORNER = Camera.look_at((3, 2, 4), (0, 0, 0), distance=1.5)
+
+
+def test_a_view_alone_for_a_python_file(check, tmp_path):
+    save_view(tmp_path / "corner.toml", View(CORNER, False))
+    text = """\
+def viewing_ray(i, j, width, height, camera):
+    assert (width, height, camera.eye) == (5, 4, (3.0, 2.0, 4.0))
+    return camera.eye, (0, 0, 0)
+"""
+    status, out, _ = check(text, "--view", "corner.toml", "--size", "5x4")
+    assert status == 1 and "20 of 20 cases are wrong" in out and "parallel" not in out.split()[1]
+    view = ("--view", "corner.toml", "--size")
+    status, _, err = check(text, *view, "1280x720")
+    assert status == 2 and "--size: makes more than 500000 rays" in err
+    status, _, err = check(text, "--size", "640x480")
+    assert status == 2 and "--size: makes more than 500000 rays" in err
+    status, _, err = check(text, *view, "8x6", "--task", "basis")
+    assert status == 2 and "--view" in err
+
+
+def test_a_program(check, tmp_path):
+    program = tmp_path / "answers.py"
+    program.write_text(
+        "import json, sys\n"
+        "for line in sys.stdin:\n"
+        "    asked = json.loads(line)\n"
+        "    print(asked['i'] * asked['width'] + asked['j'])\n"
+    )
+    command = f'"{sys.executable}" answers.py'
+    assert check(None, "--command", command, "--task", "memory-offset")[0] == 0
+    status, _, err = check(None, "--command", command)
+    assert status == 2 and "--task: is missing" in err
+    status, _, err = check(RIGHT, "--command", command, "--task", "memory-offset")
+    assert status == 2 and "together with --command" in err
+    status, _, err = check(None)
+    assert status == 2 and "FILE: is missing" in err
+
+
+def test_limits_of_the_command_line_come_first(check, tmp_path):
+    (tmp_path / "hw.toml").write_text("seconds = 100\n" + TASKS.format(feedback="verdict"))
+    text = "def memory_offset(i, j, width):\n    while True:\n        pass\n" + ALSO
+    status, out, _ = check(text, "--tasks", "hw.toml", "--time-limit", "0.5")
+    assert status == 2 and "0.5 s" in out and "wrong   hit-sphere" in out
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--time-limit", "0"],
+        ["--memory-limit", "1"],
+        ["--seed", "-1"],
+        ["--from", "2"],
+        ["-o", "x"],
+    ],
+)
+def test_arguments_that_are_none(check, words, capsys):
+    status, _, err = check(RIGHT, *words)
+    assert status == 2 and err.count("\n") == 1
+
+
+def test_the_list_of_tasks(capsys, tmp_path):
+    assert main(["tasks"]) == 0
+    tasks, _, courses = capsys.readouterr().out.partition("\n\n")
+    assert [line.split()[0] for line in tasks.splitlines()] == [task.name for task in BUILTIN]
+    assert "--tasks" in courses and "pbrt" in courses
+    assert main(["tasks", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["tasks"]
+    assert [task["name"] for task in told] == [task.name for task in BUILTIN]
+    assert told[3]["signature"] == "viewing_ray(i, j, width, height, camera)"
+    assert main(["tasks", "viewing-ray"]) == 0
+    out = capsys.readouterr().out
+    assert "camera.e: the camera's position" in out and "In the lecture: Any camera." in out
+    (tmp_path / "hw.toml").write_text(TASKS.format(feedback="verdict"))
+    assert main(["tasks", "--tasks", str(tmp_path / "hw.toml")]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 2
+    assert main(["tasks", "rays"]) == 2
+    assert capsys.readouterr().err.startswith("lucida: NAME: 'rays' is unknown; ")
+
+
+def test_lecture_parts_are_steps_of_the_lecture():
+    titles = {step.title for step in both_lectures().steps}
+    assert {task.part for task in BUILTIN} <= titles

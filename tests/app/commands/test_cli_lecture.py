@@ -1,0 +1,169 @@
+"""`lucida lecture`: mistakes by line, checking, and pictures of all steps without a display."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from lucida.app.cli import main
+from lucida.app.ui import formula
+
+ROOT = Path(__file__).parents[3]
+LECTURE = '''\
+title = "Two steps"
+[[steps]]
+title = "Spheres"
+text = """
+They are **exact**: $|\\\\mathbf{x} - \\\\mathbf{c}| = r$.
+"""
+scene = "spheres"
+[[steps]]
+title = "The array"
+scene = "canonical"
+views = ["laboratory"]
+options.laboratory.page = "array"
+'''
+
+
+def test_checking_the_built_in_lecture(capsys):
+    assert main(["lecture", "--check"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("Images, rays and cameras: ") and "exercises" in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('"spheres"', '"sphere"', ":7: steps[0].scene: 'sphere' is unknown; did you mean"),
+        ("r$", "r", ":5: steps[0].text: a formula does not end"),
+        ('"array"', '"arrey"', ":12: steps[1].options.laboratory.page: 'arrey' is unknown"),
+    ],
+)
+def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    path.write_text(LECTURE.replace(old, new, 1))
+    for more in ([], ["--check"], ["--export", str(tmp_path / "out")]):
+        assert main(["lecture", str(path), *more]) == 2
+        said = capsys.readouterr().err
+        assert said.startswith(f"lucida: {path}{told}"), said
+        assert said.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_formula_that_cannot_be_set_is_told_by_checking(tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    exercise = """[steps.exercise]
+kind = "choice"
+question = "Which?"
+options = [
+    { text = "$v$", feedback = "yes", right = true },
+    { text = "$\\\\left( \\\\vau \\\\right)$", feedback = "no" },
+]
+"""
+    path.write_text(LECTURE + exercise)
+    assert main(["lecture", str(path), "--check"]) == (2 if formula.available() else 0)
+    said = capsys.readouterr()
+    if formula.available():
+        told = r":18: steps[1].exercise.options[1].text: \vau is no command that formulas know"
+        assert said.err.startswith(f"lucida: {path}{told}") and said.err.count("\n") == 1
+    else:
+        assert "formulas not checked" in said.out
+
+
+def test_checking_and_exporting_exclude_each_other(tmp_path, capsys):
+    assert main(["lecture", "--check", "--export", str(tmp_path / "out")]) == 2
+    assert "not allowed with" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_answers_in_the_place_of_a_scene(tmp_path, capsys):
+    path = tmp_path / "answers.jsonl"
+    path.write_text('{"lucida": "answer"}\n')
+    assert main([str(path)]) == 2
+    said = capsys.readouterr().err
+    problem = "holds a class's answers, not a scene"
+    assert said == f"lucida: {path}: {problem}; lucida lecture --results {path} -o class.html\n"
+
+
+@pytest.mark.parametrize("text", [LECTURE, LECTURE.replace('"spheres"', '"spheres')])
+def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
+    path = tmp_path / "x.toml"
+    path.write_text(text)
+    for command in ([], ["render", "-o", str(tmp_path / "x.png")], ["compare"]):
+        assert main([*command, str(path)]) == 2
+        said = capsys.readouterr().err
+        assert said == f"lucida: {path}: is a lecture, not a scene; lucida lecture {path}\n"
+
+
+def test_a_missing_model_is_told_with_the_folder_where_it_was_looked_for(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "notes").mkdir()
+    model = '[scenes.a]\n[[scenes.a.objects]]\ntype = "model"\nfile = "mesh/bunny.obj"\n'
+    text = LECTURE.replace('"spheres"', '"a"') + model
+    (tmp_path / "notes" / "x.toml").write_text(text)
+    assert main(["lecture", "notes/x.toml", "--check"]) == 2
+    folder = tmp_path / "notes" / "mesh"
+    assert f"bunny.obj: does not exist in {folder}; " in capsys.readouterr().err
+
+
+def test_every_step_is_exported_without_a_display(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(LECTURE)
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    environment |= {"XDG_CONFIG_HOME": str(tmp_path / "config"), "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "lucida",
+            "lecture",
+            "x.toml",
+            "--export",
+            "out",
+            "--size",
+            "900x600",
+        ],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert done.stdout == "out: 2 pictures, 900x600\n"
+    pictures = [np.asarray(Image.open(tmp_path / "out" / f"{k:02}.png")) for k in (1, 2)]
+    for picture in pictures:
+        assert picture.shape == (600, 900, 3) and picture.std() > 15
+    assert np.abs(pictures[0].astype(int) - pictures[1]).mean() > 5
+
+
+def test_a_folder_that_cannot_be_made(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert main(["lecture", "--export", str(tmp_path / "file")]) == 2
+    assert "file: is a file; give a folder" in capsys.readouterr().err
+
+
+def test_no_name_is_not_this_folder(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["lecture", "--export", ""]) == 2
+    assert capsys.readouterr().err.startswith("lucida: --export: names no folder; give one")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_full_disk_leaves_no_folder(tmp_path):
+    resource = pytest.importorskip("resource")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))
+    try:
+        assert main(["lecture", "--export", str(tmp_path / "out"), "--size", "320x240"]) == 2
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert not (tmp_path / "out").exists()

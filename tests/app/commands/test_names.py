@@ -1,0 +1,110 @@
+"""Names in any script, composed or decomposed, stay what they are in files, output and pages."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+import unicodedata
+from pathlib import Path
+
+import pytest
+
+from lucida.app.checking.results.model import class_results
+from lucida.app.checking.results.page import page as results_page
+from lucida.app.checking.results.reading import read_answers
+from lucida.app.cli import main
+from lucida.app.lecture.reading import load_lecture
+from lucida.app.state.app_state import AppState
+from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from lucida.app.web.lecture.page import page
+from lucida.renderer.files import load_scene, save_scene
+from lucida.renderer.system.atomic import file_stem
+
+NAMES = (
+    "\u8336\u58f6",  # Chinese
+    "\u0625\u0628\u0631\u064a\u0642 \u0634\u0627\u064a",  # Arabic
+    "\u0645\u06cc\u200c\u0634\u0648\u062f",  # Persian, with a joiner
+    unicodedata.normalize("NFC", "\u00e9cole \u1e69"),
+    unicodedata.normalize("NFD", "\u00e9cole \u1e69"),
+)
+OBJECT = '[[objects]]\nname = "{}"\ntype = "sphere"\ncenter = [{}, 0, 0]\nradius = 0.4\n'
+
+
+@pytest.fixture(params=NAMES, ids=["chinese", "arabic", "persian", "composed", "decomposed"])
+def name(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture
+def scene_file(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Write a scene file of that name, whose objects have all names."""
+    monkeypatch.chdir(tmp_path)
+    objects = "".join(OBJECT.format(one, k) for k, one in enumerate(NAMES))
+    Path(f"{name}.toml").write_text(objects, "utf-8")
+    return f"{name}.toml"
+
+
+def test_scene_files_sessions_and_undo(scene_file: str, name: str) -> None:
+    state = AppState.for_scene(load_scene(scene_file))
+    session = from_bytes(to_bytes(session_of(state, Arrangement())))
+    save_scene("copy.toml", load_scene(session.source))
+    assert session.source.endswith(scene_file) and load_scene(scene_file).name == name
+    assert tuple(one.name for one in load_scene("copy.toml").objects) == NAMES
+
+
+def test_commands_and_files(scene_file: str, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    frame = {
+        "file_path": f"{name}.png",
+        "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4], [0, 0, 0, 1]],
+    }
+    Path("poses.json").write_text(json.dumps({"camera_angle_x": 0.7, "frames": [frame]}), "utf-8")
+    for command in (
+        ["scene", scene_file],
+        ["page", scene_file, "-o", f"{name}.html"],
+        ["export", scene_file, "-o", f"{name}.glb"],
+        ["render", scene_file, "-o", name, "--all", "--view", "poses.json", "--size", "8x8"],
+        ["scene", f"{name}.glb"],
+        ["camera", "poses.json#0"],
+    ):
+        assert main(command) == 0
+        said = capsys.readouterr().out
+        assert name in said
+        if command[0] == "scene":
+            assert all(one in said for one in NAMES)
+    text = Path(f"{name}.html").read_text("utf-8")
+    data = re.search(r'id="lucida-data"[^>]*>(.*?)</script>', text, re.DOTALL)
+    assert data is not None and tuple(json.loads(data[1])["scene"]["names"]) == NAMES
+    assert f"<title>{name}: Lucida</title>" in text
+    assert file_stem(name) == name.replace("\u200c", "-")
+    assert [path.name for path in Path(name).iterdir() if path.suffix == ".png"] == [
+        f"{file_stem(name)}.png"
+    ]
+
+
+def test_lectures_pages_and_results(name: str, tmp_path: Path) -> None:
+    lecture = tmp_path / f"{name}.toml"
+    text = f'lucida = 1\ntitle = "{name}"\n[[steps]]\ntitle = "{name}"\ntext = "{name}"\n'
+    lecture.write_text(text, "utf-8")
+    html = page(load_lecture(lecture), [()], True)
+    assert html.count(name) >= 3
+    answers = tmp_path / f"{name}.jsonl"
+    line = {
+        "lucida": "answer", "time": "2026-01-01T00:00:00Z", "sitting": "a", "step": name,
+        "right": False, "lecture": name, "answer": name, "reply": name, "name": name,
+    }  # fmt: skip
+    answers.write_text(json.dumps(line, ensure_ascii=False), "utf-8")
+    found, problems = read_answers([answers])
+    assert not problems
+    assert name in results_page(class_results(found, [name], problems))
+
+
+def test_a_terminal_without_unicode(scene_file: str) -> None:
+    environment = os.environ | {"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    command = [sys.executable, "-m", "lucida", "scene", scene_file]
+    root = Path(__file__).parents[3]
+    environment["PYTHONPATH"] = str(root)
+    done = subprocess.run(command, env=environment, capture_output=True, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stderr

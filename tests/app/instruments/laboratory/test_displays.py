@@ -1,0 +1,60 @@
+"""Displays in time: what shines when; the mean over a cycle is the pixel's linear colour."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lucida.app.instruments.laboratory.displays import COLORS, DISPLAYS, FADING, MARKED, course
+
+MOMENTS = 3000
+TUBE, DLP, LCD, LED = DISPLAYS
+
+
+@pytest.fixture
+def color() -> np.ndarray:
+    """5 x 7 pixels, black and white among them."""
+    part = np.random.default_rng(3).uniform(0, 1, (5, 7, 3)).astype(np.float32)
+    part[0, 0], part[4, 6], part[2, 3] = 0, 1, (1, 0, 0.5)
+    return part
+
+
+def cycle(kind, color: np.ndarray, moments: int = MOMENTS) -> np.ndarray:
+    phases = (np.arange(moments) + 0.5) / moments
+    return np.array([kind.light(color, float(phase)) for phase in phases])
+
+
+@pytest.mark.parametrize("kind", DISPLAYS, ids=lambda kind: kind.title)
+def test_the_mean_over_a_cycle_is_the_share_of_white_that_the_color_is(kind, color):
+    light, white = cycle(kind, color), cycle(kind, np.ones_like(color))
+    share = light.mean(axis=0) / white.mean(axis=0)
+    np.testing.assert_allclose(share, color, atol=4 / MOMENTS / white.mean())
+    assert light.min() >= 0 and light.max() <= 1
+    assert not light[:, 0, 0].any()  # black stays dark
+
+
+@pytest.mark.parametrize("kind", DISPLAYS, ids=lambda kind: kind.title)
+def test_the_chart_of_the_gray_pixel_has_as_much_of_each_color(kind):
+    assert len({*COLORS[MARKED].tolist()}) == 1 and 0 < COLORS[MARKED][0] < 1
+    red, green, blue = course(kind).mean(axis=0).tolist()
+    assert red == pytest.approx(green) == pytest.approx(blue) and red > 0
+
+
+def test_each_makes_gray_in_its_own_way(color):
+    light = [cycle(kind, color, 300) for kind in (LED, DLP, LCD)]
+    assert set(np.unique(light[0])) == set(np.unique(light[1])) == {0, 1}  # on, or off
+    assert (light[1].max(axis=(1, 2)) > 0).sum(axis=1).max() == 1  # one colour at a time
+    np.testing.assert_array_equal(light[2], np.broadcast_to(color, light[2].shape))
+    np.testing.assert_array_equal(DLP.light(color, 0.1)[..., 0], color[..., 0] > 0.3)
+
+
+def test_a_tube_is_scanned_line_by_line_and_fades():
+    white = np.ones((4, 6, 3), np.float32)
+    for number in range(24):
+        light = TUBE.light(white, number / 24)[..., 0]
+        assert light[number // 6, number % 6] == pytest.approx(1) and (light > 0.999).sum() == 1
+        # The one before is dimmer, the one that comes next is the dimmest.
+        order = np.roll(light.ravel(), -number)  # from the present one on, in the beam's order
+        assert (np.diff(order[1:]) > 0).all()
+    later = TUBE.light(white, 0.25)[0, 0] / TUBE.light(white, 0.15)[0, 0]
+    np.testing.assert_allclose(later, np.exp(-0.1 / FADING), rtol=1e-5)

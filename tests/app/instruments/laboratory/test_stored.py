@@ -1,0 +1,73 @@
+"""Images as files and numbers keep them, against arithmetic by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lucida.app.instruments.laboratory import kinds
+from lucida.app.instruments.laboratory.stored import shown, store
+from lucida.app.lecture.reading import BUILTIN, load_lecture
+from lucida.renderer.images import to_srgb8
+from lucida.renderer.images.display import from_srgb
+from lucida.renderer.trace import Tracer
+
+
+class TestStorage:
+    def test_gray_is_the_luminance_encoded(self, color):
+        y = 0.2126 * color[..., 0] + 0.7152 * color[..., 1] + 0.0722 * color[..., 2]
+        gray = store(color, kinds.GRAY).array.astype(int)
+        assert abs(gray - to_srgb8(y).astype(int)).max() <= 1
+        assert gray[0, 0] < gray[0, -1] and gray[-1, 0] < gray[0, 0]  # green, red, blue
+
+    @pytest.mark.parametrize("kind", kinds.KINDS, ids=lambda kind: kind.title)
+    def test_what_is_stored_has_the_kinds_bits(self, color, kind):
+        stored = store(color, kind)
+        bits = 1 if stored.array.dtype == bool else 8 * stored.array.dtype.itemsize
+        assert bits * stored.array.size == kind.bits * 37 * 23
+
+    def test_bits_of_a_picture_that_was_exposed(self):
+        """At two stops, what has a quarter of the threshold's light is white."""
+        light = float(from_srgb(np.uint8(128))) * np.array([[[0.26] * 3, [0.24] * 3]])
+        assert store(light, kinds.BITMAP, 2.0).array.tolist() == [[True, False]]
+        assert store(4 * light, kinds.BITMAP).array.tolist() == [[True, False]]
+        half = to_srgb8(0.5)
+        assert shown(store(4 * light, kinds.BITMAP), -1.0).tolist() == [[[half] * 3, [0] * 3]]
+        assert shown(store(4 * light, kinds.BITMAP)).tolist() == [[[255] * 3, [0] * 3]]
+
+
+class TestExposureAfterStorage:
+    def test_float_keeps_what_8_bits_lose(self, color):
+        bytes_kept = store(color, kinds.COLOR)
+        float_kept = store(color, kinds.FLOAT)
+        np.testing.assert_array_equal(shown(bytes_kept), shown(float_kept))
+        np.testing.assert_array_equal(shown(float_kept, -2.0), to_srgb8(color, -2.0))
+        # What was clipped stays one value: 1 darkened by two stops.
+        lost = (color > 1).all(axis=2)
+        assert lost.any() and not lost.all()
+        assert (shown(bytes_kept, -2.0)[lost] == to_srgb8(0.25)).all()
+
+    def test_8_bits_band_when_they_are_brightened(self):
+        ramp = np.repeat(np.linspace(0, 0.02, 4096, dtype=np.float32)[None, :, None], 3, axis=2)
+        kept = [shown(store(ramp, kind), 5.0) for kind in (kinds.COLOR, kinds.FLOAT)]
+        of_bytes, of_float = (len(np.unique(picture)) for picture in kept)
+        assert of_bytes <= 40  # 0.02 is 39 of 255
+        assert of_float > 150
+
+
+def test_the_lecture_s_bright_scene_is_clipped_in_part_and_its_highlight_returns():
+    step = [one for one in load_lecture(BUILTIN).builds if _page(one) == "exposure"][-1]
+    with Tracer(step.scene) as tracer:
+        color = tracer.render(step.view.for_size((60, 60)), (60, 60)).color[..., :3]
+    after_ev = step.changes["laboratory"]["after_ev"]
+    lost = (color > 1).all(axis=2)
+    assert 0.01 < lost.mean() < 0.3
+    kept = [shown(store(color, kind), after_ev) for kind in (kinds.COLOR, kinds.FLOAT)]
+    flat, bright = (picture[lost] for picture in kept)
+    assert flat.max() == to_srgb8(2.0**after_ev)  # white, darkened
+    assert len(np.unique(bright)) > 20 and bright.max() > flat.max() + 50
+    assert (to_srgb8(color, after_ev) == 255).mean() < 0.001  # no longer clipped
+
+
+def _page(step) -> str | None:
+    return step.changes.get("laboratory", {}).get("page")

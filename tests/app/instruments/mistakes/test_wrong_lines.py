@@ -1,0 +1,166 @@
+"""The laboratory's lines and pictures, without a window."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from option_changes import with_options
+
+from lucida.app.checking.mistakes.rays import RayTask, ray_program
+from lucida.app.checking.reports.picture import MARK, changed_pixels, difference_picture
+from lucida.app.images.ray_pictures import RayPainter
+from lucida.app.instruments.mistakes import model
+from lucida.app.instruments.mistakes.model import Situation
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.picture_grid import columns_for
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.files import load_scene
+from lucida.renderer.images import to_srgb8
+from lucida.renderer.trace import Tracer
+
+SIZE = (80, 60)
+STATE = AppState.for_scene(load_scene("still-life"))
+PARALLEL = STATE.with_camera(
+    replace(STATE.camera, projection="parallel", viewport=(-2.0, 2.0, -1.5, 1.5))
+)
+PROGRAMS = [
+    ray_program(RayTask(projection, indexing))
+    for projection in ("perspective", "parallel")
+    for indexing in Indexing
+]
+
+
+@pytest.fixture(scope="module")
+def painter():
+    with Tracer(STATE.scene) as tracer:
+        yield RayPainter(STATE.scene, tracer, lambda: True)
+
+
+def situation(state: AppState = STATE, columns: int = 64) -> Situation:
+    return model.situation_of(with_options(state, mistakes={"columns": columns}), SIZE)
+
+
+@pytest.mark.parametrize("state", [STATE, PARALLEL])
+def test_the_right_lines_make_the_ray_image(painter, state) -> None:
+    now = situation(state)
+    both = model.compared(painter, now, ())
+    image = painter.tracer.render(now.camera, now.size, ("color",)).channel("color")
+    looks = [to_srgb8(light, 0.0) for light in (both.right, image)]
+    assert changed_pixels(*looks).mean() < 0.01
+    assert both.wrong is both.right and both.ray is None
+
+
+def test_a_wrong_line_makes_another_picture(painter) -> None:
+    now = situation()
+    mistakes = model.named(now.program, ("rows count upwards",))
+    both = model.compared(painter, now, mistakes)
+    right, wrong = (to_srgb8(light, 0.0) for light in (both.right, both.wrong))
+    assert changed_pixels(right, wrong[::-1]).mean() < 0.02  # upside down
+    changed = changed_pixels(right, wrong)
+    assert changed.mean() > 0.5
+    picture = difference_picture(right, changed)
+    assert (picture[changed] == MARK).all()
+    gray = picture[~changed]
+    assert (gray == gray[:, :1]).all() and (gray <= right[~changed].max(axis=1)[:, None]).all()
+    assert model.told_difference(changed).endswith("% of the pixels")
+
+
+def test_the_corners_and_the_marked_pixel_s_ray_are_the_wrong_camera_s(painter) -> None:
+    now = situation(with_options(STATE, marked=(30, 40)))
+    assert now.pixel is not None
+    mistakes = model.named(now.program, ("no eye", "along +w"))
+    assert len(mistakes) == 2
+    both = model.compared(painter, now, mistakes)
+    origins, directions = model.rays_of(now, mistakes)
+    assert (both.corners[0] == 0).all() and (origins == 0).all()
+    assert np.array_equal(both.corners[1][2], directions[-1, -1])
+    assert both.ray is not None and np.array_equal(both.ray.direction, directions[now.pixel])
+
+
+def test_differences_are_told() -> None:
+    changed = np.zeros((10, 100), bool)
+    assert "nowhere" in model.told_difference(changed)
+    changed[0, :7] = True
+    assert model.told_difference(changed) == "7 pixels of 1000"
+    changed[:5] = True
+    assert model.told_difference(changed) == "50 % of the pixels"
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
+    for mistake in program.mistakes:
+        chosen = model.switched(program, (), mistake.name)
+        assert chosen == (mistake.name,) and model.switched(program, chosen, mistake.name) == ()
+        for other in program.mistakes:
+            both = model.switched(program, chosen, other.name)
+            if other is mistake:
+                continue
+            together = program.can_combine(mistake, other)
+            assert together or mistake.keys & other.keys
+            assert both == ((mistake.name, other.name) if together else (other.name,))
+            assert [one.name for one in model.named(program, both)] == list(both)
+    (once,) = model.named(program, ("nothing", "rows count upwards", "rows count upwards"))
+    assert once.name == "rows count upwards"
+    first, second = model.named(program, ("columns count leftwards", "rows count upwards"))
+    assert model.without_line(program, (first.name, second.name), "x") == (second.name,)
+    third = next(one for one in program.mistakes if not one.keys & {"x", "y"})
+    names = model.switched(program, (first.name, second.name), third.name)
+    assert names == (second.name, third.name)  # the last one stays
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_lines_are_folded_without_loss(program) -> None:
+    for mistake in program.mistakes:
+        for _, code in mistake.lines:
+            rows = model.folded(code, 30)
+            assert all(len(row) <= 30 for row in rows)
+            assert " ".join(" ".join(rows).split()) == " ".join(code.split())
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_the_mistakes_of_a_line_the_common_ones_first(program) -> None:
+    for line in program.lines:
+        found = model.of_line(program, line.key)
+        assert set(found) == {one for one in program.mistakes if line.key in one.keys}
+        order = [one.is_common for one in found]
+        assert order[0] and order == sorted(order, reverse=True)
+
+
+def test_sizes_and_pixels_of_pictures() -> None:
+    """As coarse as the images if those are coarser, and not higher than the thread can do."""
+    for resolution, images, size in (
+        (None, (800, 600), (160, 120)),
+        (None, (0, 0), (160, 120)),
+        (None, (10, 4000), (160, 320)),
+        ((8, 8), (8, 8), (8, 8)),
+        ((1920, 1080), (1920, 1080), (160, 90)),
+    ):
+        state = with_options(STATE, images={"resolution": resolution})
+        assert model.picture_size(state, images) == size
+    for pixel, old, new, scaled in (
+        ((0, 0), (800, 600), (80, 60), (0, 0)),
+        ((599, 799), (800, 600), (80, 60), (59, 79)),
+        ((5, 7), (80, 60), (800, 600), (55, 75)),
+    ):
+        assert model.scaled_pixel(pixel, old, new) == scaled
+
+
+def test_a_mark_beside_the_images_marks_nothing() -> None:
+    """It is of a larger image, or of a layout with others."""
+    for marked, pixel in (((59, 79), (47, 63)), ((60, 79), None), ((59, 80), None)):
+        assert situation(with_options(STATE, marked=marked)).pixel == pixel
+
+
+def test_unknown_names_are_told() -> None:
+    names = tuple(mistake.name for program in PROGRAMS for mistake in program.mistakes)
+    assert model.unknown((*names, "no such thing")) == ("no such thing",)
+
+
+def test_pictures_stand_as_large_as_they_can() -> None:
+    assert columns_for(3, 4 / 3, (900, 200), 20, 10) == (3, pytest.approx(240))
+    assert columns_for(3, 4 / 3, (300, 900), 20, 10)[0] == 1
+    columns, width = columns_for(5, 1.0, (630, 430), 20, 10)
+    assert (columns, width) == (3, pytest.approx(190))
+    assert columns_for(2, 1.0, (10, 10), 20, 10)[1] == 0  # no room: nothing, and no error

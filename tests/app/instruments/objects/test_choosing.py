@@ -1,0 +1,98 @@
+"""The selection: by clicks, in the list, from one to the next."""
+
+from __future__ import annotations
+
+import pytest
+from option_changes import with_options
+from scenes import crowd
+
+from lucida.app.instruments.objects.choosing import (
+    choose,
+    choose_also,
+    chosen,
+    everything,
+    item_at,
+    picked,
+    rows_of,
+    walked,
+)
+from lucida.app.instruments.objects.editing import with_scene
+from lucida.app.state.app_state import AppState, History
+from lucida.renderer.editing import objects
+from lucida.renderer.editing.changing import set_field
+from lucida.renderer.files import load_scene
+from lucida.renderer.scene.model import Mesh
+
+
+@pytest.fixture
+def state() -> AppState:
+    return AppState.for_scene(load_scene("still-life"))
+
+
+def items_of(state: AppState) -> list[int]:
+    return [row.item for row in rows_of(state.scene) if row.item is not None]
+
+
+def test_a_click_chooses_what_is_under_it_and_nothing_else(state):
+    row = rows_of(state.scene)[1]
+    one = picked(state, row.ids[0], more=False)
+    assert chosen(one) == (row.item,)
+    other = picked(one, rows_of(state.scene)[0].ids[0], more=False)
+    assert chosen(other) == (rows_of(state.scene)[0].item,)
+
+
+def test_a_click_on_the_background_chooses_nothing_unless_it_adds(state):
+    one = picked(state, 0, more=False)
+    assert chosen(picked(one, None, more=False)) == ()
+    assert picked(one, None, more=True) is one
+
+
+def test_shift_adds_and_takes_away(state):
+    first, second = items_of(state)[:2]
+    both = choose_also(choose(state, (first,)), second)
+    assert chosen(both) == (first, second)
+    assert chosen(choose_also(both, first)) == (second,)
+
+
+def test_what_is_locked_is_as_background(state):
+    row = rows_of(state.scene)[0]
+    locked = with_scene(state, set_field(state.scene, [row.item], "locked", True))
+    assert item_at(locked.scene, row.ids[0]) is None
+    assert chosen(picked(locked, row.ids[0], more=False)) == ()
+
+
+def test_walking_goes_round_in_the_order_of_the_list_both_ways(state):
+    items, seen = items_of(state), []
+    assert chosen(state) == ()
+    assert chosen(walked(state, -1)) == (items[-1],)
+    for _ in range(len(items) + 1):
+        state = walked(state, 1)
+        seen += chosen(state)
+    assert seen == [*items, items[0]]
+    assert chosen(walked(state, -1)) == (items[-1],)
+
+
+def test_walking_and_choosing_all_pass_over_hidden_and_locked(state):
+    items = items_of(state)
+    scene = objects.hide(state.scene, [items[0]], True)
+    state = with_scene(state, set_field(scene, [items[1]], "locked", True))
+    assert chosen(walked(state, 1)) == (items[2],)
+    assert chosen(everything(state)) == tuple(items[2:])
+
+
+def test_what_is_deleted_is_no_longer_chosen_and_is_again_after_undo(state):
+    items = items_of(state)
+    both = choose(state, items[:2])
+    history = History(both).change(with_scene(both, objects.delete(both.scene, [items[0]])))
+    assert chosen(history.present) == (items[1],)
+    assert chosen(history.undo().present) == tuple(items[:2])
+
+
+def test_a_scene_made_in_python_has_nothing_to_choose():
+    scene = crowd()
+    assert any(isinstance(entry.shape, Mesh) for entry in scene.objects)
+    state = with_options(AppState.for_scene(scene), objects={"chosen": (0, 1)})
+    assert chosen(state) == ()
+    assert item_at(scene, 0) is None
+    assert chosen(walked(state, 1)) == ()
+    assert [row.item for row in rows_of(scene)] == [None] * len(rows_of(scene))

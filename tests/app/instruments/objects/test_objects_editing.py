@@ -1,0 +1,109 @@
+"""Edits of a scene: each takes a state and returns another."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from lucida.app.instruments.objects import editing
+from lucida.app.instruments.objects.choosing import choose, chosen, rows_of, unlocked
+from lucida.app.state.app_state import AppState
+from lucida.renderer.editing import objects
+from lucida.renderer.editing.changing import set_field
+from lucida.renderer.editing.moving import bounds_of
+from lucida.renderer.files import SCENE_NAMES, load_scene
+from lucida.renderer.scene.focus import object_corners, scene_focus
+from lucida.renderer.scene.model import Scene
+
+
+@pytest.fixture
+def state() -> AppState:
+    return AppState.for_scene(load_scene("still-life"))
+
+
+def items_of(state: AppState) -> list[int]:
+    return [row.item for row in rows_of(state.scene) if row.item is not None]
+
+
+@pytest.mark.parametrize("kind", [*objects.SHAPES, *objects.LIGHTS])
+def test_what_is_added_is_chosen(state, kind):
+    focus = scene_focus(state.scene)
+    after = editing.added(state, kind, focus)
+    (item,) = chosen(after)
+    (row,) = (row for row in rows_of(after.scene) if row.item == item)
+    assert row.kind == kind
+    assert len(rows_of(after.scene)) == len(rows_of(state.scene)) + 1
+    assert after.view == state.view
+
+
+@pytest.mark.parametrize("name", SCENE_NAMES)
+@pytest.mark.parametrize("kind", ["sphere", "box", "point"])
+def test_what_is_added_is_in_the_picture_and_in_no_other_object(name, kind):
+    """As large as they allow: the scene is not swallowed, nothing is out of the picture."""
+    state = AppState.for_scene(load_scene(name))
+    focus = scene_focus(state.scene)
+    after = editing.added(state, kind, focus)
+    low, high = bounds_of(after.scene, chosen(after))
+    corners = np.array(list(product(*zip(low, high, strict=True))))
+    seen = after.camera.project(corners, (1, 1))
+    assert (seen.parameter > 0).all()
+    assert (np.abs([seen.row, seen.column]) < 0.5).all(), (seen.row, seen.column)
+    for _, entry in state.scene.visible:
+        others = object_corners(entry)
+        apart = (others.min(axis=0) >= high) | (others.max(axis=0) <= low)
+        assert apart.any() or kind == "box"  # a box's corners reach beyond its ball
+    if focus.framed.size and kind != "point":
+        assert 0.02 < np.ptp(corners, axis=0).max() / np.ptp(focus.framed, axis=0).max() < 0.5
+
+
+def test_an_object_can_be_added_to_an_empty_scene():
+    state = AppState.for_scene(Scene(objects=()))
+    after = editing.added(state, "sphere", scene_focus(state.scene))
+    assert len(after.scene.objects) == 1
+
+
+def test_what_is_locked_is_not_deleted(state):
+    first, second = items_of(state)[:2]
+    scene = set_field(state.scene, [first], "locked", True)
+    state = choose(editing.with_scene(state, scene), (first, second))
+    assert unlocked(state) == (second,)
+    after = editing.deleted(state)
+    assert first in items_of(after)
+    assert second not in items_of(after)
+    only = choose(state, (first,))
+    assert editing.deleted(only) is only
+
+
+def test_deleting_nothing_and_duplicating_nothing_are_no_steps(state):
+    assert editing.deleted(state) is state
+    assert editing.duplicated(state, scene_focus(state.scene)) is state
+
+
+def test_copies_stand_beside_and_are_chosen(state):
+    item = items_of(state)[0]
+    after = editing.duplicated(choose(state, (item,)), scene_focus(state.scene))
+    (copy,) = chosen(after)
+    assert copy != item
+    by = (bounds_of(after.scene, [copy]) - bounds_of(after.scene, [item]))[0]
+    assert by[0] > 0
+    assert np.allclose(by[1:], 0)
+
+
+def test_the_search_finds_names_and_kinds_in_any_order(state):
+    rows = rows_of(state.scene)
+    assert editing.found_in(rows, "") == list(rows)
+    for row in rows:
+        words = f"{row.kind.upper()} {row.shown}"
+        assert row in editing.found_in(rows, words)
+        assert row in editing.found_in(rows, " ".join(reversed(words.split())))
+    assert editing.found_in(rows, "no such thing") == []
+
+
+def test_a_range_of_rows_ends_where_the_click_was(state):
+    rows, items = rows_of(state.scene), items_of(state)
+    assert editing.reached(rows, items[1], items[3]) == tuple(items[1:4])
+    assert editing.reached(rows, items[3], items[1]) == tuple(reversed(items[1:4]))
+    assert editing.reached(rows, None, items[2]) == (items[2],)
+    assert editing.reached(rows, items[2], items[2]) == (items[2],)

@@ -1,0 +1,177 @@
+"""Outlines against the definition: what separates what is seen of a surface from what is not."""
+
+from __future__ import annotations
+
+import weakref
+from collections import defaultdict
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lucida.app.instruments.objects import silhouette
+from lucida.app.instruments.objects.silhouette import edges_of, outline_of, outlines_of
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.model import Material, Mesh, SceneObject, Sphere
+from lucida.renderer.scene.shapes import box
+
+CAMERAS = (
+    Camera.look_at((3, 2, 5), (0.1, 0, 0.2), fov_y_deg=40),
+    Camera.look_at((-4, 1.5, 0.7), (0, 0, 0), projection="parallel"),
+)
+
+
+def sheet(rng: np.random.Generator, turned: float, shared: bool = True) -> Mesh:
+    """A bumpy grid of triangles. turned: the part of them that is wound the other way. shared:
+    whether neighbours share vertices, else only places."""
+    count = 9
+    x, z = np.meshgrid(np.linspace(-1, 1, count), np.linspace(-1, 1, count))
+    y = rng.normal(scale=0.3, size=x.shape)
+    places = np.stack([x, y, z], axis=-1).reshape(-1, 3).astype(np.float32)
+    at = np.arange(count * count).reshape(count, count)
+    a, b, c, d = at[:-1, :-1], at[:-1, 1:], at[1:, :-1], at[1:, 1:]
+    faces = np.concatenate(
+        [np.stack([a, b, c], -1).reshape(-1, 3), np.stack([b, d, c], -1).reshape(-1, 3)]
+    )
+    return wound(rng, places, faces, turned, shared)
+
+
+def fins(rng: np.random.Generator, turned: float) -> Mesh:
+    """Edges of one to five triangles each: nothing that has an inside."""
+    places, faces = [], []
+    for k in range(8):
+        start = len(places)
+        base = rng.uniform(-1, 1, 3)
+        places += [base, base + rng.normal(scale=0.5, size=3)]
+        for _ in range(1 + k % 5):
+            places.append(base + rng.normal(scale=0.7, size=3))
+            faces.append([start, start + 1, len(places) - 1])
+    return wound(rng, np.array(places, np.float32), np.array(faces), turned, True)
+
+
+def wound(
+    rng: np.random.Generator, places: np.ndarray, faces: np.ndarray, turned: float, shared: bool
+) -> Mesh:
+    back = rng.uniform(size=len(faces)) < turned
+    faces = np.where(back[:, None], faces[:, ::-1], faces)
+    if not shared:
+        places, faces = places[faces.ravel()], np.arange(faces.size).reshape(-1, 3)
+    transform = np.eye(4)
+    transform[:3, :3] = np.linalg.qr(rng.normal(size=(3, 3)))[0] * (1.0, 2.0, 0.5)
+    transform[:3, 3] = (0.2, -0.1, 0.3)
+    return Mesh(places, faces.astype(np.int32), transform=transform)
+
+
+def by_definition(mesh: Mesh, camera: Camera) -> tuple[dict, set, set]:
+    """Asked of each edge by itself, in the world: its triangles' third corners lie on sides of the
+    plane through the edge and the eye. Gives these by edges; the borders; and where all are on the
+    same side, which is a silhouette however the triangles are wound."""
+    world = mesh.vertices.astype(float) @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+    sides = defaultdict(list)
+    for face in mesh.faces:
+        for k in range(3):
+            ends = [tuple(mesh.vertices[face[(k + n) % 3]].tolist()) for n in range(3)]
+            start, end, third = (world[face[(k + n) % 3]] for n in range(3))
+            way = camera.w if camera.is_parallel else np.asarray(camera.eye) - start
+            if ends[0] > ends[1]:
+                start, end = end, start
+            normal = np.cross(end - start, way)
+            sides[tuple(sorted(ends[:2]))].append(bool(normal @ (third - start) > 0))
+    borders = {edge for edge, found in sides.items() if len(found) == 1}
+    turning = {edge for edge, found in sides.items() if len(set(found)) == 1}
+    return sides, borders, turning
+
+
+def drawn(mesh: Mesh, camera: Camera) -> set:
+    segments = outline_of(SceneObject(mesh, Material()), camera)
+    back = np.linalg.inv(mesh.transform)
+    local = segments @ back[:3, :3].T + back[:3, 3]
+    places = {tuple(place) for place in mesh.vertices.tolist()}
+    known = np.array(sorted(places))
+    found = set()
+    for ends in local:
+        near = [known[np.abs(known - end).sum(axis=1).argmin()] for end in ends]
+        assert np.allclose(near, ends, atol=1e-9)
+        found.add(tuple(sorted(tuple(end.tolist()) for end in near)))
+    return found
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
+@pytest.mark.parametrize("turned", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("shared", [True, False], ids=["shared", "apart"])
+def test_a_surface_s_outline_is_by_definition_however_it_is_wound(camera, turned, shared):
+    rng = np.random.default_rng(7)
+    for _ in range(5):
+        mesh = sheet(rng, turned, shared)
+        _, borders, turning = by_definition(mesh, camera)
+        assert turning - borders  # it does fold
+        assert drawn(mesh, camera) == borders | turning
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
+@pytest.mark.parametrize("turned", [0.0, 0.5])
+def test_where_more_than_two_triangles_meet_no_outline_is_missed(camera, turned):
+    rng = np.random.default_rng(11)
+    for _ in range(10):
+        mesh = fins(rng, turned)
+        sides, borders, turning = by_definition(mesh, camera)
+        found = drawn(mesh, camera)
+        assert borders | turning <= found
+        for edge in found - borders:  # where two lie on the same side, one hides the other
+            assert max(sides[edge].count(True), sides[edge].count(False)) >= 2
+
+
+def test_what_is_flat_or_without_area_is_no_trouble():
+    places = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 0, 0]], np.float32)
+    faces = np.array([[0, 1, 2], [0, 1, 3], [0, 4, 3], [1, 1, 1]], np.int32)
+    for camera in CAMERAS:
+        segments = outline_of(SceneObject(Mesh(places, faces), Material()), camera)
+        assert np.isfinite(segments).all()
+        assert len(segments)
+
+
+def test_edges_are_found_once_for_a_mesh_however_it_is_moved():
+    mesh = sheet(np.random.default_rng(1), 0.0)
+    moved = np.eye(4)
+    moved[:3, 3] = (1, 2, 3)
+    assert edges_of(mesh) is edges_of(replace(mesh, transform=moved))
+
+
+def test_they_are_let_go_with_the_mesh():
+    mesh = sheet(np.random.default_rng(2), 0.0)
+    kept = weakref.ref(edges_of(mesh))
+    assert kept() is edges_of(mesh)
+    del mesh
+    assert kept() is None
+
+
+def test_a_large_mesh_has_its_box():
+    mesh = sheet(np.random.default_rng(3), 0.0)
+    segments = outline_of(SceneObject(mesh, Material()), CAMERAS[0], len(mesh.faces) - 1)
+    assert segments.shape == (12, 2, 3)
+    back = np.linalg.inv(mesh.transform)
+    corners = segments.reshape(-1, 3) @ back[:3, :3].T + back[:3, 3]
+    assert np.allclose(corners.min(axis=0), mesh.vertices.min(axis=0))
+    assert np.allclose(corners.max(axis=0), mesh.vertices.max(axis=0))
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
+def test_a_sphere_s_ring_is_where_rays_graze_it(camera):
+    ball = Sphere(center=(0.2, 0.1, -0.3), radius=0.8)
+    segments = outline_of(SceneObject(ball, Material()), camera)
+    points = segments.reshape(-1, 3)
+    normal = points - ball.center
+    assert np.allclose(np.linalg.norm(normal, axis=1), 0.8, atol=1e-6)
+    way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - points
+    assert np.allclose(np.sum(normal * way, axis=1), 0, atol=1e-5)
+
+
+def test_from_inside_a_sphere_there_is_none():
+    ball = Sphere(center=CAMERAS[0].eye, radius=2.0)
+    assert outline_of(SceneObject(ball, Material()), CAMERAS[0]).shape == (0, 2, 3)
+
+
+def test_many_objects_have_their_boxes():
+    entries = [SceneObject(box(), Material())] * (silhouette.MOST_EXACT + 1)
+    assert outlines_of(entries, CAMERAS[0]).shape == (12 * len(entries), 2, 3)
+    assert outlines_of(entries[1:], CAMERAS[0]).shape[0] < 12 * len(entries[1:])

@@ -1,0 +1,214 @@
+"""The outside view as a figure: its lines, its image, and the file, read by an XML parser."""
+
+from __future__ import annotations
+
+import base64
+import io
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from lucida.app.instruments.outside.camera_diagram import Content, diagram
+from lucida.app.instruments.outside.diagram import Item, Label, RayEnd, Segments
+from lucida.app.instruments.outside.figure import (
+    Figure,
+    PlaneImage,
+    dashes,
+    divided,
+    figure_parts,
+    plane_t,
+    with_picture,
+)
+from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
+from lucida.app.instruments.outside.projected import project
+from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
+from lucida.app.instruments.outside.svg import svg
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
+
+SIZE = (320, 240)
+EMPTY = np.full(SIZE[::-1], np.inf, np.float32)
+SPACE = "{http://www.w3.org/2000/svg}"
+CAMERA = Camera(eye=(0.3, -0.2, 2.0), viewport=(-0.8, 0.9, -0.4, 0.6), w=(0.1, 0.0, 1.0))
+LOOKING = Camera.look_at((4.0, 2.5, 6.0), (0.3, 0.0, 0.0), fov_y_deg=40.0, aspect=4 / 3)
+PARALLEL = Camera(
+    LOOKING.eye, LOOKING.u, LOOKING.v, LOOKING.w, 1.0, (-4.0, 4.0, -3.0, 3.0), "parallel"
+)
+SKEWED = Camera(
+    LOOKING.eye, LOOKING.u, (0.2, 1.1, 0.3), LOOKING.w, LOOKING.distance, LOOKING.viewport
+)
+STRAIGHT = Camera.look_at((0, 0, 6), (0, 0, 0), fov_y_deg=40.0, aspect=4 / 3)
+SCENE = Scene(
+    (
+        SceneObject(Sphere((0.3, 0.1, -0.4), 0.9), name="ball"),
+        SceneObject(shapes.box(), name="box & <lid>"),
+    )
+)
+
+
+def drawn(
+    items: list[Item], looking: Camera = LOOKING, t: NDArray[np.float32] = EMPTY, **more: Any
+) -> Figure:
+    """more: of the figure."""
+    plane = more.pop("plane", None)
+    screen = OutsideScreen(looking, SIZE, 1e-3)
+    parts = figure_parts(project(items, screen), lambda *_: (1.0, 0.5, 0.0), screen, t, plane)
+    return Figure(SIZE, parts, 1.0, **{"ground": (0.1, 0.1, 0.1)} | more)
+
+
+def of_camera(looking: Camera = LOOKING, **more: Any) -> Figure:
+    ray = RayEnd((100, 120), 2.0)
+    content = Content(CAMERA, SIZE, OutsideOptions(grid=False), 4.0, [], ray)
+    return drawn(diagram(content), looking, **more)
+
+
+def parsed(figure: Figure) -> ElementTree.Element:
+    return ElementTree.fromstring(svg(figure, "a < b & c"))
+
+
+def numbers(text: str) -> NDArray[np.float64]:
+    return np.array(re.findall(r"-?\d+(?:\.\d+)?", text), float).reshape(-1, 2)
+
+
+@pytest.mark.parametrize("looking", [LOOKING, PARALLEL, SKEWED])
+def test_a_files_coordinates_are_the_projections(looking: Camera) -> None:
+    root = parsed(of_camera(looking))
+    assert root.get("viewBox") == "0 0 320 240" and root.findtext(f"{SPACE}title") == "a < b & c"
+    lines, labels = root.findall(f"{SPACE}g")
+    assert {"u", "v", "w", "e", "t = 2"} <= {text.text for text in labels}
+    names = {part.get("data-name") for part in lines}
+    assert "image plane" in names
+    (outline,) = [part for part in lines if part.get("data-name") == "image plane"]
+    found = numbers(outline.get("d", ""))
+    rows, columns, _ = looking.project(plane_corners(CAMERA), SIZE)
+    for corner in np.stack([columns + 0.5, rows + 0.5], axis=1):
+        assert np.abs(found - corner).max(axis=1).min() < 2e-3
+    for name in "uvw":  # each letter is next to its arrow's tip
+        rim, text = [part for part in labels if part.text == name]
+        assert rim.get("fill") == "none" and rim.get("x") == text.get("x")
+        tip = np.asarray(CAMERA.eye) + np.asarray(getattr(CAMERA, name))
+        row, column, _ = looking.project(tip, SIZE)
+        at = float(text.get("x", "nan")), float(text.get("y", "nan"))
+        assert math.dist(at, (float(column) + 0.5, float(row) + 0.5)) < 40
+
+
+def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
+    rows, columns = np.mgrid[0 : SIZE[1], 0 : SIZE[0]]
+    ray = STRAIGHT.ray(rows, columns, SIZE)
+    at = ray.origin + ray.direction * (6.0 / STRAIGHT.distance)
+    # A disc in the plane z = 0.
+    t = np.where((at**2).sum(axis=-1) < 1, 6.0 / STRAIGHT.distance, np.inf).astype(np.float32)
+    for z, behind in ((-0.5, True), (0.5, False)):
+        across = Segments("across", "extra", np.array([[[-2.0, 0, z], [2.0, 0, z]]]), hidden=0.5)
+        figure = drawn([across], STRAIGHT, t)
+        assert [line.dashed for line in figure.parts] == ([True, False] if behind else [False])
+        if behind:
+            hidden, visible = figure.parts
+            assert len(hidden.pieces) == 1 and len(visible.pieces) == 2
+            _, columns, _ = STRAIGHT.project(np.array([[-1.0, 0, 0], [1.0, 0, 0]]), SIZE)
+            ends = np.sort(hidden.pieces[0][:, 0])
+            assert np.allclose(ends, columns + 0.5, atol=2.5)  # to the pixels of the depths
+            assert hidden.opacity == 0.5
+            assert svg(figure).count("stroke-dasharray") == 1
+
+
+def test_a_divided_segment_is_the_whole_segment() -> None:
+    t = np.full((10, 40), np.inf, np.float32)
+    t[:, 15:25] = 1.0
+    whole = np.array([[[0.0, 5.0], [40.0, 5.0]]])
+    pieces, behind = divided(whole, np.array([[2.0, 2.0]]), t, True)
+    assert behind.tolist() == [False, True, False]
+    assert np.allclose(pieces[:, :, 0], [[0, 15], [15, 25], [25, 40]])
+    assert divided(whole, np.array([[0.5, 0.5]]), t, True)[1].tolist() == [False]
+
+
+def test_the_image_plane_hides_lines_behind_it_but_not_its_own() -> None:
+    corners = plane_corners(CAMERA)
+    middle, across = corners.mean(axis=0), 0.2 * (corners[1] - corners[0])
+    away = middle - np.asarray(LOOKING.eye)
+    plane = image_plane(CAMERA, LOOKING, SIZE)
+    for shift, on_plane, behind in ((-0.1, False, False), (0.1, False, True), (0, True, False)):
+        center = middle + shift * away
+        ends = np.array([[center - across, center + across]])
+        line = Segments("l", "extra", ends, hidden=0.3, on_plane=on_plane)
+        parts = drawn([line], plane=plane).parts
+        assert [(p.dashed, p.opacity) for p in parts] == [(behind, 0.3 if behind else 1.0)]
+
+
+@pytest.mark.parametrize("looking", [LOOKING, PARALLEL, SKEWED])
+@pytest.mark.parametrize("fine", [1, 2])
+def test_the_picture_is_on_the_image_plane_before_what_is_behind_it(
+    looking: Camera, fine: int
+) -> None:
+    height, width = 12, 16
+    rows, columns = np.mgrid[0:height, 0:width]
+    pixels = np.stack([10 * rows, 10 * columns, 0 * rows], axis=-1).astype(np.uint8)
+    plane = image_plane(CAMERA, looking, SIZE)
+    assert plane is not None
+    picture, is_parallel = PlaneImage(pixels, plane, 1.0), looking.is_parallel
+    image = np.zeros((fine * SIZE[1], fine * SIZE[0], 4), np.uint8)
+    t = plane_t(plane, SIZE, is_parallel, fine)
+    for factor, is_shown in ((1.1, True), (0.9, False)):
+        found = with_picture(image, factor * t, picture, SIZE, is_parallel)
+        assert not image.any()
+        for i, j in ((0, 0), (5, 8), (11, 15), (2, 13)):
+            corners = pixel_corners(CAMERA, (i, j), (width, height))
+            row, column, _ = looking.project(corners.mean(axis=0), SIZE)
+            at = found[int(fine * (row + 0.5)), int(fine * (column + 0.5))]
+            light = 1.0 if plane.is_front else 0.55
+            wanted = [*np.round(light * pixels[i, j]), 255] if is_shown else [0, 0, 0, 0]
+            assert at.tolist() == wanted
+
+
+def test_a_file_has_its_ground_and_its_image() -> None:
+    rgba = np.random.default_rng(1).integers(0, 256, (480, 640, 4), np.uint8)
+    root = parsed(of_camera(image=rgba))
+    (ground,), (image,) = root.findall(f"{SPACE}rect"), root.findall(f"{SPACE}image")
+    assert ground.get("fill") == "#1a1a1a"
+    assert (image.get("width"), image.get("height")) == ("320", "240")
+    head, content = (image.get("{http://www.w3.org/1999/xlink}href") or "").split(",")
+    assert head == "data:image/png;base64"
+    with Image.open(io.BytesIO(base64.b64decode(content))) as file:
+        assert np.array_equal(np.asarray(file), rgba)
+    bare = parsed(of_camera(ground=None))
+    assert not bare.findall(f"{SPACE}rect") and not bare.findall(f"{SPACE}image")
+
+
+DEGENERATE = [
+    Camera(eye=(0.3, -0.2, 2.0)),  # looks along the other camera's axis, from its eye
+    Camera.look_at((0.3, 0.1, -0.4), (5.0, 0.0, 0.0)),  # from inside the ball
+    Camera.look_at((0.3, 0.1, 0.9), (0.3, 0.0, 1.2)),  # the plane goes through its eye, almost
+    Camera.look_at((1e8, 1e8, 1e8), (0.0, 0.0, 0.0)),
+    Camera(eye=(0.0, 0.0, 1e-9), distance=1e-6, viewport=(-1e-7, 1e-7, -1e-7, 1e-7)),
+    Camera(eye=(0.0, 0.5, 0.5), viewport=(-1e6, 1e6, -1e6, 1e6), projection="parallel"),
+]
+
+
+@pytest.mark.parametrize("looking", DEGENERATE)
+def test_degenerate_cameras_give_a_file_without_nan(looking: Camera) -> None:
+    figure = of_camera(looking, plane=image_plane(CAMERA, looking, SIZE))
+    text = svg(figure)
+    ElementTree.fromstring(text)
+    assert not re.search(r"\b(nan|inf)", text, re.IGNORECASE)
+    assert not re.search(r"\d[eE][+-]?\d", re.sub(r"#[0-9a-f]{6}", "", text))
+
+
+def test_odd_names_cannot_break_the_file() -> None:
+    label = Label("l", "extra", 'a\x00b <&> "c"\ud800', np.zeros(3))
+    assert 'ab <&> "c"' in [text.text for text in parsed(drawn([label])).iter(f"{SPACE}text")]
+
+
+def test_dashes_have_the_lines_length_in_turn() -> None:
+    line = np.array([[0, 0], [12, 0], [12, 15]], float)
+    found = dashes(line, 1.0)
+    lengths = [np.linalg.norm(np.diff(dash, axis=0), axis=1).sum() for dash in found]
+    assert lengths == [5, 5, 5]
+    assert found[1].tolist() == [[9, 0], [12, 0], [12, 2]]  # around the corner

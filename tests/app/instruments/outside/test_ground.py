@@ -1,0 +1,61 @@
+"""The size of the scene's picture from outside while its camera moves, by a clock that is set."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from lucida.app.images.request import ImageRequest
+from lucida.app.instruments.outside import ground as module
+from lucida.app.instruments.outside.ground import SHIFTS, SLOW_S, Ground
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files import load_scene
+from lucida.renderer.images.coarseness import STILL_S
+
+SIZE = 40, 30
+
+
+class Painter:
+    """Stands for the rasterizer and the overlay; keeps the sizes that it draws."""
+
+    def __init__(self):
+        self.sizes = []
+
+    def draw(self, request, place):
+        self.sizes.append(request.size)
+        return SimpleNamespace()
+
+    def gather(self, *_):
+        return SimpleNamespace()
+
+
+@pytest.fixture
+def draw(monkeypatch):
+    now_s, painter, ground = [10.0], Painter(), Ground()
+    monkeypatch.setattr(module.time, "monotonic", lambda: now_s[0])
+    request = ImageRequest(load_scene("canonical"), Camera.look_at((4, 3, 5), (0, 0, 0)), SIZE)
+
+    def draw(after_s, place):
+        """Return the sizes that are drawn `after_s` later for a camera at a place."""
+        now_s[0] += after_s
+        painter.sizes.clear()
+        camera = replace(request.camera, eye=(place, 3.0, 5.0))
+        ground.picture(replace(request, camera=camera), painter, painter)
+        return list(painter.sizes)
+
+    return draw
+
+
+def test_a_picture_is_as_fine_as_the_view_while_all_are_in_time(draw):
+    assert [draw(SLOW_S / 2, place) for place in range(5)] == 5 * [[SIZE]]
+
+
+def test_from_a_late_picture_on_all_are_half_as_fine_until_the_camera_rests(draw):
+    half = SIZE[0] // 2, SIZE[1] // 2
+    assert draw(0, 0) == [SIZE]
+    assert draw(2 * SLOW_S, 1) == [half]
+    assert draw(SLOW_S / 2, 2) == [half]
+    assert draw(SLOW_S / 2, 2) == []  # nothing has changed
+    assert draw(STILL_S, 2) == len(SHIFTS) * [SIZE]  # with smooth edges
+    assert draw(1.0, 2) == []
+    assert draw(1.0, 3) == [SIZE]  # another motion

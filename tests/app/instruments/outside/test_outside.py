@@ -1,0 +1,168 @@
+"""The outside view's diagram: what of the camera is drawn, its handles, its rays, how motions are
+told. Against the camera's own arithmetic."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from looked_at import SIZE, cameras, looking_cameras, vectors
+
+from lucida.app.images.ray_pictures import RayPainter
+from lucida.app.instruments.outside.camera_diagram import Content, diagram
+from lucida.app.instruments.outside.diagram import RayEnd, Segments
+from lucida.app.instruments.outside.gizmo import (
+    gl_matrices,
+    motion,
+    nearest_rotation,
+    rotation_between,
+    rotation_of,
+)
+from lucida.app.instruments.outside.looking import ray_depths
+from lucida.app.instruments.outside.projected import Text, project
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace import Tracer
+
+
+class TestDiagram:
+    def names(self, camera: Camera, options: OutsideOptions, **more: Any) -> set[str]:
+        return {item.name for item in diagram(Content(camera, SIZE, options, 9.0, **more))}
+
+    def test_each_switch_has_its_lines(self) -> None:
+        camera, none = Camera.canonical(), OutsideOptions(None, False, False, False, False, False)
+        hit = RayEnd((3, 4), 2.5)
+        assert self.names(camera, none, marked=hit) == {"eye"}
+        for field, names in {
+            "volume": {"edges", "side 0", "end"},
+            "image": {"image plane"},
+            "grid": {"grid", "image plane"},
+            "basis": {"u", "v", "w"},
+            "ray": {"ray", "pixel", "hit", "beyond"},
+        }.items():
+            assert names <= self.names(camera, replace(none, **{field: True}), marked=hit), field
+
+    def test_near_and_far_are_drawn_where_they_are_set(self) -> None:
+        camera = replace(Camera.canonical(), near=2.0, far=4.0)
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0))
+        at = {item.name: item for item in items if isinstance(item, Segments)}
+        assert np.allclose(at["near"].segments[..., 2], -2)
+        assert np.allclose(at["far"].segments[..., 2], -4)
+        assert {at["edges"].segments[..., 2].min(), at["edges"].segments[..., 2].max()} == {-4, -2}
+        assert "end" not in at
+
+    def test_a_ray_ends_where_it_hits_and_goes_on_pale(self) -> None:
+        camera = Camera.canonical()
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5)))
+        at = {item.name: item for item in items if isinstance(item, Segments)}
+        ray = camera.ray(10, 20, SIZE)
+        reached = ray.origin + 2.5 * ray.direction
+        assert np.allclose(at["ray"].segments, [[ray.origin, reached]])
+        assert np.allclose(at["beyond"].segments[0, 0], reached)
+        for t in (None, math.inf):
+            names = self.names(camera, OutsideOptions(), marked=RayEnd((10, 20), t))
+            assert "hit" not in names
+            assert "ray" in names
+
+    def test_a_parallel_camera_has_a_box_and_rays_from_its_plane(self) -> None:
+        camera = replace(Camera.canonical(), projection="parallel")
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0, marked=RayEnd((10, 20), 2.5)))
+        at = {item.name: item for item in items if isinstance(item, Segments)}
+        edges = at["edges"].segments
+        assert np.allclose(edges[:, 1] - edges[:, 0], (0, 0, -9))
+        assert np.allclose(at["ray"].segments[0, 0, 2], 0)
+        assert "distance" not in at
+
+    @given(cameras(), cameras(), st.sampled_from([1e-5, 1.0, 1e7]))
+    def test_any_camera_looks_at_any_other(
+        self, camera: Camera, looking: Camera, scale: float
+    ) -> None:
+        try:
+            camera = replace(camera, eye=tuple(scale * np.asarray(camera.eye)))
+        except LucidaError:
+            assume(False)
+        options = OutsideOptions(bundle=(2, 2))
+        hits = [RayEnd((1, 1), 2.0), RayEnd((5, 5), math.inf)]
+        items = diagram(Content(camera, SIZE, options, 5.0, hits, RayEnd((2, 2), 0.5)))
+        for at in (looking, camera):
+            for part in project(items, OutsideScreen(at, SIZE, 1e-4)):
+                if isinstance(part, Text):
+                    assert np.isfinite((*part.at, *part.toward)).all()
+                else:
+                    assert np.isfinite(part.points).all()
+                    assert np.isfinite(part.depth).all()
+
+
+class TestHandles:
+    @given(cameras(), vectors, st.floats(-3, 3))
+    def test_a_turn_is_found_again_from_any_basis(
+        self, camera: Camera, axis: tuple[float, float, float], angle: float
+    ) -> None:
+        assume(np.linalg.norm(axis) > 0.1)
+        x, y, z = np.asarray(axis) / np.linalg.norm(axis)
+        cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        turn = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+        basis = {name: tuple(turn @ getattr(camera, name)) for name in "uvw"}
+        assert np.allclose(rotation_between(camera, replace(camera, **basis)), turn, atol=1e-6)
+
+    @given(cameras())
+    def test_handles_stand_in_a_right_handed_frame(self, camera: Camera) -> None:
+        frame = rotation_of(camera)
+        assert np.allclose(frame.T @ frame, np.eye(3))
+        assert np.linalg.det(frame) > 0
+        assert frame[:, 2] @ camera.w > 0
+
+    def test_a_noisy_rotation_is_mended(self) -> None:
+        noise = 1e-6 * np.random.default_rng(2).standard_normal((3, 3))
+        mended = nearest_rotation(np.eye(3) + noise)
+        assert np.allclose(mended.T @ mended, np.eye(3), atol=1e-14)
+        assert np.allclose(mended, np.eye(3), atol=1e-5)
+
+    def test_there_are_none_where_the_eye_is_not_well_in_front(self) -> None:
+        for camera in looking_cameras():
+            eye = np.asarray(camera.eye)
+            assert gl_matrices(camera, eye - 5 * np.asarray(camera.w), 3.0) is not None
+            assert gl_matrices(camera, eye, 3.0) is None
+            assert gl_matrices(camera, eye + 5 * np.asarray(camera.w), 3.0) is None
+
+
+def test_rays_end_where_the_image_sees_something() -> None:
+    scene = Scene((SceneObject(Sphere((0.0, 0.0, -3.0), 1.0)),))
+    camera, pixels = Camera.canonical(), ((0, 0), (SIZE[1] // 2, SIZE[0] // 2))
+    with Tracer(scene, threads=1) as tracer:
+        found = ray_depths(RayPainter(scene, tracer, lambda: True), camera, SIZE, pixels)
+        depth = tracer.render(camera, SIZE, ("depth",)).channel("depth")
+    assert found == pytest.approx({pixel: float(depth[pixel]) for pixel in pixels})
+    assert math.isinf(found[pixels[0]]) and math.isfinite(found[pixels[1]])
+
+
+def test_a_motion_is_told_in_the_letters_of_the_basis() -> None:
+    camera = Camera.look_at((2.0, 1.5, 5.0), (0.3, 0.0, 1.0))
+    moved = replace(camera, eye=tuple(np.asarray(camera.eye) + 0.604 * np.asarray(camera.v)))
+    assert motion(camera, moved) == "Δv 0.604"
+    both = np.asarray(camera.eye) - 2 * np.asarray(camera.u) + 0.25 * np.asarray(camera.w)
+    assert motion(camera, replace(camera, eye=tuple(both))) == "Δu -2  Δw 0.25"
+    assert motion(camera, camera) == ""
+    # In units of the basis, as the formulas have it: e + v with v twice as long.
+    long = replace(camera, v=tuple(2 * np.asarray(camera.v)))
+    assert motion(long, replace(long, eye=tuple(np.add(long.eye, long.v)))) == "Δv 1"
+
+
+def test_a_turn_is_told_with_its_axis() -> None:
+    camera = Camera(eye=(0.0, 0.0, 5.0))
+    cosine, sine = np.cos(np.radians(30)), np.sin(np.radians(30))
+    about_v = replace(camera, u=(cosine, 0.0, -sine), w=(sine, 0.0, cosine))
+    assert motion(camera, about_v) == "about v: 30.0°"
+    assert motion(about_v, camera) == "about v: -30.0°"
+    about_w = replace(camera, u=(cosine, sine, 0.0), v=(-sine, cosine, 0.0))
+    assert motion(camera, about_w) == "about w: 30.0°"
+    askew = Camera.look_at((0.0, 0.0, 5.0), (5.0, 5.0, 0.0))
+    assert motion(camera, askew).startswith("turned by ")

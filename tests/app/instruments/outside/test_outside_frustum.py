@@ -1,0 +1,128 @@
+"""The camera as a solid thing in the world, and the camera that looks at it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from looked_at import LOOKING, SIZE, cameras, vectors
+
+from lucida.app.instruments.outside.extent import end_parameter, framed, outside_camera
+from lucida.app.instruments.outside.frustum import (
+    MOST_GRID_LINES,
+    bundle_pixels,
+    grid,
+    grid_step,
+    pixel_corners,
+    pixel_seen,
+    plane_corners,
+    plane_parameter,
+    point_at,
+    rectangle,
+)
+from lucida.renderer.camera.camera import Camera
+
+
+class TestSolid:
+    @given(cameras(), st.floats(0.2, 20))
+    def test_the_volumes_corners_are_the_images(self, camera: Camera, t: float) -> None:
+        row, column, parameter = camera.project(rectangle(camera, t), SIZE)
+        assert np.allclose(row, [-0.5, -0.5, 47.5, 47.5], atol=1e-5)
+        assert np.allclose(column, [-0.5, 63.5, 63.5, -0.5], atol=1e-5)
+        assert np.allclose(parameter, t, rtol=1e-7)
+
+    @given(cameras(), st.integers(0, 47), st.integers(0, 63), st.floats(0, 10))
+    def test_points_lie_on_rays(self, camera: Camera, i: int, j: int, t: float) -> None:
+        ray = camera.ray(i, j, SIZE)
+        x, y = camera.image_point(i, j, SIZE)
+        assert np.allclose(point_at(camera, x, y, t), ray.origin + t * ray.direction)
+        middle = pixel_corners(camera, (i, j), SIZE).mean(axis=0)
+        assert np.allclose(middle, ray.origin + plane_parameter(camera) * ray.direction)
+
+    @given(cameras(), st.integers(0, 47), st.integers(0, 63), vectors)
+    def test_a_pixel_is_found_from_anywhere(
+        self, camera: Camera, i: int, j: int, origin: tuple[float, float, float]
+    ) -> None:
+        target = pixel_corners(camera, (i, j), SIZE).mean(axis=0)
+        way = target - np.asarray(origin)
+        corners = plane_corners(camera)
+        normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
+        steep = abs(normal @ way) / (np.linalg.norm(normal) * max(np.linalg.norm(way), 1e-9))
+        assume(steep > 0.05)
+        assert pixel_seen(camera, SIZE, np.asarray(origin), way) == (i, j)
+        assert pixel_seen(camera, SIZE, np.asarray(origin), -way) is None
+        # The plane is met at 1: something that stands before it hides it.
+        assert pixel_seen(camera, SIZE, np.asarray(origin), way, lambda: 0.99) is None
+        assert pixel_seen(camera, SIZE, np.asarray(origin), way, lambda: 1.01) == (i, j)
+
+    def test_no_pixel_beside_the_plane_nor_along_it(self) -> None:
+        camera = Camera.canonical()
+        away = np.array([0.0, 0.0, -1.0])
+        assert pixel_seen(camera, SIZE, np.array([0.51, 0.0, 0.0]), away) is None
+        assert pixel_seen(camera, SIZE, np.array([0.0, 0.0, -1.0]), np.array([1.0, 0, 0])) is None
+
+    @pytest.mark.parametrize(
+        ("size", "step"),
+        [((4, 3), 1), ((32, 32), 1), ((33, 20), 2), ((640, 480), 20), ((4096, 2160), 200)],
+    )
+    def test_the_grid_is_thinned_to_round_steps(self, size: tuple[int, int], step: int) -> None:
+        assert grid_step(size) == step
+        lines = grid(Camera.canonical(), size)
+        columns, rows = math.ceil(size[0] / step) - 1, math.ceil(size[1] / step) - 1
+        assert len(lines) == columns + rows
+        assert max(columns, rows) <= MOST_GRID_LINES
+        if columns:  # a line stands at the left edge of the column `step`
+            _, at, _ = Camera.canonical().project(lines[0], size)
+            assert np.allclose(at, step - 0.5)
+
+    def test_a_bundle_covers_the_image_evenly(self) -> None:
+        assert bundle_pixels((100, 60), (2, 4)).tolist() == [
+            [15, 12], [15, 37], [15, 62], [15, 87], [45, 12], [45, 37], [45, 62], [45, 87],
+        ]  # fmt: skip
+        assert len(bundle_pixels((3, 2), (16, 16))) == 6  # no pixel twice
+        assert len(bundle_pixels((3, 2), (0, 5))) == 0
+
+
+class TestTheCameraThatLooks:
+    @given(
+        st.lists(vectors, min_size=1, max_size=20),
+        cameras(),
+        st.floats(0.3, 3),
+        st.sampled_from([1e-6, 1.0, 1e6]),
+    )
+    def test_sees_all_points(
+        self, points: list[Any], home: Camera, aspect: float, scale: float
+    ) -> None:
+        world = np.array(points) * scale
+        camera = outside_camera(world, home, aspect)
+        row, column, parameter = camera.project(world, (1000, 1000))
+        assert (parameter > 0).all()
+        assert (np.abs(row - 499.5) <= 500.5).all()
+        assert (np.abs(column - 499.5) <= 500.5).all()
+
+    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
+    def test_is_as_near_as_it_can_be(self, projection: str) -> None:
+        points = np.array([[x, y, z] for x in (-1, 1) for y in (-2, 2) for z in (-3, 3)], float)
+        for way in ((1.0, 0, 0), (0, 1.0, 0), (0, 0, -1.0), (0.6, 0, 0.8)):
+            camera = framed(points, np.array(way), 1.5, projection)
+            assert np.allclose(camera.w, way)
+            row, column, _ = camera.project(points, (1000, 1000))
+            extent = max(np.ptp(row), np.ptp(column))
+            assert 850 < extent < 1000
+
+    def test_nothing_to_see_is_no_error(self) -> None:
+        camera = outside_camera(np.full((2, 3), np.nan), LOOKING, 1.0)
+        assert np.isfinite(camera.basis).all()
+
+    def test_the_scene_ends_behind_its_last_point(self) -> None:
+        points = np.array([[0, 0, -3.0], [1, 1, -8.0], [0, 0, 5.0]])
+        assert 8.0 < end_parameter(Camera.canonical(), points) < 8.5
+        parallel = replace(Camera.canonical(), projection="parallel", w=(0, 0, 2.0))
+        assert 4.0 < end_parameter(parallel, points) < 4.3
+        assert end_parameter(Camera.canonical(), np.zeros((0, 3))) > 1
+        assert end_parameter(Camera.canonical(), -points[:2]) > 1

@@ -1,0 +1,113 @@
+"""Another camera in the outside view, given by its rays: any rays draw something, or nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lucida.app.instruments.outside.diagram import Dot, Label, Segments
+from lucida.app.instruments.outside.paint import DARKER, FIXED, role_color
+from lucida.app.instruments.outside.projected import project
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.instruments.outside.second_camera import (
+    GivenRay,
+    SecondCamera,
+    corner_rays,
+    second_camera,
+)
+from lucida.app.ui import contrast, palettes
+from lucida.renderer.camera.camera import Camera
+
+SIZE = (40, 30)
+REACH = 6.0
+CAMERA = Camera.look_at((0.0, 1.0, 4.0), (0.0, 0.0, 0.0), aspect=4 / 3)
+LOOKING = Camera.look_at((6.0, 5.0, 9.0), (0.0, 0.0, 1.0))
+
+
+def second(camera: Camera = CAMERA, **changes) -> SecondCamera:
+    rays = camera.rays(SIZE)
+    origins = np.broadcast_to(rays.origin, (*SIZE[::-1], 3))
+    directions = np.broadcast_to(rays.direction, origins.shape)
+    return replace(SecondCamera(*corner_rays(origins, directions)), **changes)
+
+
+def named(items, name: str):
+    return [item for item in items if item.name == name]
+
+
+def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
+    items = second_camera(second(name="student's", first="pixel (1, 1)"), REACH)
+    (edges,) = named(items, "second edges")
+    assert np.allclose(edges.segments[:, 0], CAMERA.eye)
+    lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
+    assert lengths.mean() == pytest.approx(REACH)
+    ways = edges.segments[:, 1] - edges.segments[:, 0]
+    assert (ways @ np.asarray(CAMERA.w) < 0).all()  # forwards
+    (eye,), (label,) = named(items, "second eye"), named(items, "second name")
+    assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
+    assert isinstance(label, Label) and label.text == "student's"
+    x, y = CAMERA.image_point(SIZE[1] - 1, SIZE[0] - 1, SIZE)
+    last = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
+    assert np.allclose(label.point, last)  # apart from the first pixel's
+    plane = named(items, "second image plane")[0].segments[:, 0]
+    x, y = CAMERA.image_point(0, 0, SIZE)
+    corner = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
+    assert np.allclose(plane[0], corner)
+    dot, text = named(items, "second first pixel")
+    assert np.allclose(dot.point, corner) and text.text == "pixel (1, 1)"
+
+
+def test_corners_are_taken_in_the_order_of_the_image() -> None:
+    rays = np.arange(3 * 4 * 3, dtype=float).reshape(3, 4, 3)
+    origins, directions = corner_rays(rays, -rays)
+    assert np.array_equal(origins, [rays[0, 0], rays[0, 3], rays[2, 3], rays[2, 0]])
+    assert np.array_equal(directions, -origins)
+
+
+def test_a_parallel_camera_has_no_eye_and_its_plane_is_where_its_rays_begin() -> None:
+    given = second(replace(CAMERA, projection="parallel"))
+    items = second_camera(given, REACH)
+    assert not named(items, "second eye")
+    assert np.allclose(named(items, "second image plane")[0].segments[:, 0], given.origins)
+
+
+def test_a_singular_basis_is_drawn_as_it_is() -> None:
+    """All rays in one plane, which no Camera may have."""
+    flat = second()
+    flat.directions[:, 1] = 0.0
+    items = second_camera(flat, REACH)
+    assert named(items, "second edges")
+    drawn = project(items, OutsideScreen(LOOKING, (200, 150)))
+    assert all(np.isfinite(part.points).all() for part in drawn if hasattr(part, "points"))
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 0.0])
+def test_rays_that_are_none_draw_nothing(bad) -> None:
+    directions = np.full((4, 3), bad)
+    ray = GivenRay(np.zeros(3), np.full(3, bad))
+    assert second_camera(second(directions=directions, ray=ray), REACH) == []
+
+
+def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
+    ray = GivenRay(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -2.0]))
+    for t, end, hits in ((1.5, -3.0, 1), (None, -REACH, 0), (np.inf, -REACH, 0)):
+        items = second_camera(second(ray=replace(ray, t=t)), REACH)
+        (way,) = named(items, "second ray")
+        assert isinstance(way, Segments)
+        assert np.allclose(way.segments[0], [(1, 0, 0), (1, 0, end)])
+        assert len(named(items, "second hit")) == hits
+
+
+@pytest.mark.parametrize("ground", [(0.0, 0.0, 0.0), (0.2, 0.2, 0.25), (0.7, 0.8, 0.9), (1, 1, 1)])
+def test_its_colour_is_seen_on_every_ground(ground) -> None:
+    color = role_color("other", ground)
+    assert contrast.contrast((color.x, color.y, color.z), ground) >= contrast.SEEN
+
+
+def test_its_colour_is_seen_on_light_paper() -> None:
+    for color, ground in ((DARKER["other"], palettes.LIGHT), (FIXED["other"], palettes.DARK)):
+        behind = ground.BACKGROUND
+        behind = behind.x, behind.y, behind.z
+        assert contrast.contrast((color.x, color.y, color.z), behind) >= contrast.SEEN

@@ -1,0 +1,100 @@
+"""The frustum under the mouse."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sets_of_cameras import a_set, ring
+
+from lucida.app.instruments.outside.screen import OutsideScreen
+from lucida.app.instruments.poses.model import LINES, PoseSet, frusta, pose_set
+from lucida.app.instruments.poses.picking import AS_NEAR_PX, REACH_PX, picked
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files.cameras import CameraSet
+
+SIZE = (640, 480)
+LENGTH = 0.4
+ABOVE = Camera.look_at((0.5, 9.0, 4.0), (0.0, 0.0, 0.0), fov_y_deg=45.0, aspect=4 / 3)
+PARALLEL = replace(ABOVE, projection="parallel", viewport=(-5.0, 5.0, -3.75, 3.75))
+
+
+def middles(poses: PoseSet, screen: OutsideScreen) -> np.ndarray:
+    """On the screen, the middle of each camera's second edge."""
+    lines = frusta(poses, LENGTH).reshape(len(poses.names), LINES, 2, 3)[:, 1].mean(axis=1)
+    found = screen.spots(lines)
+    assert found is not None
+    return found[0]
+
+
+@pytest.mark.parametrize("looking", [ABOVE, PARALLEL])
+def test_each_is_found_by_its_lines(looking: Camera) -> None:
+    poses, screen = a_set(12), OutsideScreen(looking, SIZE)
+    for number, (x, y) in enumerate(middles(poses, screen).tolist()):
+        assert picked(poses, LENGTH, screen, (x, y)) == number
+        assert picked(poses, LENGTH, screen, (x + 2.0, y - 2.0)) == number
+    assert picked(poses, LENGTH, screen, (3.0, 3.0)) is None
+    assert picked(poses, LENGTH, screen, (320.0, 250.0)) is None  # inside the ring
+
+
+@pytest.mark.parametrize("looking", [ABOVE, PARALLEL])
+def test_of_two_the_one_in_front_is_found(looking: Camera) -> None:
+    """Two on one ray of the camera that looks, in either order."""
+    posed = ring(1)[0]
+    eye = np.asarray(posed.camera.eye)
+    step = np.asarray(ABOVE.eye) - eye if looking is ABOVE else np.asarray(looking.w)
+    nearer = eye + 0.3 * step / np.linalg.norm(step)
+    second = replace(posed, camera=replace(posed.camera, eye=tuple(nearer.tolist())))
+    screen = OutsideScreen(looking, SIZE)
+    place = screen.spots(eye[None])
+    assert place is not None
+    for cameras, front in (((posed, second), 1), ((second, posed), 0)):
+        poses = pose_set(Path("f"), CameraSet("f", cameras))
+        assert picked(poses, LENGTH, screen, tuple(place[0][0].tolist())) == front
+
+
+def test_one_that_reaches_behind_the_eye_that_looks_is_found() -> None:
+    poses = a_set(1)
+    camera = poses.cameras[0].camera
+    inside = np.asarray(camera.eye) - 0.2 * np.asarray(camera.w)
+    looking = Camera.look_at(inside.tolist(), (0.0, 0.5, 0.0), fov_y_deg=80.0, aspect=4 / 3)
+    screen = OutsideScreen(looking, SIZE)
+    ends = poses.origins[0] + LENGTH * poses.ways[0]
+    spots = screen.spots(ends)
+    assert spots is not None
+    assert picked(poses, LENGTH, screen, tuple(spots[0][:2].mean(axis=0).tolist())) == 0
+
+
+@pytest.mark.parametrize("looking", [ABOVE, PARALLEL])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_nearest_line_is_found_and_of_equally_near_ones_the_one_in_front(
+    looking: Camera, seed: int
+) -> None:
+    """Against points along every line; where two lines are about as near, either may be found."""
+    poses, screen = a_set(40), OutsideScreen(looking, SIZE, symbol_px=2.0)
+    length, near_px, reach_px = 3.0, 2 * AS_NEAR_PX, 2 * REACH_PX
+    part = np.linspace(0, 1, 201)[:, None]
+    lines = frusta(poses, length)
+    points = lines[:, None, 0] + part * (lines[:, 1] - lines[:, 0])[:, None]
+    places, _ = screen.on_screen(screen.homogeneous(points.reshape(-1, 3)))
+    depths = (points.reshape(-1, 3) - looking.eye) @ -np.asarray(looking.w)
+    owner = np.arange(len(places)) // (201 * LINES)
+    found = 0
+    for place in np.random.default_rng(seed).uniform((100, 60), (540, 420), (60, 2)):
+        away = np.linalg.norm(places - place, axis=1)
+        close = np.flatnonzero(away <= away.min() + near_px)
+        sure = np.flatnonzero(away <= away.min() + 1.4 * near_px)
+        front = owner[close[np.argmin(depths[close])]]
+        if abs(away.min() - reach_px) < 0.5:
+            continue
+        got = picked(poses, length, screen, tuple(place.tolist()))
+        if away.min() > reach_px:
+            assert got is None
+        elif owner[sure[np.argmin(depths[sure])]] == front:
+            rest = depths[sure][owner[sure] != front]
+            if not len(rest) or rest.min() > depths[close].min() + 0.05:
+                assert got == front
+                found += 1
+    assert found > 3

@@ -1,0 +1,224 @@
+"""A set of cameras: what is computed of it, and the way through its list."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sets_of_cameras import SIZE, a_set, ring
+
+from lucida.app.instruments.outside.frustum import plane_corners
+from lucida.app.instruments.poses.model import (
+    LINES,
+    LONGEST,
+    NO_POINTS,
+    cloud,
+    frusta,
+    looked_from,
+    matching,
+    outermost,
+    pose_set,
+    walked,
+)
+from lucida.app.state.app_state import AppState
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras import CameraSet
+from lucida.renderer.scene import Scene, View
+
+
+def test_a_frustum_s_edges_are_the_rays_through_the_image_s_corners() -> None:
+    poses = a_set(4)
+    lines = frusta(poses, 0.5).reshape(4, LINES, 2, 3)
+    for posed, own in zip(poses.cameras, lines, strict=True):
+        camera = posed.camera
+        corners = plane_corners(camera)  # upper left, upper right, lower right, lower left
+        edges = own[:4]
+        assert np.allclose(edges[:, 0], camera.eye)
+        ways = edges[:, 1] - edges[:, 0]
+        wanted = corners - camera.eye
+        assert np.allclose(np.cross(ways, wanted), 0, atol=1e-12)
+        assert (np.einsum("ij,ij->i", ways, wanted) > 0).all()
+        assert np.linalg.norm(ways, axis=1).mean() == pytest.approx(0.5)
+        assert np.allclose(own[4:8, 0], edges[:, 1])  # the image's sides go round its corners
+        assert np.allclose(own[4:8, 1], np.roll(edges[:, 1], -1, axis=0))
+        tip = own[8:, 1]
+        assert np.allclose(tip[0], tip[1])
+        assert ((tip[0] - edges[:2, 1].mean(axis=0)) @ camera.v) > 0  # which way is up
+
+
+def test_a_parallel_camera_has_a_box() -> None:
+    posed = ring(1)[0]
+    camera = replace(posed.camera, projection="parallel")
+    poses = pose_set(Path("x.json"), CameraSet("nerf", (replace(posed, camera=camera),)))
+    edges = frusta(poses, 0.5)[:4]
+    assert np.allclose(edges[:, 1] - edges[:, 0], -0.5 * np.asarray(camera.w))
+    sides = edges[:, 0] - camera.eye
+    assert np.allclose(sides @ np.asarray(camera.u), [camera.viewport[k] for k in (0, 1, 1, 0)])
+    assert np.allclose(sides @ np.asarray(camera.v), [camera.viewport[k] for k in (3, 3, 2, 2)])
+
+
+def test_some_are_drawn_as_they_are_among_all() -> None:
+    poses = a_set(6)
+    all_of_them = frusta(poses, 0.3).reshape(6, LINES, 2, 3)
+    assert np.array_equal(frusta(poses, 0.3, [4, 1]), all_of_them[[4, 1]].reshape(-1, 2, 3))
+
+
+def test_points_are_framed_without_strays_and_drawn_in_no_order() -> None:
+    places = np.linspace(-1, 1, 1000)[:, None] * [1.0, 0.5, 0.25]
+    places[0], places[1] = (1e6, 0, 0), (np.nan, 0, 0)
+    poses = a_set(4, points=places)
+    assert len(poses.points) == 999
+    assert poses.high[0] < 4  # the cameras are 3 away
+    drawn = poses.points + poses.origin.astype(np.float32)
+    first = np.sort(drawn[:100, 0])
+    assert first[0] < -0.8 and first[-1] > 0.8  # a few stand for all
+    assert np.allclose(np.sort(drawn[:, 0])[:-1], np.sort(places[2:, 0]), atol=1e-5)
+    assert (poses.colors == poses.colors[0, 0]).all()  # gray where the file has none
+
+
+def test_colours_stay_with_their_points() -> None:
+    places = np.linspace(-1, 1, 256)[:, None] * [1.0, 1.0, 1.0]
+    colors = np.arange(256, dtype=np.uint8)[:, None].repeat(3, axis=1)
+    found = CameraSet("colmap", tuple(ring(3)), (), places, colors)
+    poses = pose_set(Path("sparse/0"), found)
+    drawn = poses.points[:, 0] + poses.origin[0]
+    assert np.allclose(drawn, places[poses.colors[:, 0].astype(int), 0], atol=1e-5)
+
+
+def test_a_cloud_is_of_what_is_to_be_seen() -> None:
+    places = np.array([[0.0, 9.0, 0.0], [0.0, -2.0, 0.0]])
+    poses = a_set(4, points=places)
+    whole, bare = cloud(poses, 1.0, True), cloud(poses, 1.0, False)
+    assert whole.points is poses.points  # a length that changes does not move the points
+    assert bare.points is NO_POINTS[0]
+    assert len(whole.lines.segments) == 4 * LINES
+    low, high = whole.around.min(axis=0) - 0.2, whole.around.max(axis=0) + 0.2
+    assert ((whole.lines.segments >= low) & (whole.lines.segments <= high)).all()
+    assert bare.around[:, 1].max() < 2
+    longer = cloud(poses, 2.0, False).lines.segments
+    edges = [lines[:, 1] - lines[:, 0] for lines in (longer, bare.lines.segments)]
+    assert np.allclose(edges[0], 2 * edges[1])
+
+
+def test_what_is_outermost_is_about_as_large_as_all() -> None:
+    points = np.random.default_rng(2).normal(size=(5000, 3)) * (3.0, 1.0, 0.2)
+    few = points[outermost(points)]
+    assert len(few) <= 96
+    for way in np.random.default_rng(3).normal(size=(50, 3)):
+        whole, kept = (points @ way).max(), (few @ way).max()
+        assert 0.9 * whole <= kept <= whole
+    assert len(outermost(points[:0])) == 0
+    places = np.concatenate([points, [[1e5, 0, 0]]])
+    assert np.abs(a_set(4, points=places).hull).max() < 20
+
+
+def test_many_cameras_are_drawn_smaller_and_one_at_all() -> None:
+    lengths = [a_set(count).length for count in (2, 50, 1000)]
+    assert lengths[0] > lengths[1] > lengths[2] > 0.01
+    alone = a_set(1, points=np.array([[-1.0, 0, 0], [1.0, 0, 0]]))
+    size = np.linalg.norm(alone.high - alone.low) / 2
+    assert alone.length == pytest.approx(LONGEST * size) and a_set(1).length > 0
+
+
+def test_names_leave_out_the_folder_that_all_are_in() -> None:
+    assert a_set(2).names == ("000.png", "001.png")
+    named = [
+        replace(posed, name=name)
+        for posed, name in zip(ring(3), ("a/x/1", "a/y/1", "a/y/2"), strict=True)
+    ]
+    assert pose_set(Path("f"), CameraSet("nerf", tuple(named))).names == ("x/1", "y/1", "y/2")
+    flat = [replace(posed, name=name) for posed, name in zip(ring(2), ("a1", "a2"), strict=True)]
+    assert pose_set(Path("f"), CameraSet("nerf", tuple(flat))).names == ("a1", "a2")
+    nameless = [replace(posed, name="", image="") for posed in ring(2)]
+    assert pose_set(Path("f"), CameraSet("nerf", tuple(nameless))).names == ("0", "1")
+    same = [replace(posed, name="a/1") for posed in ring(2)]
+    assert pose_set(Path("f"), CameraSet("nerf", tuple(same))).names == ("1", "1")
+
+
+def test_a_folder_is_told_with_the_one_that_it_is_in() -> None:
+    assert a_set(path="/data/garden/sparse/0").title == "sparse/0"
+    assert a_set(path="/data/lego/transforms.json").title == "transforms.json"
+
+
+def test_a_lens_bends_the_frusta_and_is_kept() -> None:
+    """A fisheye's corners are at the angle that its radius says; where it sees none, its border is
+    drawn.
+    """
+    posed = ring(1)[0]
+    view = replace(posed.camera, viewport=(-1.0, 1.0, -1.0, 1.0), distance=1.0)
+    for model, angle in (("equidistant", 2**0.5), ("orthographic", math.pi / 2)):
+        camera = replace(view, lens=Lens(model))
+        poses = pose_set(Path("f"), CameraSet("f", (replace(posed, camera=camera),)))
+        ways = poses.ways[0] / np.linalg.norm(poses.ways[0], axis=1, keepdims=True)
+        corners = ways[:: poses.parts]
+        assert np.allclose(corners @ -np.asarray(camera.w), math.cos(angle), atol=1e-3)
+        sides = frusta(poses, 2.0)[4:-2]
+        assert len(sides) == 4 * poses.parts == len(ways) and poses.parts > 1
+        assert np.allclose(sides[:, 0], poses.origins[0] + 2 * poses.ways[0])
+        assert poses.view(0).camera.lens == Lens(model)
+
+
+def test_up_is_what_most_images_say() -> None:
+    assert np.allclose(a_set(8).up, (0, 1, 0), atol=1e-9)
+    turned = [
+        replace(one, camera=replace(one.camera, v=tuple(-x for x in one.camera.v)))
+        for one in ring(8)
+    ]
+    assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(turned))).up, (0, -1, 0))
+    long = [
+        replace(one, camera=replace(one.camera, v=tuple(100 * x for x in one.camera.v)))
+        for one in turned[:3]
+    ]  # the length of an axis is no vote
+    assert pose_set(Path("f"), CameraSet("f", (*ring(8)[3:], *long))).up[1] > 0.9
+    half = [*ring(8)[:4], *turned[:4]]
+    assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(half))).up, (0, 1, 0))
+
+
+@pytest.mark.parametrize("back", [(0, 0, 1), (1, 2, 0), (0, 1, 0), (0, -3, 0)])
+@pytest.mark.parametrize("up", [(0, 1, 0), (0, -1, 0), (0.6, 0.8, 0)])
+def test_a_set_is_looked_at_from_above(back: tuple[float, ...], up: tuple[float, ...]) -> None:
+    way = looked_from(np.array(up, float), np.array(back, float))
+    assert np.linalg.norm(way) == pytest.approx(1.0)
+    assert 0.2 < way @ up < 0.6
+
+
+def test_the_view_of_a_camera_loses_nothing_in_other_images() -> None:
+    poses = a_set(3)
+    view = poses.view(1)
+    assert view.camera == poses.cameras[1].camera
+    assert view.for_size(SIZE).viewport == pytest.approx(view.camera.viewport)
+    wide = view.for_size((160, 60)).viewport
+    assert wide[2:] == pytest.approx(view.camera.viewport[2:]) and wide[0] < view.camera.viewport[0]
+
+
+def test_a_search_finds_all_words_in_any_case() -> None:
+    names = ("Left/IMG_1.jpg", "right/img_10.jpg", "left/b.png")
+    assert matching(names, "") == [0, 1, 2]
+    assert matching(names, "IMG_1") == [0, 1]
+    assert matching(names, "jpg left") == [0]
+    assert matching(names, "tiff") == []
+
+
+def test_the_way_through_what_is_shown_ends_at_its_ends() -> None:
+    shown = [2, 5, 9]
+    assert walked(shown, 5, 1) == 9 and walked(shown, 5, -1) == 2
+    assert walked(shown, 9, 1) == 9 and walked(shown, 2, -7) == 2
+    assert walked(shown, -1, 1) == 2 and walked(shown, 3, -1) == 9  # not among them
+    assert walked([], 3, 1) == -1
+
+
+def test_a_camera_keeps_the_shape_of_its_image_s_pixels():
+    """The calibration's pixels are 1.2 times as wide as high, in images of any other shape too."""
+    camera = Camera(viewport=(-0.6, 0.6, -0.5, 0.5))
+    view = View(camera, given=(camera, (100, 100)))
+    assert view.for_size((100, 100)) is camera
+    for size in ((300, 100), (100, 300), (50, 50)):
+        left, right, bottom, top = view.for_size(size).viewport
+        assert (right - left) / size[0] / ((top - bottom) / size[1]) == pytest.approx(1.2)
+        assert right >= 0.6 - 1e-12 and top >= 0.5 - 1e-12
+    state = AppState.for_scene(Scene(()), view)
+    assert state.with_fit(False).view.for_size((300, 100)) is camera

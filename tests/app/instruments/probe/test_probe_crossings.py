@@ -1,0 +1,158 @@
+"""The index behind the probe: where lines meet triangles and spheres, at its borders."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from lucida.app.instruments.probe.crossings import RUN, Index
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Mesh, Scene, SceneObject, Sphere
+
+SQUARE = Mesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+AHEAD = (0, 0, -1)
+
+
+def index(*shapes: Mesh | Sphere) -> Index:
+    return Index(flatten(Scene(tuple(SceneObject(shape) for shape in shapes))))
+
+
+def moved(mesh: Mesh, x: float, y: float, z: float) -> Mesh:
+    transform = np.eye(4)
+    transform[:3, 3] = x, y, z
+    return Mesh(mesh.vertices, mesh.faces, transform=transform)
+
+
+def test_every_crossing_of_a_torus_is_found():
+    """A million triangles' index on a small one: all crossings, against trying each triangle."""
+    mesh = shapes.torus(segments=40, sides=20)
+    scene = Scene((SceneObject(mesh), SceneObject(Sphere((0.5, 0, 0), 0.05))))
+    flat = flatten(scene)
+    assert len(flat.faces) > 10 * RUN
+    torus, rng = Index(flat), np.random.default_rng(2)
+    corners = torus.vertices[flat.faces]
+    for _ in range(200):
+        origin, toward = rng.normal(size=3) * 2, rng.normal(size=3) * 0.3
+        direction = toward - origin
+        # Möller and Trumbore, over all triangles.
+        e1, e2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        p = np.cross(direction, e2)
+        det = (p * e1).sum(axis=1)
+        s = origin - corners[:, 0]
+        b1 = (s * p).sum(axis=1) / det
+        q = np.cross(s, e1)
+        b2 = q @ direction / det
+        t = (q * e2).sum(axis=1) / det
+        inside = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1)
+        found = torus.crossings(origin, direction)
+        on_mesh = found.object == 0
+        np.testing.assert_allclose(found.t[on_mesh], np.sort(t[inside]), rtol=1e-9)
+        assert (np.diff(found.t) >= 0).all()
+
+
+def test_a_common_edge_is_met_once():
+    """The square's diagonal: of two objects, and of one object twice, all are told."""
+    square = index(SQUARE)
+    for origin, t in (((0.5, 0.5, 3), [3]), ((0.5, 0.5, 0), [0]), ((0.5, 0.5, -2), [-2])):
+        assert square.crossings(origin, AHEAD).t.tolist() == t
+    two = index(SQUARE, moved(SQUARE, 0, 0, -2)).crossings((0.5, 0.5, 3), AHEAD)
+    assert (two.t.tolist(), two.object.tolist()) == ([3, 5], [0, 1])
+    same = index(SQUARE, SQUARE).crossings((0.5, 0.25, 3), AHEAD)
+    assert (same.t.tolist(), same.primitive.tolist()) == ([3, 3], [0, 2])
+
+
+@pytest.mark.parametrize("away", [0.01, 1.0, 100.0])
+def test_what_is_near_enough_to_be_one_is_told_beside_its_distance(away):
+    """Two triangles of one object above each other, by parts of 1e-9 of how far they are."""
+    for part, count in ((2.0**-31, 1), (2.0**-29, 2)):  # 4.7e-10, 1.9e-9
+        corners = np.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], np.float32)
+        both = np.concatenate([corners, corners + np.float32([0, 0, part])])
+        scale = np.diag([1, 1, away, 1])
+        mesh = Mesh(both, [[0, 1, 2], [3, 4, 5]], transform=scale)
+        assert len(index(mesh).crossings((0, 0, away), AHEAD).t) == count
+
+
+def test_a_line_along_the_side_of_a_box_meets_what_ends_there():
+    """Large ones too: boxes are larger than what is in them by more than rounding."""
+    for side in (-1, 1):
+        corners = np.array([[side, -1000, 0], [side, 1000, 0], [-side, 0, 0]])
+        for axes in ([0, 1, 2], [1, 2, 0], [2, 0, 1]):
+            found = index(Mesh(corners[:, np.argsort(axes)], [[0, 1, 2]]))
+            origin, direction = np.array([side, 0.0, 3.0]), np.array([0.0, 0.0, -1.0])
+            t = found.crossings(origin[np.argsort(axes)], direction[np.argsort(axes)]).t
+            assert t.tolist() == [3]
+
+
+@pytest.mark.parametrize("face", [[0, 1, 2], [0, 2, 1]])
+@pytest.mark.parametrize("axis", range(3))
+def test_edges_and_corners_are_met_from_either_side(axis, face):
+    """Exactly: those of a triangle of legs of 1, along each axis."""
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    found = index(Mesh(np.roll(corners, axis, axis=1), [face]))
+    for place in ((0.5, 0), (0.5, 0.5), (0, 0.5), (0, 0), (1, 0), (0, 1), (0.25, 0.25)):
+        for side in (-1, 1):
+            origin, direction = np.roll((*place, 2.0), axis), np.roll((0.0, 0, side), axis)
+            assert found.crossings(origin, direction).t.tolist() == [-2 * side]
+    for place in ((0.5, -0.01), (0.51, 0.5), (-0.01, 0.5)):
+        origin = np.roll((*place, 2.0), axis)
+        assert not len(found.crossings(origin, np.roll((0.0, 0, 1), axis)).t)
+
+
+def test_a_triangle_seen_edge_on_and_one_without_area_are_not_met():
+    edge_on = index(SQUARE)
+    assert not len(edge_on.crossings((0, 0, 0), (1, 0, 0)).t)
+    assert not len(edge_on.crossings((0, 0, 1), (1, 0, 0)).t)
+    thin = Mesh([[0, 0, 0], [1, 0, 0], [0.5, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 3]])
+    assert index(thin).crossings((0.25, 0, 2), AHEAD).primitive.tolist() == [1]
+
+
+def test_spheres_that_are_touched():
+    ball = index(Sphere((0, 0, 0), 0.5))
+    # The line touches it: once, and from the very point not at all.
+    assert ball.crossings((0.5, 0, 2), AHEAD).t.tolist() == [2]
+    assert not len(ball.crossings((0.5, 0, 0), AHEAD).t)
+    assert not len(ball.crossings((math.nextafter(0.5, 1), 0, 2), AHEAD).t)
+    # The line begins on it.
+    assert ball.crossings((0, 0, 0.5), AHEAD).t.tolist() == [0, 1]
+    assert ball.crossings((0, 0, -0.5), AHEAD).t.tolist() == [-1, 0]
+    small = index(Sphere((3, 4, 5), 0.001), Sphere((3, 4, 9), 0.5))
+    found = small.crossings((3, 4, 0), (0, 0, 2))
+    np.testing.assert_allclose(found.t, [2.4995, 2.5005, 4.25, 4.75], rtol=1e-12)
+    assert found.primitive.tolist() == [0, 0, 1, 1]
+    assert found.b1.tolist() == found.b2.tolist() == [0, 0, 0, 0]
+
+
+def test_the_closest_is_within_the_borders_not_on_them():
+    squares = index(*(moved(SQUARE, 0, 0, -z) for z in (1, 2, 3)))
+
+    def closest(t_min: float, t_max: float) -> float:
+        return squares.closest((0.5, 0.25, 0), AHEAD, t_min, t_max)
+
+    assert closest(0, math.inf) == 1
+    assert closest(1, math.inf) == 2
+    assert closest(1.5, 2) == math.inf
+    assert closest(1.5, 2.5) == 2
+    assert index().closest((0, 0, 0), AHEAD, 0, math.inf) == math.inf
+
+
+def test_one_mesh_of_several_is_asked_for_its_hit():
+    """Between them a sphere, which has no triangles, and a mesh of several runs."""
+    many = np.tile(SQUARE.faces, (RUN, 1))
+    meshes = index(
+        SQUARE, Sphere((0, 0, -1), 0.5), moved(Mesh(SQUARE.vertices, many), 0, 0, -2),
+        moved(SQUARE, 0, 0, -3),
+    )  # fmt: skip
+
+    def hit(number: int, t_min: float = 0.0, t_max: float = math.inf):
+        return meshes.mesh_hit(number, (0.5, 0.25, 1), AHEAD, t_min, t_max)
+
+    assert hit(0) == (1, 0, 0.125, 0.625)  # of (-1, -1), (1, -1), (1, 1)
+    # Of equal ones the first.
+    assert hit(2) == (3, 2, 0.125, 0.625)
+    assert hit(3) == (4, 2 + 2 * RUN, 0.125, 0.625)
+    assert hit(1) is None
+    assert hit(3, 3.5, 4) is None and hit(3, 4, 5) is None
+    assert hit(3, 3.5, 4.5) is not None

@@ -1,0 +1,367 @@
+"""The probe's lines for a pixel, word for word; its formulas say what is computed."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from hard_readings import (
+    ALL,
+    BALL,
+    DOWN,
+    FLOOR,
+    SMOOTH,
+    grazing,
+    in_the_shell,
+    leaf,
+    on_the_floor,
+)
+
+from lucida.app.instruments.probe.color_formulas import color_lines
+from lucida.app.instruments.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
+from lucida.app.instruments.probe.formulas import LEAST_COSINE, hit_lines, ray_lines
+from lucida.app.instruments.probe.model import Probe
+from lucida.app.instruments.probe.reading import Reading
+from lucida.app.lecture.typesetting import mistake
+from lucida.app.ui import formula
+from lucida.app.ui.explaining.languages import julia
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.scene.model import (
+    DirectionalLight,
+    Mesh,
+    Scene,
+    SceneObject,
+    Sphere,
+)
+from lucida.renderer.trace.reference.shade import GRAZING
+
+ON_THE_FLOOR = """\
+pixel in row 2, column 0 of 1 x 4, from 0
+
+along u:
+    u = left + (right - left) (j + 0.5) / W
+      = -1 + (1 - (-1)) (0 + 0.5) / 1 = 0
+along v:
+    v = top - (top - bottom) (i + 0.5) / H
+      = 0.5 - (0.5 - (-3.5)) (2 + 0.5) / 4 = -2
+direction, camera:
+    vec(d)_uvw = (u, v, -d)
+      = (0, -2, -2)
+direction, world:
+    vec(d) = u vec(u) + v vec(v) - d vec(w)
+      = 0 (1, 0, 0) + (-2) (0, 1, 0) - 2 (0, 0, 1) = (0, -2, -2)
+origin:
+    vec(p) = vec(e)
+      = (0, 2, 0)
+ray:
+    vec(r)(t) = vec(p) + t vec(d)
+      = (0, 2, 0) + t (0, -2, -2)
+clipped by near and far:
+    near/d < t < inf
+      0.5 < t < inf
+
+object            t
+floor        1.0000  seen
+mirror ball       -  not met
+
+the plane of triangle 0:
+    t = vec(n) . (vec(a) - vec(p)) / (vec(n) . vec(d))
+      = (0, 1, 0) . ((-9, 0, -9) - (0, 2, 0)) / ((0, 1, 0) . (0, -2, -2)) = 1
+inside: no weight of a corner is negative:
+    vec(x) = b_0 vec(a) + b_1 vec(b) + b_2 vec(c)
+      = 0.5 (-9, 0, -9) + 0.3889 (9, 0, 9) + 0.1111 (9, 0, -9)
+hit point:
+    vec(x) = vec(r)(t) = vec(p) + t vec(d)
+      = (0, 2, 0) + 1 (0, -2, -2) = (0, 0, -2)
+normal of the triangle, towards the viewer:
+    vec(n) = (vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|
+      = (0, 1, 0)
+diffuse reflectance of the surface:
+    k_d
+      = (0.5000, 0.2500, 0.5000)
+specular reflectance:
+    k_s
+      = (0.5000, 0.5000, 0.5000)
+ambient:
+    L_a = k_d I_a
+      = (0.5000, 0.2500, 0.5000) (0.1000, 0.1000, 0.1000) = (0.0500, 0.0250, 0.0500)
+towards light 1, a point light:
+    vec(l_1) = (vec(q_1) - vec(x)) / |vec(q_1) - vec(x)|
+      = (0.0000, 0.9701, 0.2425)
+light 1, diffuse:
+    L_d1 = k_d I_1 max(0, vec(n) . vec(l_1))
+      = (0.5000, 0.2500, 0.5000) (1.0000, 1.0000, 1.0000) max(0, 0.9701) = (0.4851, 0.2425, 0.4851)
+halfway between light 1 and the viewer:
+    vec(h_1) = (vec(l_1) - vec(d)/|vec(d)|) / |...|
+      = (0.0000, 0.8702, 0.4927)
+light 1, specular:
+    L_s1 = k_s I_1 max(0, vec(n) . vec(h_1))^s
+      = (0.5000, 0.5000, 0.5000) (1.0000, 1.0000, 1.0000) max(0, 0.8702)^50\
+ = (0.0005, 0.0005, 0.0005)
+towards light 2, a directional light:
+    vec(l_2) = vec(c_2)
+      = (0, -1, 0)
+light 2 is shadowed: something is between, or the surface faces away:
+    L_2 = (0, 0, 0)
+mirrored ray 1 sees mirror ball, t = 0.6464:
+    L_m1 = k_s L(vec(r_1))
+      = (0.5000, 0.5000, 0.5000) (0.1000, 0.0500, 0.0250) = (0.0500, 0.0250, 0.0125)
+mirrored ray 2 sees floor, t = 0.6466:
+    L_m2 = w_2 L(vec(r_2))
+      = (0.1250, 0.2500, 0.2500) (0.6137, 0.3461, 0.6137) = (0.0767, 0.0865, 0.1534)
+the sum:
+    L = L_a + L_d1 + L_s1 + L_m1 + L_m2
+      = (0.0500, 0.0250, 0.0500) + (0.4851, 0.2425, 0.4851) + (0.0005, 0.0005, 0.0005)\
+ + (0.0500, 0.0250, 0.0125) + (0.0767, 0.0865, 0.1534) = (0.6623, 0.3795, 0.7015)
+sRGB's curve (up to 0.0031308: 12.92 L):
+    C = 1.055 L^(1/2.4) - 0.055
+      = 1.055 (0.6623, 0.3795, 0.7015)^(1/2.4) - 0.055 = (0.8335, 0.6496, 0.8551)
+8 bits:
+    B = floor(255 C + 0.5)
+      = floor(255 (0.8335, 0.6496, 0.8551) + 0.5) = (213, 166, 218)
+"""
+
+
+def by_key(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict[str, list[str]]:
+    """Return each line's text, and the same with numbers."""
+    return {one.key: [one.text, one.text_numbers] for one in all_lines(reading, indexing)}
+
+
+def test_a_mirror_that_sees_a_mirror_word_for_word():
+    reading = on_the_floor()
+    assert as_text(reading, Indexing.ARRAY) == ON_THE_FLOOR
+    (shadowed,) = (one for one in color_lines(reading) if one.key == "shadow 2")
+    assert shadowed.value == (0, 0, 0)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_both_forms_hold_the_same_numbers(name):
+    """As LaTeX and as text; and every formula can be set."""
+    for line in all_lines(ALL[name]()):
+        latex = re.sub(r" \\cdot 10\^\{(-?)(\d)\}", r"e\g<1>0\2", line.latex_numbers)
+        one, other = (
+            re.findall(r"\d[\d.]*(?:e-?\d+)?", form) for form in (latex, line.text_numbers)
+        )
+        assert one == other, line.key
+        for form in filter(None, (line.latex, line.latex_numbers)):
+            assert not formula.available() or mistake(form) is None
+
+
+def test_which_t_count():
+    found = {name: by_key(make())["range"] for name, make in ALL.items()}
+    assert found["near and far"] == ["near/d < t < far/d", "0.5 < t < 6"]
+    assert found["parallel, far"] == ["0 < t < far", "0 < t < 6"]
+    assert found["parallel, near"] == ["near < t < inf", "0.5 < t < inf"]
+    assert found["smooth"] == ["t > 0", ""]
+    (line,) = (one for one in ray_lines(in_the_shell(far=6)) if one.key == "range")
+    assert line.latex == r"0 < t < \frac{\mathrm{far}}{d}"
+    (line,) = (one for one in ray_lines(in_the_shell("parallel", near=0.5)) if one.key == "range")
+    assert line.latex == r"\mathrm{near} < t < \infty" and line.value == (0.5, np.inf)
+
+
+def test_a_sphere_from_within():
+    lines = by_key(in_the_shell())
+    assert lines["direction"][1] == (
+        "= (-0.75) (1, 0.5, 0) + (-0.75) (-0.5, 1, 0.25) - 1 (0, 0, 2) = (-0.375, -1.125, -2.1875)"
+    )
+    assert lines["sphere"] == [
+        "|vec(p) + t vec(d) - vec(c)|^2 = R^2",
+        "|(0.5, 0, 0) + t (-0.375, -1.125, -2.1875) - (0, 0, 0)|^2 = 2^2",
+    ]
+    assert lines["t"] == [
+        "t = (-b + sqrt(b^2 - a * c)) / a",
+        "= (-(-0.1875) + sqrt((-0.1875)^2 - 6.1914 * (-3.75))) / 6.1914 = 0.8091",
+    ]
+    assert lines["geometric"] == [
+        "vec(n) = (vec(c) - vec(x)) / |vec(c) - vec(x)|",
+        "= ((0, 0, 0) - (0.1966, -0.9103, -1.77)) / |(0, 0, 0) - (0.1966, -0.9103, -1.77)|"
+        " = (-0.0983, 0.4551, 0.8850)",
+    ]
+    assert hit_lines(in_the_shell())[4].name == "normal, towards the viewer"
+    lines = by_key(in_the_shell("parallel"))
+    assert lines["camera direction"] == ["vec(d)_uvw = (0, 0, -1)", "= (0, 0, -1)"]
+    assert lines["direction"] == ["vec(d) = -vec(w)", "= -(0, 0, 2) = (0, 0, -2)"]
+    assert lines["origin"] == [
+        "vec(p) = vec(e) + u vec(u) + v vec(v)",
+        "= (0.5, 0, 0) + (-0.75) (1, 0.5, 0) + (-0.75) (-0.5, 1, 0.25) = (0.125, -1.125, -0.1875)",
+    ]
+
+
+def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open():
+    """The formula's normal points to where the surface is seen from."""
+    ball = Probe(Scene((SceneObject(Sphere((0, 0, -3), 0.5)),)))
+    whole, cut = (
+        {one.key: one for one in hit_lines(ball.at((0, 0), Camera(near=near), (1, 1)))}
+        for near in (None, 3.0)
+    )
+    assert whole["t"].text_numbers == "= (-(-3) - sqrt((-3)^2 - 1 * 8.75)) / 1 = 2.5"
+    assert whole["geometric"].text == "vec(n) = (vec(x) - vec(c)) / |vec(x) - vec(c)|"
+    assert cut["t"].text_numbers == "= (-(-3) + sqrt((-3)^2 - 1 * 8.75)) / 1 = 3.5"
+    assert cut["geometric"].text == "vec(n) = (vec(c) - vec(x)) / |vec(c) - vec(x)|"
+    assert whole["geometric"].value == cut["geometric"].value == (0, 0, 1)
+    far = Probe(Scene((SceneObject(Sphere((0, 0, -1e9), 1e-9)),))).at((0, 0), Camera(), (1, 1))
+    assert hit_lines(far)[4].text.startswith("vec(n) = (vec(x) - vec(c))")
+
+
+def test_powers_of_ten_are_in_brackets_beside_another_factor():
+    def lines(scene: Scene, distance: float, eye=(0, 0, 0)) -> dict[str, list[str]]:
+        return by_key(Probe(scene).at((0, 0), Camera(eye, distance=distance), (1, 1)))
+
+    small = Scene((SceneObject(Sphere((0, 0, -2e-5), 1e-5)),))
+    one, other = lines(small, 1.0), lines(small, 1e-5)
+    assert one["point"][1].startswith("= (0, 0, 0) + (1e-05) (0, 0, -1) = ")
+    assert one["sphere"][1].endswith("|^2 = (1e-05)^2")
+    assert " - (1e-05) (0, 0, 1) = " in other["direction"][1]
+    assert " * (3e-10))) / (1e-10) = 1" in other["t"][1]
+    triangle = Scene((SceneObject(Mesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])),))
+    inside = lines(triangle, 1.0, (4 * 2.0**-17, 1, 2))["inside"][1]
+    assert " + (7.63e-06) (4, 0, 0) + 0.25 (0, 4, 0)" in inside
+
+
+def test_a_triangles_normal_is_the_cross_product_in_the_formula():
+    """With the sign that turns it to the viewer, wherever the corners are."""
+    rng, signs = np.random.default_rng(5), []
+    for _ in range(20):
+        corners = rng.uniform(-1, 1, (3, 3)).astype(np.float32)
+        middle = corners.mean(axis=0)
+        camera = Camera((float(middle[0]), float(middle[1]), 5), projection="parallel")
+        reading = Probe(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))).at(
+            (0, 0), camera, (1, 1)
+        )
+        a, b, c = corners.astype(float)
+        up = np.cross(b - a, c - a)
+        line = hit_lines(reading)[3]
+        sign = "" if up[2] > 0 else "-"
+        assert line.text == f"vec(n) = {sign}(vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|"
+        assert line.latex.startswith(rf"\mathbf{{n}} = {sign}\frac{{(\mathbf{{b}} - ")
+        assert line.value == pytest.approx(tuple(np.copysign(1, up[2]) * up / np.linalg.norm(up)))
+        signs.append(sign)
+    assert 5 < signs.count("-") < 15
+
+
+def test_the_sign_of_what_is_interpolated_is_that_of_the_place():
+    """Near the second and third corner, whose normals point the other way than the first's."""
+    away = [0.1, 0, -(0.99**0.5)]
+    mesh = Mesh(SMOOTH.vertices, SMOOTH.faces, normals=[[0, 0, 1], away, away])
+    reading = Probe(Scene((SceneObject(mesh),))).at((0, 0), Camera((1.75, 1.75, 2)), (1, 1))
+    assert (reading.hit.b1, reading.hit.b2) == (0.4375, 0.4375)
+    mean = np.array([0.125, 0.4375, 0.4375]) @ mesh.normals
+    assert reading.hit.normal == pytest.approx(tuple(-mean / np.linalg.norm(mean)))
+    assert hit_lines(reading)[4].text.startswith("vec(n) = -(b_0 vec(n_a) + ")
+
+
+def test_a_light_behind_the_surface_and_one_that_is_too_bright():
+    reading = in_the_shell()
+    lines, names = by_key(reading), {one.key: one.name for one in color_lines(reading)}
+    assert list(names) == [
+        "reflectance", "ambient", "light 1", "diffuse 1", "light 2", "diffuse 2",
+        "sum", "exposure", "display", "bytes",
+    ]  # fmt: skip
+    assert names["diffuse 1"] == "light 1, diffuse"
+    assert names["diffuse 2"] == "light 2, diffuse: it is behind the surface"
+    assert lines["sum"][0] == "L = L_a + L_d1 + L_d2"
+    assert lines["exposure"] == [
+        "L' = 2^EV L",
+        "= 2^-1 (3.9979, 0.5372, 0.2686) = (1.9990, 0.2686, 0.1343)",
+    ]
+    # What is shown is the least of it and 1: without that the equation would be none.
+    assert names["display"] == "display value, linear; what is above 1 is cut off"
+    assert lines["display"] == [
+        "C = min(1, L')",
+        "= min(1, (1.9990, 0.2686, 0.1343)) = (1.0000, 0.2686, 0.1343)",
+    ]
+    assert by_key(leaf(False))["display"][0] == "C = 1.055 min(1, L')^(1/2.4) - 0.055"
+    floor = Scene((SceneObject(FLOOR),), (DirectionalLight((1, 0, 0)),))  # along it
+    diffuse = color_lines(Probe(floor).at((2, 0), DOWN, (1, 4)))[3]
+    assert diffuse.name == "light 1, diffuse: it is behind the surface"
+    white = Scene((), background=(1, 0.5, 0))
+    nothing = Probe(white).at((0, 0), Camera(), (1, 1))
+    assert hit_lines(nothing) == []
+    (_, display, _) = color_lines(nothing)
+    assert display.name == "sRGB's curve (up to 0.0031308: 12.92 L)"
+
+
+@pytest.mark.parametrize(("behind", "sign"), [(False, ""), (True, "-")])
+def test_normals_of_a_smooth_triangle_are_turned_to_the_viewer(behind, sign):
+    """The formula of what is interpolated as that of the plane's."""
+    reading = leaf(behind)
+    lines, towards = by_key(reading), -1 if behind else 1
+    assert lines["t"][0] == "t = vec(g) . (vec(a) - vec(p)) / (vec(g) . vec(d))"
+    assert lines["geometric"] == [
+        f"vec(g) = {sign}(vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|",
+        f"= (0, 0, {towards})",
+    ]
+    text, numbers = lines["normal"]
+    assert text == f"vec(n) = {sign}(b_0 vec(n_a) + b_1 vec(n_b) + b_2 vec(n_c)) / |...|"
+    mean = np.array([0.5, 0.25, 0.25]) @ SMOOTH.normals * towards
+    assert numbers == "= ({:.4f}, {:.4f}, {:.4f})".format(*(mean / np.linalg.norm(mean)))
+    assert hit_lines(reading)[4].name == "normal for the light, between the corners'"
+    assert "# interpolated" in as_python(reading)
+
+
+@pytest.mark.parametrize("name", ["along a triangle", "along a sphere"])
+def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name):
+    """Nothing is interpolated there, and nothing is said of corners' normals."""
+    assert LEAST_COSINE == GRAZING
+    reading = ALL[name]()
+    g, d = np.array(reading.hit.geometric), np.array(reading.direction)
+    bent = g - (g @ d + 0.001) * d
+    assert reading.hit.normal == pytest.approx(tuple(bent / np.linalg.norm(bent)), abs=1e-12)
+    line = next(one for one in hit_lines(reading) if one.key == "normal")
+    assert (
+        line.text
+        == "vec(n) = (vec(g) - (vec(g) . vec(d)/|vec(d)| + 0.001) vec(d)/|vec(d)|) / |...|"
+    )
+    assert by_key(reading)["geometric"][0].startswith("vec(g) = ")
+    assert "interpolated" not in as_python(reading)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_copied_program_leaves_what_the_probe_knows(name):
+    """Every kind of reading is tried, also from inside and from behind."""
+    reading = ALL[name]()
+    left: dict = {"print": lambda *_: None}
+    exec(as_python(reading, notation="code"), left)
+    assert left["origin"] == pytest.approx(np.array(reading.origin), rel=1e-12)
+    assert left["direction"] == pytest.approx(np.array(reading.direction), rel=1e-12, abs=1e-15)
+    assert left["color"] == pytest.approx(np.array(reading.color), rel=1e-6)
+    assert np.abs(left["rgb"] - reading.bytes).max() <= 1
+    if reading.hit is not None:
+        assert left["t"] == pytest.approx(reading.hit.t, rel=1e-6)
+        assert left["normal"] == pytest.approx(np.array(reading.hit.normal), abs=1e-6)
+
+
+def test_a_copied_program_says_what_its_lines_are():
+    reading = on_the_floor()
+    program = as_python(reading)
+    assert "\ni, j = 3, 1  # row and column, counted from 1, as in the lecture\n" in program
+    arrays = as_python(reading, Indexing.ARRAY)
+    assert "\ni, j = 2, 0  # row and column, counted from 0, as arrays are\n" in arrays
+    told = [line.partition("# ")[2] for line in program.splitlines()]
+    light = told.index("Blinn and Phong's light; colours are linear.")
+    assert [line for line in told[light + 1 :] if line] == [
+        "light 1",
+        "light 2 is shadowed",
+        "mirrored ray 1",
+        "mirrored ray 2",
+        "The display: exposure, curve, 8 bits.",
+    ]
+    arrays = as_python(reading, Indexing.ARRAY, "code")
+    assert as_julia(reading, Indexing.ARRAY, "code") == julia.program(arrays)
+
+
+def test_copied_formulas_stand_below_one_another():
+    """At their equals signs, where they have one; the last line is not ended."""
+    rows = as_latex(grazing(BALL, 0.0)).splitlines()
+    assert rows[0] == "% Pixel in row 1, column 1 of 1 x 1, from 1"
+    assert rows[2:4] == [
+        r"  u &= \frac{j - 0.5}{W} - 0.5 \\",
+        r"  &= \frac{1 - 0.5}{1} - 0.5 = 0 \\",
+    ]
+    assert r"  & t > 0 \\" in rows
+    at = rows.index(r"  |\mathbf{p} + t\,\mathbf{d} - \mathbf{c}|^2 &= R^2 \\")
+    assert rows[at + 1].startswith("  & |(0,")
+    assert rows[-2].startswith(r"  &= \lfloor 255\,") and not rows[-2].endswith("\\")
+    assert rows[-1] == r"\end{align*}"

@@ -1,0 +1,287 @@
+"""The stepped rasterization: the image of the other loops and of the renderers, triangle by
+triangle; what its parts say of a pixel."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recorded_runs import TWO_BOXES, last, recorded
+from textured import noise, wall
+
+from lucida.app.instruments.stepper import model as stepper
+from lucida.app.instruments.stepper.loop_parts import Model
+from lucida.app.instruments.stepper.loops import image_order, rasterization
+from lucida.app.instruments.stepper.model import moment_at
+from lucida.app.instruments.stepper.raster_parts import (
+    WHOLE,
+    Corner,
+    box_around,
+    edge,
+    project,
+    t_of,
+    triangles,
+    whole_within,
+)
+from lucida.app.instruments.stepper.recording import Order
+from lucida.renderer.camera.camera import NEAREST, Camera, Size
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from lucida.renderer.scene.texture import Texture
+from lucida.renderer.trace import Tracer
+
+SIZE = (20, 15)
+
+
+def turned(mesh: Mesh, rotate_deg: tuple[float, float, float]) -> Mesh:
+    return shapes.transformed(mesh, shapes.placement(rotate_deg=rotate_deg))
+
+
+LIGHT = (PointLight((2, 3, 1)),)
+# Its diagonal runs through the middles of pixels of a square image.
+SQUARE = Scene(
+    (
+        SceneObject(
+            shapes.transformed(
+                turned(shapes.rectangle(1.0, 1.0), (90, 0, 0)), shapes.placement((0, 0, -1))
+            )
+        ),
+    ),
+    LIGHT,
+    background=(1.0, 0.0, 1.0),
+)
+SQUARE_SEEN = Camera(viewport=(-0.4, 0.4, -0.4, 0.4))
+
+
+@pytest.mark.parametrize("size", [(8, 6), (16, 12), (7, 9)])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_depths_are_the_ray_parameters(projection: str, size: Size) -> None:
+    camera = Camera(
+        (0.1, 0.2, 0.5), (1, 0.2, 0.1), (-0.3, 1.1, 0), (0.1, 0.02, 0.9), 1.2,
+        (-1, 1, -0.8, 0.7) if projection == "perspective" else (-2.5, 2.5, -2, 2), projection,
+    )  # fmt: skip
+    depth = last(recorded(TWO_BOXES, Order.RASTER, camera, size)).depth
+    with Tracer(TWO_BOXES, method="reference") as tracer:
+        exact = tracer.render(camera, size, ("depth",)).channel("depth")
+    assert np.isfinite(exact).sum() > 3
+    np.testing.assert_allclose(depth, exact, rtol=1e-6)
+
+
+def test_spheres_are_there_before_the_triangles() -> None:
+    """In front of a wall, and half in it: the depth buffer holds both."""
+    wall = shapes.transformed(shapes.box((4.0, 4.0, 1.0)), shapes.placement((0, 0, -4)))
+    ball = SceneObject(Sphere((0.4, 0.1, -3.4), 0.7), Material((0.1, 0.9, 0.1)))
+    run = recorded(Scene((SceneObject(wall), ball), LIGHT), Order.RASTER)
+    begun = moment_at(run, 2)
+    drawn = (begun.canvas != run.model.background).any(axis=2)
+    assert np.array_equal(drawn, np.isfinite(begun.depth)) and drawn.any()
+
+
+# What is cut off.
+
+
+@pytest.mark.parametrize("clip", [(None, None), (2.0, None), (None, 9.0), (1.5, 6.0)])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_triangles_that_reach_behind_the_eye_or_the_clip_planes(clip, projection) -> None:
+    """A floor under the eye, from far behind it to far before, and a long beam through near and
+    far: clipped, not torn, not turned round."""
+    checked = Material((0.8, 0.8, 0.8))
+    things = (
+        shapes.transformed(shapes.rectangle(14.0, 60.0), shapes.placement((0.31, -1, 3))),
+        turned(
+            shapes.transformed(shapes.box((0.4, 0.5, 30.0)), shapes.placement((0.5, 0.2, 0))),
+            (5, 20, 3),
+        ),
+    )
+    scene = Scene(tuple(SceneObject(thing, checked) for thing in things), LIGHT)
+    model = Model(scene)
+    side = 3.0 if projection == "parallel" else 0.5
+    camera = Camera(
+        (0.013, 0.21, 0.37), (1, 0.02, 0.01), (-0.03, 1.01, 0.2), (0.02, -0.1, 1),
+        1.25, (-side, side, -side, side), projection, near=clip[0], far=clip[1],
+    )  # fmt: skip
+    pieces = list(triangles(model, camera))
+    cut = [piece for piece in pieces if piece.shares != WHOLE]
+    assert cut
+    t_min, t_max = camera.t_range
+    for piece in pieces:
+        corners = project(piece, camera, SIZE)
+        at_corners = zip(corners, WHOLE, strict=True)
+        t = np.array([t_of(corner.z, piece, *weights) for corner, weights in at_corners])
+        assert np.isfinite(corners).all() and (t >= t_min - 1e-12).all()
+        assert (t <= t_max * (1 + 1e-9)).all()
+        whole = model.index.vertices[model.flat.faces[piece.primitive]]
+        np.testing.assert_allclose(np.array(piece.shares) @ whole, piece.points, atol=1e-9)
+    ours, by_rays = (order(model, camera, SIZE).array for order in (rasterization, image_order))
+    np.testing.assert_allclose(ours, by_rays, atol=1e-8)
+    assert (ours != np.array(model.background)).any(axis=2).sum() > 20
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_holes_are_seen_through(projection) -> None:
+    """As by the other loop's rays; through a wall that near cuts, askew, at what is behind it."""
+    texels = np.dstack([noise(7, 5), noise(7, 5, 2)[..., :1]])
+    holed = Material(texture=Texture(texels), cutout=0.5)
+    walls = [turned(wall(Texture(texels), z=0.0), (0, turn, 0)) for turn in (75, 0)]
+    walls = [
+        shapes.transformed(one, shapes.placement((0, 0, -2 - k))) for k, one in enumerate(walls)
+    ]
+    scene = Scene(
+        tuple(SceneObject(one, holed) for one in walls), LIGHT, background=(1.0, 0.0, 1.0)
+    )
+    side = 2.0 if projection == "parallel" else 0.7
+    camera = Camera(projection=projection, viewport=(-side, side, -side, side), near=1.0)
+    model = Model(scene)
+    ours, by_rays = (order(model, camera, SIZE).array for order in (rasterization, image_order))
+    np.testing.assert_allclose(ours, by_rays, atol=1e-8)
+    seen = (ours != np.array(model.background)).any(axis=2).mean()
+    assert 0.4 < seen < 0.95  # of what fills the image without holes
+
+
+@pytest.mark.parametrize(
+    ("t", "camera", "pieces", "least", "most"),
+    [
+        ((2, 4, 6), Camera(), 1, 2, 6),
+        ((2, 4, 6), Camera(near=1, far=8), 1, 2, 6),
+        ((2, 4, 6), Camera(near=3), 2, 3, 6),
+        ((2, 4, 6), Camera(far=5), 2, 2, 5),
+        ((2, 4, 6), Camera(near=3, far=5), 3, 3, 5),
+        ((2, 2.25, 6), Camera(near=2.125), 2, 2.125, 6),
+        ((2, 2.25, 6), Camera(near=2.5), 1, 2.5, 6),
+        # Behind the eye, or in its plane, 1/t is no number: a part of the farthest t is kept away.
+        ((-1, 4, 10), Camera(), 2, 10 * NEAREST, 10),
+        ((0, 4, 10), Camera(), 2, 10 * NEAREST, 10),
+        ((1e-7, 4, 10), Camera(), 1, 1e-7, 10),
+        ((-1, 4, 10), Camera(projection="parallel"), 2, 0, 10),
+    ],
+)
+def test_a_triangle_is_cut_where_rays_begin_and_end(t, camera, pieces, least, most) -> None:
+    corners = np.array([(0, 0, -t[0]), (1, 0, -t[1]), (0, 1, -t[2])], np.float32)
+    scene = Scene((SceneObject(Mesh(corners, np.array([[0, 1, 2]], np.int32))),))
+    found = list(triangles(Model(scene), camera))
+    assert len(found) == pieces
+    heights = [-point[2] for piece in found for point in piece.points]
+    assert (min(heights), max(heights)) == pytest.approx((least, most), abs=1e-12)
+    assert all((piece.shares is WHOLE) == (least == t[0] and most == t[2]) for piece in found)
+
+
+def test_two_triangles_are_cut_at_the_same_point_of_their_edge() -> None:
+    """To the last bit, so that no pixel is lost between them."""
+    rng = np.random.default_rng(4)
+    for _ in range(40):
+        floor = turned(shapes.rectangle(9.0, 40.0), tuple(rng.uniform(-20, 20, 3)))
+        scene = Scene(
+            (
+                SceneObject(
+                    shapes.transformed(floor, shapes.placement(tuple(rng.uniform(-3, 3, 3))))
+                ),
+            )
+        )
+        first, second = (set(), set())
+        for piece in triangles(Model(scene), Camera(near=1.5)):
+            (second if piece.primitive else first).update(piece.points)
+        assert len(first & second) == 2  # of the diagonal an end, and where it is cut
+
+
+# Edge functions.
+
+
+def test_edge_functions_say_where_a_pixel_is() -> None:
+    a, b, c = Corner(1, 1, 0.5), Corner(9, 2, 0.25), Corner(3, 8, 1.0)
+    area = edge(a, b, c)
+    assert area == edge(b, c, a) == edge(c, a, b) == 8 * 7 - 1 * 2
+    assert edge(b, a, c) == -area  # the other winding
+    for p in np.random.default_rng(2).uniform(-50, 50, (200, 2)).tolist():
+        assert edge(a, b, p) == -edge(b, a, p)  # to the last bit
+    for p, inside in (((4, 3), True), ((8, 7), False), ((0.5, 0.5), False), ((1, 1), True)):
+        shares = edge(b, c, p) / area, edge(c, a, p) / area, edge(a, b, p) / area
+        assert sum(shares) == pytest.approx(1)
+        assert (min(shares) >= 0) == inside
+        place = np.array(shares) @ [corner[:2] for corner in (a, b, c)]
+        np.testing.assert_allclose(place, p)
+
+
+def test_no_pixel_is_lost_between_two_triangles() -> None:
+    """The diagonal of a square runs through the middles of pixels: one of the two takes each."""
+    model = Model(SQUARE)
+    for tilt in (0.0, 0.1, 1 / 3):
+        camera = replace(SQUARE_SEEN, v=(tilt, 1, 0))
+        for size in ((9, 9), (16, 16), (13, 7)):
+            canvas = rasterization(model, camera, size).array
+            assert not (canvas == (1.0, 0.0, 1.0)).all(axis=2).any()
+
+
+def test_the_box_of_a_triangle_is_its_corners() -> None:
+    size = (10, 8)
+    corners = Corner(1.6, 2.6, 1), Corner(4.4, 2.7, 1), Corner(2.5, 5.5, 1)
+    assert box_around(*corners, size) == (range(3, 6), range(2, 4))
+    beside = [corner._replace(x=corner.x + 20) for corner in corners]
+    assert box_around(*beside, size) == (range(0), range(0))
+    from_its_edge = Corner(0, 0, 1), Corner(4, 4, 1), Corner(8, 8, 1)
+    assert box_around(*from_its_edge, size) == (range(0), range(0))
+    point = Corner(2.5, 2.5, 1)
+    assert box_around(point, point, point, size) == (range(0), range(0))
+    for width, columns in ((1e-12, range(0)), (1e-9, range(9))):  # to its length
+        sliver = Corner(0, 0, 1), Corner(9, 8, 1), Corner(9, 8 + width, 1)
+        assert box_around(*sliver, size)[1] == columns
+    for x, y in ((3000, 0), (0, 3000)):  # to that, not to its place
+        sliver = Corner(x, y, 1), Corner(x + 9, y + 8, 1), Corner(x + 9, y + 8 + 1e-9, 1)
+        assert box_around(*sliver, (4000, 4000))[1] == range(x, x + 9)
+
+
+# Steps.
+
+
+def test_a_moment_knows_its_triangle_and_whether_the_pixel_is_inside() -> None:
+    run = recorded(TWO_BOXES, Order.RASTER)
+    tested = next(n for n, line in enumerate(run.source.lines) if "ec = edge" in line)
+    steps = [step + 1 for step, line in enumerate(run.lines.upto(len(run))) if line == tested]
+    seen = set()
+    for step in steps[:: max(1, len(steps) // 60)]:
+        now = moment_at(run, step)
+        assert now.triangle is not None and now.corners is not None and now.pixel is not None
+        assert now.object == now.triangle.object.number and now.ray is None
+        assert now.corners == project(now.triangle, run.camera, SIZE)
+        notes = {one.name: one.note for one in now.variables if one.note}
+        assert set(notes) == {"ea", "eb", "ec"}
+        inside = set(notes.values()) == {"inside"}
+        line = run.source.lines[moment_at(run, step + 1).line]
+        assert line.lstrip().startswith("z = ") == inside
+        seen.add(inside)
+    assert seen == {True, False}
+    assert moment_at(run, int(run.object_steps[0])).corners is None
+
+
+def test_a_pixel_on_an_edge_is_inside_and_its_test_gives_the_t_that_is_written() -> None:
+    twice_as_far = replace(SQUARE_SEEN, eye=(0, 0, 1), viewport=(-0.2, 0.2, -0.2, 0.2))
+    run = recorded(SQUARE, Order.RASTER, twice_as_far, (9, 9))
+    inside = run.source.lines.index(next(one for one in run.source.lines if " z = " in one))
+    assert (run.lines.upto(len(run)) == inside).sum() > 81
+    t = run.values["t"][1]
+    written = run.depth_t.upto(len(run.depth_t))
+    assert len(written) == 81 and np.isin(written, t).all()
+
+
+def test_the_turns_are_those_of_the_triangles_and_of_their_boxes_pixels() -> None:
+    run = recorded(TWO_BOXES, Order.RASTER)
+    counted = 0
+    for triangle in triangles(run.model, run.camera):
+        rows, columns = box_around(*project(triangle, run.camera, SIZE), SIZE)
+        counted += len(rows) * len(columns)
+    assert len(run.pixel_steps) == counted > len(run.write_steps) > 0
+    begun = run.object_steps.upto(len(run.object_steps))
+    turns = [moment_at(run, int(step)).triangle.primitive for step in begun]
+    assert turns == list(range(24))
+    assert stepper.next_object(run, int(begun[3])) == int(begun[4])
+
+
+def test_whole_numbers_within():
+    assert whole_within(1.0, 3.0, 9) == range(1, 4)
+    assert whole_within(1 + 9e-7, 3 - 9e-7, 9) == range(1, 4), "but for rounding"
+    assert whole_within(1 + 1.1e-6, 3 - 1.1e-6, 9) == range(2, 3)
+    assert whole_within(-math.inf, math.inf, 5) == whole_within(-0.1, 4.1, 5) == range(5)
+    assert whole_within(0.5, 3.5, 5) == range(1, 4)
+    for low, high in ((3.2, 3.8), (-9.0, -0.5), (4.5, 9.0), (math.inf, -math.inf)):
+        assert len(whole_within(low, high, 5)) == 0

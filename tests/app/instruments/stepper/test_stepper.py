@@ -1,0 +1,201 @@
+"""The loop stepper: two algorithms, one image, the fast renderers'; and every step of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, last, recorded
+
+from lucida.app.instruments.stepper import model as stepper
+from lucida.app.instruments.stepper.loop_parts import MISS, Hit, Model, ViewingRay
+from lucida.app.instruments.stepper.loops import image_order, rasterization
+from lucida.app.instruments.stepper.model import moment_at
+from lucida.app.instruments.stepper.raster_parts import Corner, triangles
+from lucida.app.instruments.stepper.recording import Order
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.compare.raster_and_ray import compare_frames
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.images.frame import CHANNELS
+from lucida.renderer.scene.model import Material, Scene, SceneObject
+from lucida.renderer.trace import Tracer
+
+# One image, proved against the fast renderers.
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_all_loops_end_in_the_renderers_image(name: str, rasterizer) -> None:
+    scene = load_scene(name)
+    model = Model(scene)
+    own, *others = cameras(scene, np.random.default_rng(7))
+    mirrored = [replace(one, u=tuple(-x for x in one.u)) for one in (own, others[0])]  # wound back
+    rasterizer.set_scene(scene)
+    hits = 0
+    with Tracer(scene) as tracer, Tracer(scene, method="reference") as reference:
+        for number, camera in enumerate((own, *others, *mirrored)):
+            by_triangles, by_image = (
+                run(model, camera, SIZE).array for run in (rasterization, image_order)
+            )
+            exact = reference.render(camera, SIZE, channels=CHANNELS)
+            np.testing.assert_allclose(by_image, exact.color, rtol=1e-6, atol=1e-7)
+            if camera not in (own, mirrored[0]):
+                # No centre lies on an edge, or on the line of a checker, where rounding decides.
+                np.testing.assert_allclose(by_triangles, by_image, atol=1e-9, err_msg=number)
+            # The loops' colours with the other channels of the same rays: agreement is 2/255, or
+            # a line of the image within 1/128 pixel.
+            fast = [one.render(camera, SIZE, channels=CHANNELS) for one in (rasterizer, tracer)]
+            for color, frames in ((by_image, fast), (by_triangles, (exact, *fast))):
+                ours = replace(exact, color=color.astype(np.float32))
+                for frame in frames:
+                    result = compare_frames(model.flat, camera, SIZE, frame, ours)
+                    assert result.unexplained == 0, result.summary()
+                    assert result.agree > 0.95 * result.pixels, result.summary()
+                    assert result.max_color_error <= 2 / 255
+            hits += int((exact.id >= 0).sum())
+    assert hits > 300
+
+
+# The code on the screen is the code that runs.
+
+
+@pytest.mark.parametrize("order", Order)
+def test_lines_are_run_in_the_loops_order(order: Order) -> None:
+    run = recorded(SCENES[order], order, size=(4, 3))
+    source = run.source
+    lines = [moment_at(run, step).line for step in range(len(run))]
+    assert lines[0] == 1 and source.lines[lines[-1]] == "    return canvas"
+    assert set(lines) == set(range(1, len(source.lines)))
+    outer, inner = source.pixels, source.objects
+    if order is Order.RASTER:
+        outer, inner = inner, outer
+    assert source.lines[outer.header].startswith("    ") and outer.runs(inner.header)
+    assert not inner.runs(outer.header)
+
+
+# Steps.
+
+
+@pytest.mark.parametrize("order", Order)
+def test_of_two_things_in_one_place_the_first_is_seen(order: Order) -> None:
+    for place in (TWO_BALLS.objects[0].shape, TWO_BOXES.objects[0].shape):
+        colors = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+        objects = tuple(SceneObject(place, Material(color)) for color in colors)
+        run = recorded(Scene(objects, TWO_BALLS.lights), order, size=(6, 5))
+        red, green, _ = last(run).canvas.reshape(-1, 3).T
+        assert red.any() and not green.any()
+
+
+@pytest.mark.parametrize("order", Order)
+def test_every_moment_follows_from_the_one_before(order: Order) -> None:
+    """The canvas and the depth buffer change by what the line before says."""
+    run = recorded(SCENES[order], order, size=(6, 5))
+    before = moment_at(run, 0)
+    for step in range(1, len(run)):
+        now = moment_at(run, step)
+        assert now.step == step
+        if run.source.lines[before.line].lstrip().startswith("canvas[i, j]"):
+            assert before.pixel is not None
+            expected = before.canvas.copy()
+            expected[before.pixel] = now.canvas[before.pixel]
+            assert np.array_equal(now.canvas, expected, equal_nan=True)
+            assert np.isfinite(now.canvas[before.pixel]).all()
+        elif before.line > 4:
+            assert np.array_equal(now.canvas, before.canvas, equal_nan=True)
+        if now.depth is not None and before.depth is not None:
+            deeper = now.depth != before.depth
+            assert deeper.sum() == run.source.lines[before.line].lstrip().startswith("depth[i, j]")
+            assert (now.depth <= before.depth).all()
+        before = now
+    assert before.finished
+    assert not moment_at(run, len(run) - 2).finished
+    assert moment_at(run, -5).step == 0 and moment_at(run, 10**9).step == len(run) - 1
+
+
+def test_what_is_not_yet_set_shows() -> None:
+    """Image order has no background until the ray has been found to hit nothing."""
+    by_image, by_object = (recorded(SCENES[order], order) for order in (Order.IMAGE, Order.RASTER))
+    halfway = moment_at(by_image, len(by_image) // 2)
+    unset = np.isnan(halfway.canvas).all(axis=2).ravel()
+    assert np.array_equal(unset, np.arange(300) >= by_image.write_steps.count_upto(halfway.step))
+    assert halfway.depth is None
+    cleared = moment_at(by_object, by_object.object_steps[0])
+    assert (cleared.canvas == (0.25, 0.5, 0.75)).all()
+    assert cleared.depth is not None and (cleared.depth == math.inf).all()
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_variables_are_the_lectures(projection: str) -> None:
+    """u = (j - 0.5) / W - 0.5, v = -((i - 0.5) / H - 0.5) with 1-based i, j; the ray from them."""
+    camera = Camera(projection=projection)
+    run = recorded(TWO_BALLS, Order.IMAGE, camera)
+    checked = 0
+    for step in range(0, len(run), 7):
+        now = moment_at(run, step)
+        if now.ray is None:
+            continue
+        assert now.pixel is not None
+        i, j = now.pixel[0] + 1, now.pixel[1] + 1
+        u, v = (j - 0.5) / 20 - 0.5, -((i - 0.5) / 15 - 0.5)
+        texts = {variable.name: variable.text for variable in now.variables}
+        assert (texts["i"], texts["j"]) == (str(i - 1), str(j - 1))
+        assert float(texts["x"]) == pytest.approx(u, abs=6e-5)
+        assert float(texts["y"]) == pytest.approx(v, abs=6e-5)
+        if projection == "parallel":
+            assert now.ray.origin == pytest.approx((u, v, 0))
+            assert now.ray.direction == pytest.approx((0, 0, -1))
+        else:
+            assert now.ray.origin == (0, 0, 0)
+            assert now.ray.direction == pytest.approx((u, v, -1))
+        checked += 1
+    assert checked > 30
+
+
+def test_the_ray_s_closest_hit_so_far() -> None:
+    run = recorded(TWO_BALLS, Order.IMAGE)
+    turn = next(s for s in run.pixel_steps.upto(300) if moment_at(run, s).pixel == (7, 10))
+    turns = run.object_steps.upto(len(run.object_steps))
+    first = turns[turns > turn][:2]
+    assert moment_at(run, turn).t == moment_at(run, first[0]).t == math.inf
+    far = moment_at(run, first[1]).t
+    assert moment_at(run, first[1] + 3).t < far < math.inf
+
+
+# Ways to go on.
+
+
+def test_going_to_the_next_pixel_and_object() -> None:
+    run = recorded(TWO_BALLS, Order.IMAGE, size=(4, 3))
+    step, visited = 0, []
+    while (following := stepper.next_pixel(run, step)) < len(run) - 1:
+        step = following
+        visited.append(moment_at(run, step).pixel)
+    assert visited == [(i, j) for i in range(3) for j in range(4)]
+    objects = []
+    step = 0
+    for _ in range(4):
+        step = stepper.next_object(run, step)
+        objects.append((moment_at(run, step).pixel, moment_at(run, step).object))
+    assert objects == [((0, 0), 0), ((0, 0), 1), ((0, 1), 0), ((0, 1), 1)]
+
+
+def test_values_are_told_in_a_few_characters() -> None:
+    model = Model(TWO_BOXES)
+    (_, near), piece = model.objects, next(triangles(model, Camera.canonical()))
+    ray = ViewingRay((0.0, 0.0, 0.0), (0.125, 0.5, -1.0), 0.0, math.inf)
+    for value, text in (
+        (range(3, 7), "3 to 6"),
+        (range(0), "none"),
+        (near, "near"),
+        (piece, f"far, number {piece.primitive}"),
+        (replace(piece, shares=piece.shares[::-1]), f"far, number {piece.primitive}, clipped"),
+        (Corner(3.14159, 12.5, 0.25), "(3.14, 12.50), z = 0.2500"),
+        ((2.0, 13.5), "(2, 13.5)"),
+        (ray, "(0.0000, 0.0000, 0.0000) + t (0.1250, 0.5000, -1.0000)"),
+        (MISS, "miss, t = inf"),
+        (Hit(2.5, near, 12), "t = 2.5000, near"),
+        (0.5, "0.5000"),
+        (3, "3"),
+    ):
+        assert stepper.describe(value) == text

@@ -1,0 +1,53 @@
+"""A step's state, and its mark, do not depend on what was there before."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from both_lectures import both_lectures
+from option_changes import with_options
+
+from lucida.app.images.marking import followed
+from lucida.app.lecture.step_options import OWN, state_of
+from lucida.app.state.app_state import AppState
+from lucida.renderer.files import load_scene
+
+LECTURE = both_lectures()
+
+
+def spoiled(state: AppState) -> AppState:
+    """Return a state as a user may have changed it."""
+    changed = with_options(
+        state,
+        marked=(1, 2),
+        shadows=not state.options.shadows,
+        images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
+        outside={"bundle": (2, 2), "volume": False, "camera": state.camera},
+        stepper={"steps": (3, 3), "canvas": (4, 3)},
+        laboratory={"page": "array", "progress": 3.0},
+    )
+    return changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))).with_fit(False)
+
+
+@pytest.mark.parametrize("number", range(len(LECTURE.steps)))
+def test_a_steps_state_does_not_depend_on_the_way(number):
+    step = LECTURE.steps[number]
+    begun = AppState.for_scene(load_scene("spheres"))
+    own = state_of(step, begun)
+    for before in LECTURE.steps:
+        came = state_of(before, begun)
+        assert state_of(step, came) == own
+        assert state_of(step, spoiled(came)) == own
+    user = with_options(begun, preferences={"theme": "light", "font_scale": 1.5})
+    kept = {name: getattr(user.options, name) for name in OWN}
+    assert state_of(step, user) == replace(own, options=replace(own.options, **kept))
+
+
+def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
+    view = load_scene("spheres").view
+    now, anchor = followed((19, 40), None, None, view, (30, 20))
+    assert now == (19, 29)
+    assert anchor is not None and anchor.pixel == (19, 40)  # which is the step's own
+    again, same = followed(now, (30, 20), anchor, view, (30, 20))
+    assert (again, same) == (now, anchor)

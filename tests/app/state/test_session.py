@@ -1,0 +1,221 @@
+"""Sessions as text: what was open comes back; what no window can have left is refused."""
+
+from __future__ import annotations
+
+import functools
+import json
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from option_changes import with_options
+
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Bookmark
+from lucida.app.state.session import (
+    LARGEST_BYTES,
+    NEAREST,
+    VERSION,
+    Arrangement,
+    NewerVersionError,
+    from_bytes,
+    session_of,
+    to_bytes,
+)
+from lucida.app.ui.layout import CHOICES
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.scene import View
+from lucida.renderer.system.errors import LucidaError
+
+ARRANGEMENT = Arrangement(
+    "Compare",
+    ("Camera", "Raster"),
+    "[Window][Camera]\nPos=0,24\n",
+    {"Camera": ("Look at",)},
+    parts={"Lecture/RightSpace": 0.36},
+)
+
+
+def damaged(data: bytes, **changes: object) -> bytes:
+    """A session with other values: section__field=value."""
+    table = json.loads(data)
+    for path, value in changes.items():
+        *parents, last = path.split("__")
+        part = table
+        for name in parents:
+            part = part[name]
+        part[last] = value
+    return json.dumps(table).encode()
+
+
+def test_a_session_comes_back_as_it_was(state, scene):
+    session = session_of(state, ARRANGEMENT)
+    assert session.scene == "spheres"
+    read = from_bytes(to_bytes(session))
+    assert read == session
+    assert read.state(scene) == state
+    assert read.arrangement == ARRANGEMENT
+
+
+def test_a_lens_comes_back_and_a_damaged_one_is_refused(state):
+    camera = replace(state.camera, projection="perspective", lens=Lens("brown", {"k1": -0.2}))
+    data = to_bytes(session_of(state.with_camera(camera), ARRANGEMENT))
+    assert from_bytes(data).view.camera == camera
+    with pytest.raises(LucidaError, match=r"lens\.model.*'fog' is unknown"):
+        from_bytes(data.replace(b'"brown"', b'"fog"'))
+
+
+@pytest.mark.parametrize(
+    ("old", "nearest"),
+    [("Presentation", "Side by side"), ("Scene", "Four views"), ("Laboratory", "Loops")],
+)
+def test_a_layout_that_left_is_the_nearest_one(state, old, nearest):
+    read = from_bytes(to_bytes(session_of(state, replace(ARRANGEMENT, layout=old)))).arrangement
+    assert read == replace(ARRANGEMENT, layout=nearest)
+    assert {one.name for one in CHOICES} >= set(NEAREST.values())
+
+
+@given(
+    eye=st.tuples(*[st.floats(-1e12, 1e12)] * 3),
+    distance=st.floats(1e-12, 1e12),
+    name=st.text(max_size=30),
+)
+def test_numbers_and_names_are_kept_exactly(eye, distance, name):
+    view = View(Camera(eye, distance=distance))
+    state = AppState.for_scene(load_scene("spheres"), view)
+    state = with_options(state, bookmarks=(Bookmark(5, name, view),))
+    # JSON is UTF-8: a lone surrogate, which no widget gives, cannot be in it.
+    if name.isprintable():
+        assert from_bytes(to_bytes(session_of(state, Arrangement()))).view == view
+
+
+def test_of_a_scene_from_no_file_the_first_built_in_one_is_kept(scene, tmp_path):
+    (tmp_path / "scene.toml").write_text('[[objects]]\ntype = "sphere"\n')
+    for origin, kept in (
+        (None, BUILTIN_SCENES[0]),
+        (replace(scene.origin, source=""), BUILTIN_SCENES[0]),
+        (load_scene(tmp_path / "scene.toml").origin, str(tmp_path / "scene.toml")),
+    ):
+        state = AppState.for_scene(replace(scene, origin=origin))
+        assert session_of(state, Arrangement()).scene == kept
+
+
+def test_a_session_of_the_largest_size_is_read_and_a_larger_one_refused(state):
+    data = to_bytes(session_of(state, ARRANGEMENT))
+    assert from_bytes(data.ljust(LARGEST_BYTES)) == from_bytes(data)
+    with pytest.raises(LucidaError, match="more than a session has"):
+        from_bytes(data.ljust(LARGEST_BYTES + 1))
+
+
+def test_options_keep_their_places_in_the_file(state):
+    """Shared ones and the instruments' side by side: sessions of other versions are read."""
+    options = json.loads(to_bytes(session_of(state, ARRANGEMENT)))["options"]
+    names = "images preferences marked shadows mirrors one_based language bookmarks"
+    rooms = "compare outside probe stepper costs laboratory"
+    assert set(options) >= {*names.split(), *rooms.split(), "presets_in_perspective"}
+    assert options["stepper"]["canvas"] == [16, 12] and options["outside"]["bundle"] == [3, 4]
+
+
+def test_what_an_older_session_lacks_has_its_default(state):
+    data = to_bytes(session_of(state, ARRANGEMENT))
+    table = json.loads(data)
+    del table["options"]["compare"], table["arrangement"], table["options"]["images"]["pixel_size"]
+    read = from_bytes(json.dumps(table).encode())
+    assert read.options.images.pixel_size == 1
+    assert read.options.images.exposure_ev == 1.5
+    assert read.arrangement == Arrangement()
+    del table["keep_orthonormal"]
+    assert from_bytes(json.dumps(table).encode()).keep_orthonormal
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\x00\xff\xfe",
+        b"{",
+        b"[]",
+        b"null",
+        b'{"lucida_session": true}',
+        b'{"lucida_session": "1"}',
+        b'{"lucida_session": 0}',
+        b'{"lucida_session": 1}',
+        b"[" * 100_000,
+        b'{"lucida_session": 1, "scene": ' + b"9" * 10_000 + b"}",
+        b" " * (LARGEST_BYTES + 1),
+    ],
+)
+def test_what_is_no_session_is_one_clear_error(content):
+    with pytest.raises(LucidaError) as caught:
+        from_bytes(content, "session-1.json")
+    assert str(caught.value).startswith("session-1.json: ")
+    assert len(str(caught.value)) < 300
+
+
+def leaves(table, path=()):
+    """The paths of all numbers in a table."""
+    if isinstance(table, dict | list):
+        for key, part in table.items() if isinstance(table, dict) else enumerate(table):
+            yield from leaves(part, (*path, key))
+    elif isinstance(table, int | float) and not isinstance(table, bool):
+        yield path
+
+
+@pytest.mark.parametrize("number", ["9" * 400, "-" + "9" * 400, "9" * 5000, str(2**64), "1e400"])
+def test_no_number_is_too_large_to_be_refused(state, number):
+    """Wherever it stands, it is a session or one clear error, which sets the file aside."""
+    table = json.loads(to_bytes(session_of(state, ARRANGEMENT)))
+    refused = []
+    for path in leaves(table):
+        *parents, last = path
+        part = functools.reduce(lambda part, key: part[key], parents, table)
+        before, part[last] = part[last], "@"
+        data = json.dumps(table).replace('"@"', number).encode()
+        part[last] = before
+        try:
+            from_bytes(data)
+        except LucidaError as error:
+            refused.append(str(error))
+    assert len(refused) > 50
+    assert max(map(len, refused)) < 300
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"view__camera__distance": 0},
+        {"view__camera__eye": [1, 2]},
+        {"view__camera__eye": [1e300, 0, 0]},
+        {"view__camera__projection": "fisheye"},
+        {"options__images__channel": "smell"},
+        {"options__preferences__font_scale": 0},
+        {"options__preferences__theme": "pink"},
+        {"options__marked": [-1, 0]},
+        {"options__bookmarks": [{"number": 0, "name": "", "view": {"camera": {}}}]},
+        {"options__bookmarks": [{"number": 1, "name": 5, "view": {"camera": {}}}]},
+        {"options": []},
+        {"scene": 3},
+        {"arrangement__visible": "Camera"},
+    ],
+)
+def test_values_that_no_window_can_have_left_are_refused(state, changes):
+    data = to_bytes(session_of(state, ARRANGEMENT))
+    assert from_bytes(damaged(data)) == session_of(state, ARRANGEMENT)
+    with pytest.raises(LucidaError, match="Lucida starts afresh"):
+        from_bytes(damaged(data, **changes))
+
+
+@pytest.mark.parametrize("version", [0, -1, True, 1.0, "1", None])
+def test_a_version_that_never_was_is_no_session(state, version):
+    data = damaged(to_bytes(session_of(state, ARRANGEMENT)), lucida_session=version)
+    with pytest.raises(LucidaError, match="this is no session"):
+        from_bytes(data)
+
+
+def test_a_newer_session_is_refused_as_such(state):
+    data = damaged(to_bytes(session_of(state, ARRANGEMENT)), lucida_session=VERSION + 1)
+    with pytest.raises(NewerVersionError, match="update Lucida"):
+        from_bytes(data)

@@ -1,0 +1,122 @@
+"""The stepper's loops: in all languages they draw the same."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from option_changes import with_options
+
+from lucida.app.instruments.stepper import loop_parts, raster_parts
+from lucida.app.instruments.stepper.loop_parts import Model
+from lucida.app.instruments.stepper.recording import Order
+from lucida.app.instruments.stepper.source import shown_lines, source_of
+from lucida.app.lecture.reading import BUILTIN, load_lecture
+from lucida.app.lecture.step_options import state_of
+from lucida.app.state.app_state import AppState
+from lucida.app.ui.explaining.languages import julia
+from lucida.app.ui.explaining.symbols import TABLE
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.files import load_scene
+
+# The stepper's loops.
+
+
+def loops_read_back(lines: tuple[str, ...]) -> str:
+    """Julia's loops as Python: the indents are there already."""
+    text = []
+    for line in lines:
+        if line.strip() == "end":
+            continue
+        line = re.sub(r"\b1:(\w+)$", r"range(1, \1 + 1)", line)
+        line = re.sub(r"\b0:(\w+) - 1$", r"range(\1)", line)
+        line = line.replace("&&", "and").replace("||", "or").replace("function ", "def ")
+        opens = line.strip().startswith(("def ", "for ", "if ", "while ", "else"))
+        text.append(line + ":" if opens else line)
+    return "\n".join(text)
+
+
+class FromOne:
+    """A canvas or a depth buffer whose rows and columns are counted from 1."""
+
+    def __init__(self, made: Any) -> None:
+        self.made = made
+
+    def __getitem__(self, pixel: tuple[int, int]) -> Any:
+        assert min(pixel) >= 1
+        return self.made[pixel[0] - 1, pixel[1] - 1]
+
+    def __setitem__(self, pixel: tuple[int, int], value: Any) -> None:
+        assert min(pixel) >= 1
+        self.made[pixel[0] - 1, pixel[1] - 1] = value
+
+
+def counted_from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
+    return tuple(range(one.start + 1, one.stop + 1) for one in ranges)
+
+
+def test_the_loops_have_symbols_of_one_notation():
+    for order in Order:
+        lines = source_of(order.renderer).lines
+        book, code = (
+            set(re.findall(r"(?<![\w.])[A-Za-z]\w*", "\n".join(shown_lines(lines, notation))))
+            for notation in ("book", "code")
+        )
+        letters, words = ({getattr(one, name) for one in TABLE} for name in ("letter", "code"))
+        assert not book & (words - letters - set("uvw")) and not code & (letters - words)
+
+
+@pytest.mark.parametrize("notation", ["book", "code"])
+@pytest.mark.parametrize("indexing", list(Indexing))
+@pytest.mark.parametrize("language", ["python", "julia"])
+@pytest.mark.parametrize("order", list(Order))
+def test_the_loops_draw_the_same_however_they_are_shown(order, language, indexing, notation):
+    lines = source_of(order.renderer).lines
+    if language == "python":
+        text = "\n".join(shown_lines(lines, notation, indexing))
+    else:
+        shown = "\n".join(shown_lines(lines, notation))
+        text = loops_read_back(julia.loops(shown, indexing).lines)
+    from_one = counted_from_one if indexing is Indexing.LECTURE else tuple
+    array = FromOne if language == "julia" else lambda made: made
+    names = {name: getattr(raster_parts, name) for name in dir(raster_parts)}
+    names |= {name: getattr(loop_parts, name) for name in dir(loop_parts)}
+    names |= {
+        "prepared": lambda *given: tuple(map(array, raster_parts.prepared(*given))),
+        "box_around": lambda *given: from_one(raster_parts.box_around(*given)),
+        "Canvas": lambda *given: array(loop_parts.Canvas(*given)),
+        "DepthBuffer": lambda size: array(loop_parts.DepthBuffer(size)),
+    }
+    exec(compile(text, language, "exec"), names)
+    scene = load_scene("canonical")
+    model, size = Model(scene), (12, 9)
+    camera = scene.view.for_size(size)
+    drawn = names[order.renderer.__name__](model, camera, size)
+    told = order.renderer(model, camera, size)
+    np.testing.assert_array_equal(getattr(drawn, "made", drawn).array, told.array)
+
+
+@pytest.mark.parametrize("order", list(Order))
+def test_every_line_has_its_line_in_julia(order):
+    lines = source_of(order.renderer).lines
+    written = julia.loops("\n".join(lines))
+    assert len(written.line_of) == len(lines)
+    ends = [line for line in written.lines if line.strip() == "end"]
+    blocks = sum(line.rstrip().endswith(":") for line in lines)
+    assert len(ends) == blocks and len(written.lines) == len(lines) + blocks
+    for line, number in zip(lines, written.line_of, strict=True):
+        twin = written.lines[number]
+        assert len(twin) - len(twin.lstrip()) == len(line) - len(line.lstrip())
+        kept = set(re.findall(r"\w+", line)) - {"def", "range", "0", "5"}
+        assert kept <= set(re.findall(r"\w+", twin)), (line, twin)
+    assert "j - 0.5" in "".join(written.lines) and "j + 0.5" in "".join(lines)
+
+
+def test_the_language_stays_from_step_to_step():
+    lecture = load_lecture(BUILTIN)
+    step = lecture.steps[3]
+    base = with_options(AppState.for_scene(step.scene), language="julia", shadows=True)
+    options = state_of(step, base).options
+    assert options.language == "julia" and not options.shadows

@@ -1,0 +1,490 @@
+"""A lecture as a page, in a browser: verdicts, keys, answers, prints; hostile texts; axe."""
+
+from __future__ import annotations
+
+import random
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from both_lectures import both_lectures
+from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
+
+from lucida.app.checking.results.reading import read_answers
+from lucida.app.cli import main
+from lucida.app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
+from lucida.app.lecture.hidden_pixels import ids_seen
+from lucida.app.lecture.hiding import HideExercise
+from lucida.app.lecture.reading import lecture_from_toml
+from lucida.app.lecture.text import parse
+from lucida.app.web.bundle import bundle
+from lucida.app.web.lecture import exercises, pdf
+from lucida.app.web.lecture.mathml import inline
+from lucida.app.web.lecture.page import Still, page
+from lucida.app.web.lecture.text import blocks_html
+from lucida.app.web.scene_page import packed_scene
+from lucida.renderer.editing.moving import transform
+from tests.support.browser import chromium
+
+AXE = Path(__file__).parents[3] / "page/node_modules/axe-core/axe.min.js"
+ODD = (
+    *("0", "1", "-1", "1/8", "sqrt(2)/2", "1/0", "abc", "", "2**3", "1e400", "pi", "0x10"),
+    *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
+    *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
+)
+ANSWERS, PLACES = 250, 12  # of each exercise
+TITLES = (  # of steps with one of everything
+    "Where do viewing rays come from?", "Raster images", "Parallel projection", "Ray tracing",
+    "Exercise: hide the box", "From pixel to (u, v)", "One pixel, worked out",
+    "Exercise: any camera's ray", "The camera as K", "Exercise: which lens?",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def lecture():
+    return both_lectures()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def written(lecture, tmp_path_factory):
+    """Some steps of the built-in lecture as a page, with pictures of one colour."""
+    import dataclasses
+
+    builds = [
+        dataclasses.replace(one, number=number)
+        for number, title in enumerate(TITLES)
+        for one in lecture.builds
+        if one.title == title
+    ]
+    some = dataclasses.replace(lecture, builds=tuple(builds))
+    gray = np.full((30, 40, 3), 128, np.uint8)
+    stills = [[Still(step.views[0], gray, dark=gray)] for step in some.builds]
+    path = tmp_path_factory.mktemp("page") / "lecture.html"
+    path.write_text(page(some, stills), encoding="utf-8")
+    return path, some
+
+
+@pytest.fixture
+def opened(browser, written):
+    """The page in a browser; what goes wrong there fails the test."""
+    said = []
+    tab = browser.new_page(
+        viewport={"width": 1280, "height": 720}, has_touch=True, reduced_motion="reduce"
+    )
+    tab.on("console", lambda message: message.type == "error" and said.append(message.text))
+    tab.on("pageerror", lambda error: said.append(str(error)))
+    tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
+    tab.goto(written[0].as_uri())
+    yield tab
+    tab.close()
+    assert said == []
+
+
+def _is_remote(url: str) -> bool:
+    return not url.startswith(("file:", "data:", "blob:"))
+
+
+def _typed(rng: random.Random, value: float) -> str:
+    forms = (repr(value), f"{value:.3g}", f"({value!r})", f"{8 * value!r}/8", f"-({-value!r})")
+    return rng.choice(ODD) if rng.random() < 0.05 else rng.choice(forms)
+
+
+def _vector(rng: random.Random, values) -> str:
+    form = rng.choice(("({}, {}, {})", "{},{},{}", "{};{};{}", "[{}, {}, {}]", "{}  {} {}"))
+    return form.format(*(_typed(rng, float(value)) for value in np.nan_to_num(values)))
+
+
+def _answers(rng: random.Random, task) -> dict[str, str]:
+    """Return what a student may type: right, a classic mistake, longer, backwards, off by a bit."""
+
+    def near(values):
+        factor, error = rng.choice((1, 1, 1, 2, -1, 0.5)), rng.choice((0, 0, 1e-4, 3e-3, 0.1))
+        return [factor * value + rng.gauss(0, error) for value in values]
+
+    if isinstance(task, RayExercise):
+        rays = [task.camera.ray(*task.pixel, task.size), *(ray for _, ray in task.wrong_rays())]
+        origin, direction = rng.choice(rays).origin, rng.choice(rays).direction
+        return {"origin": _vector(rng, origin), "direction": _vector(rng, near(direction))}
+    given = {}
+    for wanted in task.answers:
+        values = [wanted.value] * 3 + [one.value for one in wanted.wrong]
+        given[wanted.name] = _vector(rng, near(rng.choice(values)))
+    return given
+
+
+def test_a_thousand_answers_have_the_programs_verdicts(browser, lecture):
+    rng, cases, verdicts, tasks = random.Random(11), [], [], {}
+    for step in lecture.builds:
+        if isinstance(step.exercise, RayExercise | VectorExercise):
+            tasks[step.title] = exercises.data_of(step, "", (160, 120))
+            given = [_answers(rng, step.exercise) for _ in range(ANSWERS)]
+            cases += [(step.title, texts) for texts in given]
+            verdicts += [list(step.exercise.check(texts)) for texts in given]
+    tab = browser.new_page()
+    script = (
+        "([tasks, cases]) => {" + bundle("verdict.js") + "; return cases.map(([name, texts]) => {"
+        "const v = checkTexts(tasks[name], texts);"
+        "return [v.right, v.text, v.field, v.mistake, v.read, v.isAnswer]; }); }"
+    )
+    found = tab.evaluate(script, [tasks, cases])
+    tab.close()
+    wrong = [(case, ours, theirs) for case, ours, theirs in zip(cases, verdicts, found, strict=True)
+             if ours != theirs]  # fmt: skip
+    assert wrong == []
+    assert len(tasks) == 4
+    assert {(right, is_answer) for right, *_, is_answer in found} == {
+        (True, True), (False, True), (False, False)
+    }  # fmt: skip
+
+
+def test_places_have_the_programs_verdicts(browser, lecture):
+    step = next(one for one in lecture.builds if isinstance(one.exercise, HideExercise))
+    task, rng, size = step.exercise, np.random.default_rng(5), (160, 120)
+    start = task.middle(task.moved)
+    eye = np.asarray(task.view.camera.eye)
+    toward = eye + rng.uniform(0.1, 1.2, (PLACES, 1)) * (task.middle(task.hidden) - eye)
+    places = [task.answer, start, eye, *(toward + rng.normal(0, 0.15, (PLACES, 3)))]
+    camera = task.view.for_size(size)
+    alone = task.pixels(task.without, ids_seen(task.without, camera, size))
+    expected = []
+    for where in places:
+        shift = np.eye(4)
+        shift[:3, 3] = where - start
+        moved = transform(task.scene, [task.item], shift)
+        judged = task.check(moved, ids_seen(moved, camera, size), alone)
+        expected.append([judged.right, judged.text])
+    script = (
+        "async ([data, packed, start, places]) => {"
+        + bundle("hiding.js")
+        + """
+        const scene = await unpackScene(packed);
+        return places.map((place) => {
+          const moved = movable(scene);
+          shiftObjects(moved, data.hiding.moved, minus(place, start));
+          const { right, text } = checkPlace(data.hiding, data.texts, moved, place);
+          return [right, text];
+        }); }"""
+    )
+    tab = browser.new_page()
+    given = [exercises.data_of(step, "", size), packed_scene(task.scene)]
+    found = tab.evaluate(script, [*given, start.tolist(), np.asarray(places).tolist()])
+    tab.close()
+    assert [pair for pair in zip(expected, found, strict=True) if pair[0] != pair[1]] == []
+    assert {right for right, _ in found} == {True, False}
+
+
+def test_a_choice_has_the_programs_verdicts(browser, lecture):
+    tab, count = browser.new_page(), 0
+    script = (
+        "([task, chosen]) => {" + bundle("verdict.js") + "; const v = checkOption(task, chosen);"
+        "return [v.right, v.text, v.field, v.mistake, v.read, v.isAnswer]; }"
+    )
+    for step in lecture.builds:
+        if isinstance(step.exercise, ChoiceExercise):
+            data = exercises.data_of(step, "", (160, 120))
+            for chosen in range(len(step.exercise.options)):
+                found = tab.evaluate(script, [data, chosen])
+                assert found == list(step.exercise.check(chosen))
+                count += 1
+    tab.close()
+    assert count
+
+
+def place(tab) -> str:
+    return tab.inner_text("#place")
+
+
+def go(tab, number: int) -> None:
+    tab.evaluate(f"location.hash = '#{number}'")
+    tab.get_by_text(f"{number} / {len(TITLES)}", exact=True).wait_for()
+
+
+def test_keys_walk_all_builds(opened, written):
+    _, some = written
+    presses = 0
+    while not opened.is_disabled("#next"):
+        opened.keyboard.press("ArrowRight")
+        presses += 1
+    assert place(opened) == f"{len(TITLES)} / {len(TITLES)}"
+    assert presses == len(some.builds) - 1
+    opened.keyboard.press("Home")
+    assert place(opened).startswith("1 /")
+    opened.keyboard.press("ArrowRight")
+    assert place(opened).startswith("1 /") and opened.url.endswith("#1.2")
+    opened.reload()
+    assert opened.locator(".step.current").get_attribute("id") == "1.2"
+    go(opened, 5)
+    opened.keyboard.press("o")
+    assert opened.locator("#overview a").count() == len(TITLES)
+    assert opened.evaluate("document.activeElement.getAttribute('href')") == "#5"
+    opened.locator("#overview a").nth(2).click()
+    opened.get_by_text(f"3 / {len(TITLES)}").wait_for()
+    opened.set_viewport_size({"width": 360, "height": 300})
+    opened.keyboard.press("o")
+    opened.keyboard.press("Enter")
+    opened.wait_for_timeout(200)
+    assert opened.evaluate("scrollY") == 0  # an address does not hide the bar
+
+
+def try_it(tab) -> None:
+    tab.locator(".current .try summary").click()
+
+
+@pytest.mark.parametrize("focused", ["canvas", "[role=slider]"])
+def test_a_remote_is_heard_wherever_the_focus_is(opened, focused):
+    opened.set_viewport_size({"width": 1280, "height": 2000})
+    try_it(opened)
+    part = opened.locator(f".current .lucida-figure {focused}").first
+    part.focus()
+    opened.keyboard.press(".")
+    assert opened.locator("body.blank").count() == 1
+    opened.keyboard.press("PageDown")  # it shows the screen again, and no more
+    assert opened.locator("body.blank").count() == 0
+    assert place(opened).startswith("1 /")
+    part.focus()
+    opened.keyboard.press("PageDown")
+    assert opened.url.endswith("#1.2")
+
+
+def test_swipes_and_typed_numbers_go_to_builds(opened):
+    opened.set_viewport_size({"width": 360, "height": 740})
+
+    finger = opened.context.new_cdp_session(opened)
+
+    def swipe(*way: tuple[int, int], to: str) -> None:
+        moves = [("touchMove", [one]) for one in way[1:]]
+        for kind, points in (("touchStart", way[:1]), *moves, ("touchEnd", ())):
+            touches = [{"x": x, "y": y} for x, y in points]
+            finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+        opened.locator(f".current[id='{to}']").wait_for()
+
+    swipe((300, 200), (200, 205), (100, 210), to="1.2")
+    swipe((200, 200), (190, 150), (180, 100), to="1.2")  # it scrolls
+    swipe((100, 200), (200, 205), (300, 210), to="1")
+    for key in "10":
+        opened.keyboard.press(key)
+    opened.keyboard.press("Enter")
+    assert place(opened) == "10 / 10"
+    opened.keyboard.press("7")
+    opened.keyboard.press("7")
+    opened.keyboard.press("Enter")
+    assert place(opened) == "10 / 10" and "no step 77" in opened.inner_text("#told")
+
+
+def test_a_cross_fade_ends_at_the_last_build_that_was_asked_for(browser, written):
+    tab, said = browser.new_page(reduced_motion="no-preference"), []
+    tab.on("pageerror", lambda error: said.append(str(error)))
+    tab.goto(written[0].as_uri())
+    for _ in range(4):
+        tab.keyboard.press("ArrowRight")
+    shown = written[1].builds[4]
+    tab.wait_for_function(
+        f"document.querySelector('.current').id === '{shown.number + 1}.{shown.build + 1}'"
+    )
+    tab.close()
+    assert said == []
+
+
+def test_notes_follow_in_a_window_of_their_own(opened, written):
+    with opened.expect_popup() as popup:
+        opened.keyboard.press("n")
+    notes = popup.value
+    notes.get_by_text("Next", exact=True).click()
+    notes.keyboard.press("End")
+    assert place(opened).startswith(f"{len(TITLES)} /")
+    last = written[1].steps[-1]
+    assert notes.inner_text("h2") == last.title
+
+
+def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
+    _, some = written
+    number = next(k for k, step in enumerate(some.steps) if isinstance(step.exercise, RayExercise))
+    step = some.steps[number]
+    opened.evaluate(f"location.hash = '#{number + 1}'")
+    opened.wait_for_function(
+        f"document.querySelector('#place').textContent.startsWith('{number + 1} /')"
+    )
+    ray = step.exercise.camera.ray(*step.exercise.pixel, step.exercise.size)
+    wrong = -np.asarray(ray.direction)
+    origin = np.asarray(ray.origin).tolist()
+    texts = {"origin": str(origin), "direction": str(wrong.tolist())}
+    current = opened.locator(".current form")
+    for name, text in texts.items():
+        current.locator(f"input[name='{name}']").fill(text)
+    current.locator("button", has_text="Check").click()
+    expected = step.exercise.check(texts)
+    assert not expected.right
+    assert current.locator(".reply").inner_text().removeprefix("\u2717").strip()
+    assert current.locator("svg path.given").count()
+    assert current.locator("input[name='direction']").get_attribute("aria-invalid") == "true"
+    opened.reload()
+    assert opened.locator(f"form[data-step='{number + 1}'] input").first.input_value()
+    opened.click("#open-answers")
+    opened.fill("#student", "Ada")
+    with opened.expect_download() as download:
+        opened.click("#save")
+    download.value.save_as(tmp_path / "answers.jsonl")
+    answers, problems = read_answers([tmp_path / "answers.jsonl"])
+    assert problems == []
+    assert [(one.student, one.step, one.right) for one in answers] == [("Ada", step.title, False)]
+    assert [mistake.name for mistake in answers[0].mistakes] == [expected.mistake]
+    assert main(["lecture", "--results", str(tmp_path / "answers.jsonl"),
+                 "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
+
+
+def test_handles_are_dragged_by_keys_and_mouse(opened, written):
+    def handle(name):
+        found = opened.locator(f".current .lucida-handles [aria-label='{name}']")
+        found.wait_for()
+        return found
+
+    try_it(opened)
+    handle("Eye along u").focus()
+    eye = opened.evaluate("lucida.camera.eye")
+    assert eye == list(written[1].steps[0].view.camera.eye)
+    opened.keyboard.press("ArrowRight")
+    moved = opened.evaluate("lucida.camera.eye")
+    assert np.dot(np.subtract(moved, eye), opened.evaluate("lucida.camera.u")) > 0
+    x, y = handle("Eye along v").evaluate(
+        "({firstChild: p}) => { const { x, y } = p.getPointAtLength(20)"
+        ".matrixTransform(p.getScreenCTM()); return [x, y]; }"
+    )
+    opened.mouse.move(x, y)
+    opened.mouse.down()
+    opened.mouse.move(x, y - 20)
+    opened.mouse.up()
+    dragged = np.subtract(opened.evaluate("lucida.camera.eye"), moved)
+    assert np.dot(dragged, opened.evaluate("lucida.camera.v")) > 0
+    assert place(opened).startswith("1 /")
+    opened.keyboard.press("PageDown")
+    try_it(opened)
+    handle("View direction").focus()
+    before = opened.evaluate("lucida.camera")
+    opened.keyboard.press("ArrowRight")
+    after = opened.evaluate("lucida.camera")
+    assert after["eye"] == before["eye"]
+    assert np.dot(after["w"], before["u"]) < 0  # w points back, so the view turns to the right
+    go(opened, 1 + TITLES.index("Exercise: hide the box"))
+    handle("ball along x").focus()
+    opened.keyboard.press("ArrowRight")
+    opened.get_by_text("of the box can still be seen").wait_for()
+
+
+def test_a_view_in_the_themes_colours_has_a_picture_of_each(opened):
+    for theme, is_dark in (("light", False), ("dark", True), ("contrast", True)):
+        opened.evaluate("theme => document.documentElement.dataset.theme = theme", theme)
+        shown = [image.is_visible() for image in opened.locator(".current .view img").all()]
+        assert shown == [not is_dark, is_dark]
+    opened.emulate_media(media="print")
+    assert not opened.locator(".view .dark:visible").count()
+
+
+def test_a_formula_keeps_only_the_stop_after_it():
+    html = blocks_html(parse("An image of $8$ pixels, from $0$."), "book")
+    assert [re.sub("<.*?>", "", part) for part in re.findall(r'kept">(.*?)</span>', html)] == ["0."]
+
+
+def test_hostile_texts_are_only_texts(browser, tmp_path):
+    hostile = hostile_lecture(tmp_path)
+    path = tmp_path / "hostile.html"
+    path.write_text(page(hostile, [()] * len(hostile.builds)), encoding="utf-8")
+    said = []
+    tab = browser.new_page()
+    tab.on("request", lambda request: said.append(request.url) if _is_remote(request.url) else None)
+    tab.on("console", lambda message: message.type == "error" and said.append(message.text))
+    tab.on("dialog", lambda dialog: said.append(dialog.message))
+    tab.goto(path.as_uri())
+    for field in tab.locator("form.exercise").all()[:: len(TEXTS) // 6]:
+        field.evaluate("form => { form.elements[0].value = '(0, 1, 0)'; form.requestSubmit(); }")
+    assert len(TEXTS) + len(FORMULAS) >= 60
+    assert tab.locator("section.step").count() == len(hostile.steps)
+    assert tab.evaluate("window.hurt") is None
+    assert tab.title() == hostile.title
+    assert tab.locator("script").count() == 2
+    strange = "iframe, object, embed, link, base, img, svg image, [onerror], [onload], [style]"
+    assert tab.locator(f".words :is({strange})").count() == 0
+    assert tab.locator(".words [href]").count() == 0
+    tab.close()
+    assert said == []
+
+
+@pytest.mark.parametrize("latex", FORMULAS)
+def test_a_formula_writes_known_elements_only(latex):
+    html = inline(latex)
+    assert not re.search(r"<(?!/?(?:math|m\w+|none|code)\b)", html)
+    assert not re.search(r"<[^>]*\b(?:href|style|id|on\w+|src|background)\s*=", html)
+
+
+def test_axe_finds_nothing(browser, written):
+    if not AXE.exists():
+        pytest.skip("no axe-core here: npm --prefix tests/app/web install")
+    tab = browser.new_context(bypass_csp=True).new_page()
+    tab.goto(written[0].as_uri())
+    tab.evaluate(AXE.read_text())
+    found = set()
+    for theme in ("dark", "light", "contrast"):
+        tab.evaluate("theme => document.documentElement.dataset.theme = theme", theme)
+        tab.keyboard.press("Home")
+        for _ in written[1].builds:
+            results = tab.evaluate("axe.run(document, {resultTypes: ['violations']})")
+            found.update(
+                (theme, one["id"], one["nodes"][0]["html"]) for one in results["violations"]
+            )
+            tab.keyboard.press("ArrowRight")
+    tab.context.close()
+    assert found == set()
+
+
+def test_a_phone_scrolls_in_one_direction(opened):
+    opened.set_viewport_size({"width": 360, "height": 740})
+    for _ in opened.locator("section.step").all():
+        wide = opened.evaluate("document.documentElement.scrollWidth")
+        assert wide <= 360, place(opened)
+        opened.keyboard.press("ArrowRight")
+
+
+@pytest.mark.parametrize("answers", [True, False])
+def test_a_print_has_a_page_for_each_picture(written, answers):
+    if shutil.which("chromium") is None:
+        pytest.skip("no chromium here: scripts/setup.sh tests installs it")
+    _, some = written
+    gray = np.full((300, 400, 3), 128, np.uint8)
+    html = page(some, [[Still(step.views[0], gray)] for step in some.builds], answers, True)
+    assert ("Show the solution" in html) == answers
+    printed = pdf.pdf(html, pdf.browser())
+    pages = len(re.findall(rb"/Type\s*/Page\b", printed))
+    assert pages == html.count("<section class") >= len(TITLES)
+
+
+def test_a_print_leaves_out_builds_on_the_way_to_the_next(tmp_path):
+    text = (
+        "title = 'L'\n[[steps]]\ntitle = 'T'\ntext = 'One.\\n> Why?'\n"
+        "[[steps.builds]]\ntext = 'Two.'\noptions.shadows = true\n"
+        "[[steps.builds]]\noptions.images.samples = 4\noptions.mirrors = true\n"
+        "[[steps.builds]]\ninstead = 'Three.'\n"
+    )
+    lecture = lecture_from_toml(
+        text.replace("'One.\\n> Why?'", '"One.\\n\\n> Why?"'), tmp_path, "x"
+    )
+    none = [()] * len(lecture.builds)
+    for answers, for_print, shown in (
+        (True, True, ["1.2", "1.3", "1.4"]), (True, False, ["1", "1.2", "1.3", "1.4"]),
+        (False, True, ["1"]),
+    ):  # fmt: skip
+        html = page(lecture, none, answers, for_print)
+        assert re.findall(r'<section [^>]*id="([\d.]+)"', html) == shown
+        assert (' passing"' in html) == (answers and not for_print)
+
+
+def test_no_browser_costs_one_line(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(pdf.shutil, "which", lambda name: None)
+    assert main(["lecture", "--export", str(tmp_path / "handout.pdf")]) == 2
+    assert "needs Chromium or Chrome" in capsys.readouterr().err

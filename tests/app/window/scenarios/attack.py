@@ -1,0 +1,90 @@
+"""Things that nobody does on purpose: windows without room, mistakes in a view, random events."""
+
+from __future__ import annotations
+
+import moderngl
+from imgui_bundle import imgui
+from option_changes import with_options
+from window_driver import SIZE, Driver
+
+from lucida.app.cameras.camera_panel.view import CAMERA
+from lucida.app.images.pair.view import RAY
+from lucida.app.ui import layout
+from lucida.app.window.platform import set_size
+
+PROJECTIONS = ("perspective", "parallel")
+
+
+def resize(d: Driver, size: tuple[int, int]) -> None:
+    """Resize the window, in its own thread, and wait until that is drawn."""
+    callbacks = d.run.params.callbacks
+
+    def once() -> None:
+        callbacks.post_new_frame = lambda: None
+        set_size(size)
+
+    callbacks.post_new_frame = once
+    d.until(lambda: tuple(imgui.get_io().display_size) == size)
+    d.ctx.yield_(2)
+
+
+def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
+    stage = d.window.shell.stage
+    for size, scale in (((640, 480), 3.0), ((200, 900), 2.0), ((1600, 120), 1.0), ((16, 16), 1.0)):
+        d.window.change(with_options(d.window.state, preferences={"font_scale": scale}))
+        resize(d, size)
+        for one in layout.LAYOUTS:
+            layout.switch(one.name)
+            d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
+            d.ctx.yield_(6)
+            assert not stage.failed.errors, (size, scale, one.name)
+        d.settle()
+    layout.switch(layout.LAYOUTS[0].name)
+    resize(d, SIZE)
+    d.window.change(d.start)
+    d.agreeing_images()
+
+
+def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
+    stage = d.window.shell.stage
+    view = stage.views[CAMERA]
+    for error in (None, moderngl.Error("GLSL: 0:1: syntax error")):
+
+        def fail(_: object, error: Exception | None = error) -> None:
+            imgui.begin_child("half drawn")
+            imgui.push_id("and more")
+            if error is not None:
+                raise error
+            imgui.push_font(None, 30.0)
+            imgui.push_font(None, -1.0)  # ImGui's assertions are exceptions
+
+        before = d.window.state
+        view.draw = fail  # type: ignore[method-assign]
+        d.until(lambda: CAMERA in stage.failed.errors)
+        d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+        assert d.window.state != before
+        del view.draw
+        d.ctx.item_click(f"//{CAMERA}/Try again")
+        d.until(lambda: not stage.failed.errors)
+    d.settle()
+
+
+def drive_the_projection_stays_legible_in_a_narrow_panel(d: Driver) -> None:
+    d.window.change(with_options(d.window.state, preferences={"font_scale": 3.0}))
+    resize(d, (640, 480))
+    boxes = [d.ctx.item_info(f"//{CAMERA}/{name}").rect_full for name in PROJECTIONS]
+    assert boxes[0].max.x <= boxes[1].min.x or boxes[0].max.y <= boxes[1].min.y
+    resize(d, SIZE)
+
+
+def drive_sizes_do_not_grow_with_every_change_of_the_type(d: Driver) -> None:
+    """Scaled again and again, ImGui's smallest window would be larger than the screen."""
+    style, sizes = imgui.get_style(), set()
+    for _ in range(4):
+        for theme, scale in (("light", 0.75), ("light", 2.0), ("dark", 3.0), ("dark", 1.0)):
+            looks = {"theme": theme, "font_scale": scale}
+            d.window.change(with_options(d.window.state, preferences=looks))
+            d.ctx.yield_(3)
+        sizes.add((style.window_min_size.x, style.grab_min_size, style.scrollbar_size))
+    assert len(sizes) == 1, sizes
+    assert d.window.renderers.size[1] < SIZE[1]

@@ -1,0 +1,236 @@
+"""Files and failures: dialogs, what is opened, what is broken, what takes long."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+from imgui_bundle import ImVec2, hello_imgui, imgui
+from option_changes import with_options
+from window_driver import PATIENT_S, Driver, Key, changed
+
+from lucida.app.ui import folders, messages
+from lucida.app.ui.folders import FolderContent
+from lucida.app.window.palette_entries import entries
+from lucida.app.window.viewer import IDLE_FPS, WAITING_FPS
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files import load_scene, save_view
+from lucida.renderer.files.export import export_scene
+
+CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+
+
+def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
+    window = d.window
+    window.open(str(d.folder / "missing.toml"))
+    d.until(lambda: bool(window.files.message))
+    assert "missing.toml" in window.files.message
+    assert window.state == d.start
+    d.ctx.yield_(3)
+    d.ctx.item_click("//##message/Close")
+    assert window.files.message == ""
+    os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
+    window.files.native = True
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
+    d.ctx.yield_(2)
+    os.environ["PATH"] = path
+    window.files.native = False
+    if sys.platform.startswith("linux"):
+        assert window.files.dialog.is_open  # the window's own
+        d.ctx.key_press(int(Key.escape))
+        d.ctx.yield_(2)
+    assert not window.files.dialog.is_open
+    broken = d.folder / "broken.obj"
+    broken.write_bytes(b"\x00\xff nothing of use")
+    d.drop([str(broken)])
+    d.until(lambda: "broken.obj" in window.files.message)
+    assert window.state == d.start
+    window.open("spheres")
+    d.until(lambda: window.state.scene is not d.start.scene)
+    assert window.state.scene.name == "spheres"
+    d.agreeing_images()
+    view = d.folder / "view.toml"
+    save_view(view, d.start.view)
+    window.open(str(view))
+    d.until(lambda: window.state.view == d.start.view)
+    assert window.state.scene.name == "spheres"
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 2)
+    d.settle()
+    assert window.state == d.start
+
+
+def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
+    window, start = d.window, d.window.state
+    scene = load_scene("spheres")
+    camera = Camera.look_at((0, 2, 12), (0, 1, 0), fov_y_deg=20)
+    export_scene(d.folder / "seen.glb", scene, camera, (64, 64))
+    window.open(str(d.folder / "seen.glb"))
+    d.until(lambda: window.state.scene.name == "seen")
+    opened = window.state
+    assert opened.view == opened.scene.view  # framed, whatever cameras there are
+    (named,) = opened.scene.views
+    d.ctx.menu_click("//##MainMenuBar/Camera/From the file/###view0")
+    d.until(lambda: window.state.view == named.view)
+    assert window.state.camera.eye == (0, 2, 12)
+    window.undo()
+    d.settle()
+    assert window.state == opened
+    (entry,) = (
+        entry for entry in entries(window, window.shell.stage) if entry.name == "Camera: camera"
+    )
+    entry.run()
+    d.until(lambda: window.state.view == named.view)
+    window.undo()
+    window.undo()
+    d.settle()
+    assert window.state == start
+    assert not [
+        entry for entry in entries(window, window.shell.stage) if entry.name.startswith("Camera: ")
+    ]
+
+
+def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
+    """The tracer's thread is held up: the window goes on, with the raster image of now."""
+    live, gate = d.window.renderers.live, threading.Event()
+    good = live.make_tracer
+
+    def slow(scene: object) -> Any:
+        gate.wait(PATIENT_S)
+        return good(scene)
+
+    live.make_tracer = slow
+    d.window.open("columns")
+    d.until(lambda: d.window.state.scene.name == "columns")
+    d.window.change(with_options(d.window.state, mirrors=True))  # that needs a new one
+    d.until(lambda: "preparing" in d.window.renderers.preparing())
+    told = d.window.renderers.preparing()
+    d.until(lambda: d.window.renderers.preparing() != told)  # the seconds, which are seen at rest
+    assert hello_imgui.get_runner_params().fps_idling.fps_idle == WAITING_FPS
+    before = d.images()[0]
+    d.drag_field("eye.x", 30)
+    d.until(lambda: not d.window.renderers.textures.unfinished)
+    assert changed(before, d.images()[0]) > 0.05
+    assert d.window.renderers.live.busy
+    live.make_tracer = good
+    gate.set()
+    d.window.change(with_options(d.window.state, mirrors=False))
+    d.agreeing_images()
+    assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
+
+
+def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
+    window = d.window
+    scene = d.folder / "edited.toml"
+    scene.write_text("[[objects]]\ntype = 'box'\n")
+    window.open(str(scene))
+    d.until(lambda: window.state.scene.name == "edited")
+    d.agreeing_images()
+    scene.write_text("[[objects]]\ntype = 'bok'\n")
+    d.until(lambda: "bok" in window.files.message)
+    assert len(window.state.scene.objects) == 1
+    before = window.state
+    scene.write_text("[[objects]]\ntype = 'box'\n[[objects]]\ntype = 'cone'\n")
+    d.until(lambda: len(window.state.scene.objects) == 2)
+    assert window.files.message == ""
+    assert window.history.undo().present == before
+    d.ctx.yield_(3)
+    assert window.shell.toasts.texts == ["edited was read again: its file was saved."]
+    window.shell.toasts.clear()
+    d.agreeing_images()
+
+
+def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
+    files = d.window.files
+    folder = d.folder / "scenes"
+    folder.mkdir()
+    (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
+    d.press(CTRL | int(Key.o))
+    assert files.dialog.is_open
+    # A folder that is typed is gone into; then a name.
+    d.ctx.key_chars_replace_enter(str(folder))
+    d.until(lambda: files.dialog.listing.files == ("mine.toml",))
+    assert files.dialog.folder == folder
+    d.ctx.yield_(2)
+    d.ctx.item_double_click("//###file dialog/**/mine.toml")
+    d.until(lambda: d.window.state.scene.name == "mine")
+    assert not files.dialog.is_open
+    d.press(CTRL | SHIFT | int(Key.s))
+    d.ctx.key_chars_replace_enter("copy")
+    d.until(lambda: (folder / "copy.toml").exists())
+    assert load_scene(folder / "copy.toml").view == d.window.state.view
+    d.until(lambda: any("copy.toml" in text for text in d.window.shell.toasts.texts))
+    # What is there already is not replaced unasked.
+    d.press(CTRL | SHIFT | int(Key.s))
+    d.ctx.key_chars_replace_enter("copy.toml")
+    assert files.dialog.is_open
+    d.press(int(Key.escape))
+    assert not files.dialog.is_open
+    assert "objects" in (folder / "copy.toml").read_text()
+    d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["copy.toml"])
+    d.ctx.menu_click("//##MainMenuBar/File/Recent files/###recent1")
+    d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
+    d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
+    assert files.recent.entries == ()
+
+
+def drive_a_name_is_meant_for_the_folder_that_was_typed_before_it(d: Driver) -> None:
+    """A slow disk has not answered for that folder yet."""
+    dialog, folder = d.window.files.dialog, d.folder / "slow"
+    folder.mkdir()
+    gate, read = threading.Event(), folders.read_folder
+
+    def slow(where: Path, endings: tuple[str, ...]) -> FolderContent:
+        assert gate.wait(60)
+        return read(where, endings)
+
+    folders.read_folder = slow
+    try:
+        d.press(CTRL | SHIFT | int(Key.s))
+        d.ctx.key_chars_replace_enter(str(folder))
+        d.ctx.yield_(2)
+        assert dialog.is_open and dialog.folder == folder and not dialog.listing.files
+        d.ctx.key_chars_replace_enter("typed")
+        d.until(lambda: (folder / "typed.toml").exists())
+    finally:
+        folders.read_folder = read
+        gate.set()
+    d.settle()
+    d.window.shell.toasts.clear()
+
+
+def drive_several_files_are_dropped(d: Driver) -> None:
+    view = load_scene("canonical").view
+    save_view(d.folder / "dropped.toml", view)
+    d.drop([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
+    d.until(lambda: d.window.state.scene.name == "spheres")
+    assert d.window.state.view == view
+    d.ctx.yield_(2)
+    d.press(CTRL | int(Key.z))
+    assert d.window.state == d.start  # one step
+
+
+def drive_loading_is_told_and_cancelled(d: Driver) -> None:
+    for _ in range(2):
+        gate = threading.Event()
+        d.window.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))  # type: ignore[misc]
+        d.until(lambda: loading_box() is not None)
+        d.ctx.yield_(2)
+        box, pad = loading_box(), imgui.get_style().window_padding
+        assert box is not None
+        low_right = box.pos.x + box.size.x - 2 * pad.x, box.pos.y + box.size.y - 2 * pad.y
+        d.ctx.mouse_move_to_pos(ImVec2(*low_right))  # the button
+        d.ctx.mouse_click()
+        d.until(lambda: not d.window.files.busy)
+        assert "cancelled" in d.window.shell.toasts.texts[-1]
+        gate.set()
+    d.window.open("spheres")  # a new thread does it
+    d.until(lambda: d.window.state.scene.name == "spheres")
+
+
+def loading_box() -> Any:
+    """ImGui's window, while it is shown. The test engine does not find it a second time."""
+    windows = imgui.get_current_context().windows
+    return next((one for one in windows if one.name == messages.LOADING and one.active), None)

@@ -1,0 +1,214 @@
+"""The image windows: sizes and layouts, channels, resolutions, display."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from imgui_bundle import hello_imgui, imgui
+from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
+from window_driver import SIZE, Key
+
+from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.ui.theme import framebuffer_scale
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.raster import Display
+
+
+def drive_pixels_can_be_large_and_are_marked(d):
+    before = d.window.renderers.size
+    d.ctx.menu_click("//##MainMenuBar/Image/Resolution/Window, pixels 8 x 8")
+    d.ctx.key_press(int(Key.mod_alt) | int(Key.x))  # without the pixel grid
+    d.settle()
+    assert d.window.renderers.size == (before[0] // 8, before[1] // 8)
+    raster, ray = d.images()
+    assert raster.shape[:2] == (8 * d.window.renderers.size[1], 8 * d.window.renderers.size[0])
+    blocks = raster.reshape(d.window.renderers.size[1], 8, d.window.renderers.size[0], 8, 3)
+    assert (blocks == blocks[:, :1, :, :1]).all()  # nearest neighbour: no pixel is blurred
+    x, y, *_ = d.rect(RASTER)
+    d.ctx.mouse_teleport_to_pos((x + 8 * 20 + 4, y + 8 * 30 + 4))
+    d.ctx.yield_(3)
+    assert d.window.hovered == (RASTER, (30, 20))
+    d.stay = True
+    marked = d.images()[1]
+    places = np.argwhere(np.abs(marked - ray).max(axis=2) > 8)
+    assert places.min(axis=0).tolist() == [8 * 30 - 2, 8 * 20 - 2]
+    assert places.max(axis=0).tolist() == [8 * 31 + 1, 8 * 21 + 1]
+
+
+def drive_windows_can_be_hidden(d):
+    both = d.window.renderers.size
+    d.ctx.window_close(f"//###{RAY}")
+    d.ctx.yield_(3)
+    d.until(lambda: d.window.renderers.size[0] > both[0])
+    d.ctx.menu_click("//##MainMenuBar/View/Views/###Ray")
+    d.ctx.yield_(3)
+    d.ctx.menu_click("//##MainMenuBar/View/Layout/Reset the layout")
+    d.ctx.yield_(5)
+    d.agreeing_images()
+    assert abs(d.window.renderers.size[0] - both[0]) <= 2
+
+
+def drive_the_window_is_resized(d):
+    for size in ((1500, 640), (300, 60), SIZE):  # of which the second is too small for images
+        hello_imgui.change_window_size(size)
+        d.ctx.yield_(5)
+        if size != (300, 60):
+            d.agreeing_images()
+            widths = [width for width, _ in d.window.renderers.panes_px.values()]
+            assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
+
+
+def drive_channels_are_shown_in_both(d):
+    for number, (name, channel) in enumerate(
+        (("Depth", "depth"), ("Normal", "normal"), ("Object", "id"), ("Colour", "color"))
+    ):
+        if number % 2:
+            choose(d, f"Channel/{name}")
+        else:
+            d.ctx.key_press(ALT | int((Key._2, Key._3, Key._4, Key._1)[number]))
+            d.settle()
+        assert d.window.state.images.channel == channel
+        raster, ray = d.images()
+        for pane, image in ((RASTER, raster), (RAY, ray)):
+            difference = np.abs(without_overlays(image) - pixels(d, pane, channel)).max(axis=2)
+            assert (difference <= 2).mean() > 0.999, (pane, channel)
+        both = np.abs(raster - ray).max(axis=2)
+        assert (both > 3).mean() < 0.002, "the same colours in both, the legend too"
+    assert not d.window.can_undo()
+
+
+def drive_channels_follow_a_drag(d):
+    """While the camera moves, coarse images have the channel too, and nothing is read back."""
+    both = d.window.renderers
+    d.ctx.key_press(ALT | int(Key._2))
+    d.settle()
+    assert both.textures is not None
+    reads = counting(both.textures.raster, "read_back")
+    center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
+    d.ctx.mouse_teleport_to_pos((center.x, center.y))
+    d.ctx.mouse_down(0)
+    for step in range(1, 20):
+        d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
+        d.ctx.yield_()
+        image = both.ray_image
+        assert image is not None
+        assert image.frame.depth is not None
+        assert both.raster_error is None and both.ray_error is None  # never nothing
+    while_moving = reads()
+    d.ctx.mouse_up(0)
+    d.settle()
+    assert while_moving <= 1, "read back while dragging"
+    assert reads() > while_moving
+    near, far = both.depths() or (0, 0)
+    frame = both.agreement.pair[1]
+    hits = frame.depth[np.isfinite(frame.depth)]
+    assert abs(near - hits.min()) < 1e-4
+    assert abs(far - hits.max()) < 1e-3
+
+
+def drive_resolutions_are_fixed_and_fitted(d):
+    window, both = d.window, d.window.renderers
+    for text, size in (("16 x 9", (16, 9)), ("4 x 3", (4, 3)), ("1280 x 720", (1280, 720))):
+        choose(d, f"Resolution/{text}")
+        assert both.size == size
+        for name in (RASTER, RAY):
+            at = placement(d, name)
+            assert at.visible_parts == (0, 0, 1, 1)
+            left, top, right, bottom = d.rect(name)
+            scale = framebuffer_scale()
+            assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
+        assert at.whole == (size[0] < 1000)
+    # A size of one's own.
+    d.ctx.key_press(ALT | int(Key.s))
+    d.ctx.yield_(3)
+    d.ctx.key_chars_replace_enter("nonsense")
+    d.ctx.yield_(3)
+    assert both.size == (1280, 720)
+    assert window.boxes.size is not None and "nonsense" in window.boxes.size.problem
+    d.ctx.key_chars_replace_enter("37x23")
+    d.ctx.yield_(3)
+    d.settle()
+    assert both.size == (37, 23)
+    assert window.boxes.size is None
+    d.ctx.key_press(ALT | int(Key.w))
+    d.settle()
+    assert window.state.images.resolution is None
+    while window.can_undo():
+        window.undo()
+    d.settle()
+    assert window.state == d.start
+
+
+def drive_single_channels_and_linear_light(d):
+    window, (plain, _) = d.window, d.agreeing_images()
+    for index, (key, name) in enumerate(((Key.r, "red"), (Key.g, "green"), (Key.b, "blue"))):
+        d.ctx.key_press(ALT | int(key))
+        d.settle()
+        assert window.state.images.component == name
+        gray, ray = d.images()
+        assert (np.abs(gray - plain[..., index : index + 1]) <= 1).all()
+        assert (np.abs(gray - ray).max(axis=2) > 3).mean() < 0.002
+    d.ctx.key_press(ALT | int(Key.t))
+    d.settle()
+    blue = d.images()[0]
+    assert (blue[..., :2] <= 1).all()
+    assert (np.abs(blue[..., 2] - plain[..., 2]) <= 1).all()
+    d.ctx.key_press(ALT | int(Key.t))
+    d.ctx.key_press(ALT | int(Key.b))
+    d.ctx.key_press(ALT | int(Key.l))
+    d.settle()
+    assert window.state.images.component == "rgb"
+    linear = d.images()[0]
+    frame = window.renderers.agreement.pair[1]
+    assert np.abs(linear - np.clip(frame.color, 0, 1) * 255).max() <= 1.01
+    assert linear.mean() < plain.mean() - 20
+
+
+def drive_the_strip_does_the_same(d):
+    d.ctx.set_ref(f"//###{RASTER}")
+    for name, item, check in (
+        ("channel", "Depth", lambda images: images.channel == "depth"),
+        ("resolution", "160 x 90", lambda images: images.resolution == (160, 90)),
+        ("magnification", "16x", lambda images: images.magnification == 16),
+        ("transfer", "linear", lambda images: images.transfer == "linear"),
+        ("component", "Red", lambda images: images.component == "red"),
+    ):
+        d.ctx.item_click(f"**/##{name}")
+        d.ctx.yield_(2)
+        d.ctx.item_click(f"//$FOCUSED/{item}")
+        d.settle()
+        assert check(d.window.state.images), name
+    d.ctx.set_ref("")
+    assert len(d.window.history.past) == 1  # the resolution
+    assert imgui.get_io().display_size.x > 0
+
+
+def drive_nothing_is_drawn_twice(d):
+    """At rest, no frame draws or uploads an image again."""
+    both = d.window.renderers
+    choose(d, "Resolution/640 x 360")
+    choose(d, "Magnification/32x")
+    choose(d, "Channel/Depth")
+    textures = both.textures
+    assert textures is not None
+    shown = counting(Display, "show")
+    rasterizer = textures.rasterizer.of(d.window.state.scene)
+    drawn = counting(rasterizer, "draw")
+    read = counting(rasterizer, "read")
+    d.ctx.yield_(10)
+    assert [count() for count in (shown, drawn, read)] == [0, 0, 0]
+
+
+def drive_a_lens_is_looked_up_in_a_finer_image(d):
+    camera = replace(d.window.state.camera, lens=Lens("fisheye", {"k1": 0.05}))
+    d.window.change(d.window.state.with_camera(camera))
+    d.settle()
+    assert d.window.renderers.verdict(d.window.state).unexplained == 0
+    lookup = []
+    for texels in (1, 4):
+        name = f"look up, {texels} x {texels} texels per pixel"
+        d.ctx.menu_click(f"//##MainMenuBar/Image/Lens in the raster image/Lens: {name}")
+        d.settle()
+        lookup.append(d.window.renderers.verdict(d.window.state).comparison.explained["lookup"])
+    assert lookup[0] > lookup[1]

@@ -1,0 +1,367 @@
+"""The surroundings of the views: palette, sheet, layouts, looks, bookmarks, pictures."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+from imgui_bundle import ImVec2, hello_imgui, imgui
+from option_changes import with_options
+from PIL import Image
+from window_driver import SIZE, Driver, Key
+
+from lucida.app.cameras.camera_panel.view import CAMERA
+from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.ui import layout, theme
+from lucida.app.window.platform import begin_letters, lock_letters
+
+SIDE = layout.LAYOUTS[0].name
+NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)
+CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+
+
+def into(d: Driver, name: str) -> None:
+    """Shows a layout as it was made, and waits for it."""
+    layout.switch(name)
+    d.until(lambda: layout.current().name == name)
+    layout.reset()
+    d.ctx.yield_(4)
+
+
+def drive_the_palette_does_what_is_typed(d: Driver) -> None:
+    palette = d.window.shell.palette
+    d.press(CTRL | SHIFT | int(Key.p))
+    assert palette.open
+    d.ctx.key_chars("parallel")
+    d.ctx.yield_(2)
+    d.press(int(Key.enter))
+    assert not palette.open
+    assert d.window.state.camera.is_parallel
+    d.press(CTRL | SHIFT | int(Key.p))
+    d.ctx.key_chars("scene spheres")
+    d.ctx.yield_(2)
+    d.press(int(Key.enter))
+    d.until(lambda: d.window.state.scene.name == "spheres")
+    # Without letters, what was done last stands first; the arrows choose.
+    d.press(CTRL | SHIFT | int(Key.p))
+    d.press(int(Key.down_arrow))
+    assert not d.window.state.camera.is_parallel  # the scene's own view
+    d.press(int(Key.enter))
+    assert d.window.state.camera.is_parallel
+    d.press(CTRL | SHIFT | int(Key.p))
+    d.ctx.key_chars("qqqqq")
+    d.press(int(Key.enter))
+    assert palette.open  # nothing of that name: nothing is done
+    d.press(int(Key.escape))
+    assert not palette.open
+
+
+def drive_what_was_typed_into_leaves_no_cursor(d: Driver) -> None:
+    """ImGui's frame and a tooltip would stand on what nobody went to, over a picture, until the
+    next key; F3 and the arrows bring them back."""
+    context = imgui.get_current_context()
+    for opening, typed in ((CTRL | SHIFT | int(Key.p), "maximise"), (CTRL | int(Key.g), "12")):
+        for leaving in (int(Key.enter), int(Key.escape)):
+            d.press(opening)
+            assert context.nav_cursor_visible
+            d.ctx.key_chars(typed)
+            d.ctx.yield_(2)
+            d.press(leaving)
+            d.ctx.yield_(3)
+            assert not context.nav_cursor_visible, (typed, leaving)
+    d.window.shell.stage.maximise()  # which Enter did: back
+    d.ctx.yield_(3)
+    d.press(int(Key.tab))
+    assert context.nav_cursor_visible
+    assert not d.window.shell.stage.maximised
+
+
+def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
+    for scale in (1.0, 3.0):
+        d.window.change(with_options(d.window.state, preferences={"font_scale": scale}))
+        d.press(SHIFT | int(Key.slash))
+        d.ctx.yield_(3)
+        assert d.window.shell.help
+        box = d.ctx.window_info("//Mouse and keys").rect_full
+        assert box.min.x >= 0 and box.max.x <= SIZE[0]
+        assert box.min.y >= 0 and box.max.y <= SIZE[1]
+        d.press(int(Key.escape))
+        assert not d.window.shell.help
+
+
+def drive_looks_are_options_that_undo_leaves_alone(d: Driver) -> None:
+    dark = d.picture().mean()
+    d.ctx.menu_click("//##MainMenuBar/View/Theme/Light theme")
+    d.ctx.yield_(3)
+    assert d.window.state.preferences.theme == "light"
+    assert theme.PANEL.x > 0.9
+    assert d.picture().mean() > dark + 40
+    height = imgui.get_font_size()
+    d.press(CTRL | int(Key.equal))
+    d.press(CTRL | int(Key.equal))
+    assert d.window.state.preferences.font_scale == 1.5
+    assert imgui.get_font_size() == 1.5 * height
+    d.press(CTRL | int(Key._0))
+    assert d.window.state.preferences.font_scale == 1.0
+    for _ in range(12):
+        d.press(CTRL | int(Key.minus))
+    assert d.window.state.preferences.font_scale == 0.75
+    assert not d.window.can_undo()
+
+
+def drive_presentation_is_large_and_ends_with_escape(d: Driver) -> None:
+    d.press(int(Key.f9))
+    d.settle()
+    assert imgui.get_font_size() >= 0.02 * SIZE[1]
+    assert theme.LINE_WIDTH == 2.0
+    d.press(int(Key.escape))
+    d.settle()
+    assert theme.LINE_WIDTH == 1.0
+    assert d.window.state == d.start
+
+
+def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
+    stage = d.window.shell.stage
+    into(d, layout.LAYOUTS[1].name)
+    into(d, layout.LAYOUTS[0].name)
+    for number, one in enumerate(layout.CHOICES):
+        d.press(CTRL | (int(Key.f1) + number))
+        d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
+        d.ctx.yield_(3)
+        for name in one.places:
+            if name in stage.views:
+                assert stage.is_shown(name), (one.name, name)
+    d.press(CTRL | int(Key.f2))
+    d.until(lambda: layout.current().name == layout.LAYOUTS[1].name)
+    stage.show(RASTER, False)
+    d.ctx.yield_(3)
+    d.press(CTRL | int(Key.f1))
+    d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
+    d.ctx.yield_(3)
+    assert stage.is_shown(RASTER)
+    d.ctx.menu_click("//##MainMenuBar/View/Layout/Reset the layout")
+    d.settle()
+
+
+def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
+    rects = d.window.shell.stage.rects
+    return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
+
+
+def widened(d: Driver, name: str) -> None:
+    """Moves the edge of a view's dock that others share, so that the dock grows."""
+    node = imgui.internal.find_window_by_name(d.window.views[name].label).dock_node
+    around = node.parent_node
+    if around.split_axis == imgui.internal.Axis.x:
+        is_first = node.pos.x <= around.pos.x + 2
+        start = node.pos.x + is_first * (node.size.x + 2) - 1, node.pos.y + 0.5 * node.size.y
+        end = start[0] + (40 if is_first else -40), start[1]
+    else:
+        is_first = node.pos.y <= around.pos.y + 2
+        start = node.pos.x + 0.5 * node.size.x, node.pos.y + is_first * (node.size.y + 2) - 1
+        end = start[0], start[1] + (30 if is_first else -30)
+    d.drag(start, end)
+    d.ctx.yield_(4)
+
+
+def drive_layouts_come_back_with_their_widths(d: Driver) -> None:
+    """Also where the camera's panel has another width, and in columns beside the main view."""
+    before = {}
+    for name, moved in ((SIDE, CAMERA), (layout.OUTSIDE, RASTER), ("Probe", "Outside")):
+        into(d, name)
+        first = boxes(d)
+        widened(d, moved)
+        before[name] = boxes(d)
+        assert before[name] != first
+    for name, own in before.items():
+        layout.switch(name)
+        d.until(lambda name=name: layout.current().name == name)  # type: ignore[misc]
+        d.ctx.yield_(8)
+        now = boxes(d)
+        assert now.keys() == own.keys()
+        apart = [abs(a - b) for view in own for a, b in zip(own[view], now[view], strict=True)]
+        assert max(apart) <= 1, (name, own, now)
+
+
+def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None:
+    stage = d.window.shell.stage
+    into(d, SIDE)
+    room = boxes(d)[RASTER]
+    stage.show("Mistakes")
+    d.ctx.yield_(4)
+    left, top, right, bottom = boxes(d)["Mistakes"]
+    assert (right - left) * (bottom - top) > 0.9 * (room[2] - room[0]) * (room[3] - room[1])
+    stage.show("Mistakes", False)
+    hello_imgui.change_window_size((600, 900))
+    d.ctx.yield_(10)
+    upright = boxes(d)
+    tops = [upright[name][1] for name in (CAMERA, RASTER, RAY)]
+    assert tops == sorted(set(tops)) and all(box[2] - box[0] > 540 for box in upright.values())
+    hello_imgui.change_window_size(SIZE)
+    d.ctx.yield_(10)
+    assert boxes(d)[RAY][1] == boxes(d)[RASTER][1]
+    into(d, SIDE)
+
+
+def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
+    stage = d.window.shell.stage
+    d.settle()
+    small = stage.rects[RASTER]
+    stage.show(RASTER)
+    d.until(lambda: stage.focused == RASTER)
+    d.press(CTRL | int(Key.m))
+    d.until(lambda: stage.maximised == RASTER and stage.rects[RASTER][2] > small[2] + 100)
+    assert RAY not in stage.rects
+    # From view to view, each in its turn.
+    d.press(int(Key.f3))
+    d.until(lambda: stage.maximised == RAY and RAY in stage.rects)
+    d.press(int(Key.escape))
+    d.until(lambda: not stage.maximised)
+    d.settle()
+    assert stage.rects[RASTER] == small
+    assert d.window.state == d.start
+    d.agreeing_images()
+
+
+def drive_the_keyboard_goes_from_view_to_view(d: Driver) -> None:
+    stage = d.window.shell.stage
+    seen = []
+    for _ in stage.shown:
+        d.press(int(Key.f3))
+        d.ctx.yield_(2)
+        seen.append(stage.focused)
+    assert sorted(seen) == sorted(view.name for view in stage.shown)
+    d.press(SHIFT | int(Key.f3))
+    d.ctx.yield_(2)
+    assert stage.focused == seen[-2]
+
+
+def drive_bookmarks_bring_views_back(d: Driver) -> None:
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
+    home = d.window.state.view
+    d.press(CTRL | int(Key._3))
+    d.type("eye.x", "1")
+    d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
+    away = d.window.state.view
+    assert away != home
+    d.press(CTRL | int(Key._9))
+    d.press(int(Key._3))
+    d.until(lambda: d.window.state.view == home)
+    d.press(int(Key._9))
+    d.until(lambda: d.window.state.view == away)
+    d.press(int(Key._5))
+    assert "free" in d.window.shell.toasts.texts[-1]
+    assert d.window.state.view == away
+    d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/###go3")
+    d.until(lambda: d.window.state.view == home)
+    d.press(CTRL | int(Key.z))
+    d.until(lambda: d.window.state.view == away)
+    d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/Forget/All")
+    assert d.window.state.options.bookmarks == ()
+    d.press(CTRL | int(Key.z))
+    assert [mark.number for mark in d.window.state.options.bookmarks] == [3, 9]
+
+
+def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
+    shell = d.window.shell
+    shell.captures.folder = d.folder / "pictures"
+    shell.captures.folder.mkdir(exist_ok=True)
+    d.settle()
+    d.press(int(Key.f12))
+    d.until(lambda: len(list(shell.captures.folder.glob("*.png"))) == 1)
+    window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
+    assert window.shape == (SIZE[1], SIZE[0], 3)
+    assert window.std() > 20
+    shell.stage.show(RAY)
+    d.until(lambda: shell.stage.focused == RAY)
+    d.press(SHIFT | int(Key.f12))
+    d.until(lambda: len(list(shell.captures.folder.glob("lucida ray *.png"))) == 1)
+    view = np.asarray(Image.open(next(shell.captures.folder.glob("lucida ray *.png"))))
+    left, top, right, bottom = map(round, shell.stage.rects[RAY])
+    assert view.shape == (bottom - top, right - left, 3)
+    # The middle of it: nothing of the window's own, which may tell that a picture was saved.
+    whole = window[top:bottom, left:right].astype(int)
+    half = slice(view.shape[0] // 4, view.shape[0] // 2)
+    assert np.abs(whole[half] - view[half]).mean() < 2
+    d.until(lambda: not shell.captures.busy)
+    d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
+    # Without a display there is no clipboard: one line says so.
+    os.environ["PATH"], path = "", os.environ["PATH"]
+    d.press(CTRL | int(Key.f12))
+    d.until(lambda: any("clipboard" in text for text in shell.toasts.texts))
+    os.environ["PATH"] = path
+
+
+def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
+    d.window.change(with_options(d.window.state, preferences={"font_scale": 3.0}))
+    try:
+        for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
+            hello_imgui.change_window_size((width, 480))
+            d.until(lambda width=width: imgui.get_io().display_size.x == width)
+            d.settle()
+            for name in names:
+                assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
+            d.press(int(Key.f1))
+            assert d.window.shell.help
+            d.ctx.yield_(3)
+            d.press(int(Key.escape))
+            assert not d.window.shell.help
+    finally:
+        hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.window.change(d.start)
+    d.settle()
+    d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
+    assert d.window.state.options.shadows
+
+
+def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
+    """As ImGui's backend finds it where the window is resized between two of its questions."""
+    io, viewport = imgui.get_io(), imgui.get_main_viewport()
+    scale, far = imgui.get_io().display_framebuffer_scale.x, ImVec2(1280, 720)
+    lock_letters()
+    io.display_framebuffer_scale = viewport.framebuffer_scale = far
+    begin_letters()
+    for found in (io.display_framebuffer_scale, viewport.framebuffer_scale):
+        assert (found.x, found.y) == (scale, scale)
+    d.ctx.yield_(2)
+    hello_imgui.change_window_size((1, 1))
+    d.until(lambda: imgui.get_io().display_size.x == 1)
+    hello_imgui.change_window_size(SIZE)
+    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.agreeing_images()
+
+
+def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
+    window = d.window
+    window.change(with_options(window.state, marked=(20, 30)))
+    d.settle()
+    d.ctx.item_click("//Raster/strip Raster/##channel")
+    d.ctx.yield_(3)
+    any_popup = int(imgui.PopupFlags_.any_popup)
+    assert imgui.is_popup_open("", any_popup)
+    d.press(int(Key.escape))
+    assert not imgui.is_popup_open("", any_popup)
+    assert window.state.marked == (20, 30)
+    window.ask_resolution()
+    d.ctx.yield_(3)
+    d.press(int(Key.escape))
+    assert window.boxes.size is None
+    assert window.state.marked == (20, 30)
+    for ask in (window.ask_resolution, window.ask_pixel):  # a box behind the sheet
+        d.press(int(Key.f1))
+        ask()
+        d.ctx.yield_(3)
+        d.ctx.mouse_teleport_to_pos((SIZE[0] / 2, 0.25 * SIZE[1]))  # on the sheet, above the box
+        d.ctx.yield_(2)
+        d.ctx.mouse_click(0)
+        d.ctx.yield_(2)
+        assert window.shell.help
+        d.press(int(Key.escape))
+        assert not window.shell.help
+        assert window.boxes.size is not None or window.boxes.pixel is not None
+        d.press(int(Key.escape))
+        assert window.boxes.size is None and window.boxes.pixel is None
+        assert window.state.marked == (20, 30)
+    d.press(int(Key.escape))
+    assert window.state.marked is None

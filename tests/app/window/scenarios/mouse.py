@@ -1,0 +1,188 @@
+"""The mouse over the images, and the keys that act where it is."""
+
+from __future__ import annotations
+
+import numpy as np
+from window_driver import Driver, Key, changed
+
+from lucida.app.images.pair.view import RASTER, RAY
+
+SIZE = (400, 300)  # to project with
+
+
+def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
+    window, start = d.window, d.start.camera
+    for name in (RASTER, RAY):
+        before = d.agreeing_images()
+        d.drag(d.point(name, 0.5, 0.5), d.point(name, 0.7, 0.45))
+        camera = window.state.camera
+        assert np.allclose(camera.basis.T @ camera.basis, np.eye(3))
+        assert abs(camera.u[1]) < 1e-9  # no roll
+        assert not np.allclose(camera.w, start.w)
+        after = d.agreeing_images()
+        assert min(changed(a, b) for a, b in zip(before, after, strict=True)) > 0.1
+        for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
+            was = window.state.camera
+            pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
+            parameter = window.renderers.depth_at(window.state, pixel)
+            ray = window.renderers.camera(window.state).ray(*pixel, window.renderers.size)
+            world = ray.origin + parameter * ray.direction
+            if key:
+                d.ctx.key_down(key)
+            x, y = d.point(name, 0, 0)
+            middle = (x + pixel[1] + 0.5, y + pixel[0] + 0.5)
+            d.drag(middle, (middle[0] + 37, middle[1] - 21), button)
+            if key:
+                d.ctx.key_up(key)
+            assert window.state.camera.w == was.w
+            assert window.state.camera.eye != was.eye
+            row, column, _ = window.renderers.camera(window.state).project(
+                world, window.renderers.size
+            )
+            assert abs(row - (pixel[0] - 21)) < 0.05
+            assert abs(column - (pixel[1] + 37)) < 0.05
+            d.settle()
+        was = window.state.camera
+        steps = len(window.history.past)
+        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.6))
+        d.ctx.yield_()
+        d.ctx.mouse_wheel_y(2)
+        d.ctx.mouse_wheel_y(1)
+        d.ctx.yield_(2)
+        assert window.state.camera.eye != was.eye
+        assert len(window.history.past) == steps + 1
+        d.agreeing_images()
+        d.reset()
+    d.ctx.item_click("//Camera/parallel")
+    d.settle()
+    was = window.state.camera
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.3, 0.3))
+    d.ctx.yield_()
+    d.ctx.mouse_wheel_y(3)
+    d.ctx.yield_(2)
+    assert window.state.camera.eye == was.eye
+    assert window.state.camera.viewport[1] < was.viewport[1]
+    d.agreeing_images()
+
+
+def drive_the_wheel_goes_through_nothing(d: Driver) -> None:
+    """Scrolling faster than images are finished: the point under the mouse stays the aim."""
+    window = d.window
+    pixel = (window.renderers.size[1] // 2 + 30, window.renderers.size[0] // 2)
+    x, y, *_ = d.rect(RASTER)
+    d.ctx.mouse_teleport_to_pos((x + pixel[1], y + pixel[0]))  # ImGui's mouse has whole numbers
+    d.ctx.yield_()
+    corner = pixel[0] - 0.5, pixel[1] - 0.5
+    ray = window.renderers.camera(window.state).ray(*corner, window.renderers.size)
+    aim = ray.origin + window.renderers.depth_at(window.state, pixel) * ray.direction
+    for _ in range(30):
+        d.ctx.mouse_wheel_y(3)
+    d.ctx.yield_(2)
+    to_aim = aim - np.asarray(window.state.camera.eye)
+    assert to_aim @ ray.direction > -0.01, "the eye has gone through what was under the mouse"
+    assert np.linalg.norm(to_aim) < 0.01, to_aim
+    for _ in range(20):
+        d.ctx.mouse_wheel_y(-10)
+    d.ctx.yield_(2)
+    assert 100 < np.linalg.norm(window.state.camera.eye) < 1e4
+    d.ctx.key_press(int(Key.home))
+    assert window.state == d.start
+
+
+def drive_keys_count_while_an_image_is_dragged(d: Driver) -> None:
+    window = d.window
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.5, 0.5))
+    d.ctx.yield_()
+    d.ctx.mouse_down(0)
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.6, 0.5))
+    d.ctx.yield_(2)
+    turned = window.state.camera
+    d.ctx.key_press(int(Key.p))
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.7, 0.5))
+    d.ctx.yield_(2)
+    assert window.state.camera.is_parallel
+    assert window.state.camera.w != turned.w  # and the drag goes on
+    assert len(window.history.past) == 3
+    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 3)
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.8, 0.5))
+    d.ctx.yield_(2)
+    assert window.state == d.start  # undone is undone
+    d.ctx.mouse_up(0)
+    d.ctx.yield_()
+    assert window.state == d.start
+    assert len(window.history.future) == 3
+
+
+def drive_keys_fly_over_an_image(d: Driver) -> None:
+    window = d.window
+    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
+    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
+        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
+        d.ctx.yield_(2)
+        d.ctx.key_down(int(key))
+        d.until(
+            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
+        )
+        d.ctx.key_up(int(key))
+        d.ctx.yield_(2)
+        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
+        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
+        assert window.state.camera.w == d.start.camera.w
+        assert len(window.history.past) == 1
+        resting = window.state
+        d.ctx.yield_(4)
+        assert window.state == resting
+        d.reset()
+    d.ctx.item_double_click(d.field("eye.y"))
+    d.ctx.key_chars_replace("w")
+    d.ctx.key_down(int(Key.w))
+    d.ctx.yield_(4)
+    d.ctx.key_up(int(Key.w))
+    d.ctx.key_press(int(Key.escape))
+    assert window.state == d.start
+
+
+def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
+    d.settle()
+    window = d.window
+    _, _, frame = window.renderers.agreement.pair
+    numbers = frame.channel("id")
+    shiny = 2
+    rows, columns = np.nonzero(numbers == shiny)
+    k = len(rows) // 2
+    x, y, right, bottom = d.rect(RASTER)
+    height, width = numbers.shape
+    at = x + (columns[k] + 0.5) / width * (right - x), y + (rows[k] + 0.5) / height * (bottom - y)
+    d.ctx.mouse_teleport_to_pos(at)
+    d.ctx.yield_(3)
+    d.ctx.key_press(int(Key.f))
+    camera = window.state.camera
+    assert (camera.u, camera.v, camera.w) == (
+        d.start.camera.u,
+        d.start.camera.v,
+        d.start.camera.w,
+    )
+    center = window.state.scene.objects[shiny].shape.center
+    seen = window.renderers.camera(window.state).project(center, SIZE)
+    assert abs(seen.row - (SIZE[1] - 1) / 2) < 1
+    assert abs(seen.column - (SIZE[0] - 1) / 2) < 1
+    frame = d.agreeing_images()
+    assert len(window.history.past) == 1
+    d.ctx.key_press(int(Key.h))
+    assert window.state == d.start
+    assert frame[0].std() > 5
+
+
+def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
+    start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
+    d.ctx.key_down(int(Key.mod_alt))
+    d.drag(start, goal)
+    d.ctx.key_up(int(Key.mod_alt))
+    camera = d.window.state.camera
+    assert np.allclose(camera.eye, d.start.camera.eye)
+    assert not np.allclose(camera.w, d.start.camera.w)
+    # The mouse went to the image's right: so does the view direction.
+    turned = -np.asarray(camera.w) @ np.asarray(d.start.camera.u)
+    assert turned > 0.05
+    assert len(d.window.history.past) == 1
+    d.agreeing_images()

@@ -1,0 +1,307 @@
+"""The scene in hand: choosing, the list, the inspector; adding, deleting."""
+
+from __future__ import annotations
+
+import numpy as np
+from objects_window import (
+    CTRL,
+    SHIFT,
+    ball,
+    click,
+    enter,
+    held,
+    in_list,
+    item,
+    now,
+    opened,
+    seen_at,
+)
+from option_changes import with_options
+from window_driver import RASTER, RAY, Driver, Key
+
+from lucida.app.instruments.objects.choosing import choose, chosen, rows_of
+from lucida.app.instruments.objects.in_views import CHOSEN
+from lucida.app.instruments.objects.view import InspectorView
+from lucida.app.instruments.outside.view import OUTSIDE
+from lucida.app.state.app_state import History
+from lucida.renderer.editing import objects
+
+# Choosing.
+
+
+def drive_a_double_click_leaves_no_mark_and_no_step(d: Driver) -> None:
+    enter(d)
+    click(d, seen_at(d, RASTER, "matte sphere"))
+    marked, steps = d.window.state.marked, d.window.history.past
+    assert marked is not None
+    for view in (RASTER, RAY, OUTSIDE):
+        click(d, seen_at(d, view, "shiny sphere"), double=True)
+        assert now(d) == ("shiny sphere",), view
+        assert d.window.state.marked == marked, view
+        assert d.window.history.past == steps, view
+        d.window.amend(choose(d.window.state, ()))
+    click(d, seen_at(d, RASTER, "matte sphere"), double=True)  # on the mark itself
+    assert now(d) == ("matte sphere",)
+    assert d.window.state.marked == marked
+    assert d.window.history.past == steps
+
+
+def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    click(d, seen_at(d, RASTER, "matte sphere"))
+    assert window.state.marked is not None
+    assert now(d) == ()
+    window.change(with_options(window.state, marked=None))
+    d.press(int(Key.v))
+    assert window.state.options.objects.selects
+    for view in (RASTER, RAY, OUTSIDE):
+        click(d, seen_at(d, view, "matte sphere"))
+        assert now(d) == ("matte sphere",), view
+        with held(d, Key.mod_shift):
+            click(d, seen_at(d, view, "shiny sphere"))
+        assert now(d) == ("matte sphere", "shiny sphere"), view
+        with held(d, Key.mod_shift):
+            click(d, seen_at(d, view, "matte sphere"))
+        assert now(d) == ("shiny sphere",), view
+        assert window.state.marked is None
+        d.press(int(Key.escape))
+    d.picture()
+
+
+def drive_outlines_end_where_the_image_does(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    state = with_options(window.state, images={"resolution": (64, 64)}, objects={"handle": "none"})
+    window.change(choose(state, (item(d, "floor"),)))
+    d.settle()
+    picture = d.picture().astype(int)
+    orange = np.abs(picture - np.round(255 * np.array([*CHOSEN][:3]))).max(axis=2) < 12
+    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
+    assert right - left == bottom - top  # there is room beside it
+    assert orange[top:bottom, left:right].any()
+    assert not orange[top:bottom, left - 40 : left - 1].any()
+    assert not orange[top:bottom, right + 1 : right + 40].any()
+
+
+# The list.
+
+
+def drive_rows_are_chosen_as_everywhere(d: Driver) -> None:
+    enter(d)
+    names = [row.shown for row in rows_of(d.window.state.scene)]
+    d.ctx.item_click(in_list(d, names[1]))
+    assert now(d) == (names[1],)
+    with held(d, Key.mod_ctrl):
+        d.ctx.item_click(in_list(d, names[3]))
+    assert now(d) == (names[1], names[3])
+    with held(d, Key.mod_shift):
+        d.ctx.item_click(in_list(d, names[4]))
+    assert now(d) == (names[3], names[4])
+    d.picture()
+    d.ctx.key_press(CTRL | int(Key.a))
+    d.ctx.yield_(3)
+    assert now(d) == tuple(names)
+    d.press(int(Key.escape))
+
+
+def drive_a_name_is_typed_in_its_row(d: Driver) -> None:
+    enter(d)
+    key = item(d, "box")
+    d.ctx.item_double_click(in_list(d, "box"))
+    d.ctx.yield_(3)
+    d.ctx.key_chars_replace("crate")
+    d.press(int(Key.escape))
+    assert item(d, "box") == key
+    d.ctx.item_double_click(in_list(d, "box"))
+    d.ctx.yield_(3)
+    d.ctx.key_chars_replace_enter("crate")
+    d.ctx.yield_(3)
+    assert item(d, "crate") == key
+    d.window.undo()
+    assert item(d, "box") == key
+
+
+def drive_what_is_typed_edits_no_object(d: Driver) -> None:
+    """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
+    enter(d)
+    d.ctx.item_click(in_list(d, "box"))
+    before = d.window.state.scene
+    d.ctx.item_click("//###Objects/##search")
+    d.ctx.key_chars("box")
+    for chord in (CTRL | int(Key.a), CTRL | int(Key.d)):
+        d.press(chord)
+    d.press(int(Key.delete))
+    d.press(CTRL | int(Key.a))
+    d.press(int(Key.delete))
+    assert d.window.state.scene is before
+    assert now(d) == ("box",)
+    d.press(int(Key.escape))
+
+
+def drive_the_palette_edits_what_is_chosen(d: Driver) -> None:
+    """Though its own field has the keyboard."""
+    enter(d)
+    count = len(rows_of(d.window.state.scene))
+    d.window.amend(choose(d.window.state, (item(d, "box"),)))
+    for words, more in (("duplicate", 1), ("delete", 0)):
+        d.press(CTRL | SHIFT | int(Key.p))
+        d.ctx.key_chars(words)
+        d.ctx.yield_(3)
+        d.press(int(Key.enter))
+        assert len(rows_of(d.window.state.scene)) == count + more, words
+
+
+def drive_the_search_leaves_what_matches(d: Driver) -> None:
+    enter(d)
+    d.ctx.item_click("//###Objects/##search")
+    d.ctx.key_chars("torus")
+    d.ctx.yield_(3)
+    assert d.ctx.item_exists(in_list(d, "torus"))
+    assert d.ctx.item_exists(in_list(d, "sphere in the torus"))
+    assert not d.ctx.item_exists(in_list(d, "box"))
+    d.picture()
+    d.press(CTRL | int(Key.a))
+    d.press(int(Key.delete))
+    d.press(int(Key.escape))
+    d.ctx.yield_(3)
+    assert d.ctx.item_exists(in_list(d, "box"))
+
+
+def drive_a_checkbox_hides_from_both_images(d: Driver) -> None:
+    enter(d)
+    before = d.agreeing_images()
+    d.ctx.item_click(in_list(d, "matte sphere", "##shown"))
+    d.ctx.yield_(3)
+    assert next(r for r in rows_of(d.window.state.scene) if r.shown == "matte sphere").hidden
+    after = d.agreeing_images()
+    assert all(
+        (np.abs(a - b).max(axis=2) > 8).mean() > 0.01 for a, b in zip(before, after, strict=True)
+    )
+    d.window.undo()
+    d.settle()
+
+
+# The inspector.
+
+
+def drive_a_number_that_is_dragged_is_one_step(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    d.ctx.item_click(in_list(d, "matte sphere"))
+    d.ctx.yield_(3)
+    steps, radius = len(window.history.past), ball(d, "matte sphere").radius
+    middle = d.ctx.item_info("//###Inspector/##radius").rect_full.get_center()
+    d.drag((middle.x, middle.y), (middle.x + 30, middle.y))
+    d.ctx.yield_(3)
+    assert ball(d, "matte sphere").radius != radius
+    assert len(window.history.past) == steps + 1
+    window.undo()
+    assert ball(d, "matte sphere").radius == radius
+    assert now(d) == ("matte sphere",)
+
+
+def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    row = next(row for row in rows_of(window.state.scene) if row.shown == "box")
+    assert window.state.scene.objects[row.ids[0]].material.checker is None
+    before = {entry.material.shininess for entry in window.state.scene.objects}
+    d.ctx.item_click(in_list(d, row.shown))
+    d.ctx.yield_(3)
+    d.picture()
+    d.ctx.item_double_click("//###Inspector/##shininess")
+    d.ctx.key_chars_replace_enter("7")
+    d.ctx.yield_(3)
+    assert {e.material.shininess for e in window.state.scene.objects} == {7.0, *before}
+    d.ctx.item_click("//###Inspector/checker")
+    d.ctx.yield_(3)
+    assert window.state.scene.objects[row.ids[0]].material.checker is not None
+
+
+def drive_what_a_number_is_refused_for_is_told_of_that_object_alone(d: Driver) -> None:
+    enter(d)
+    panel = d.window.view(InspectorView)
+    d.ctx.item_click(in_list(d, "matte sphere"))
+    d.ctx.item_double_click("//###Inspector/##radius")
+    d.ctx.key_chars_replace_enter("1e308")
+    d.ctx.yield_(3)
+    assert "radius: 1e+308 is too large" in panel.inspector.problem
+    d.picture()
+    d.ctx.item_click(in_list(d, "box"))
+    d.ctx.yield_(3)
+    assert not panel.inspector.problem
+    d.window.history = History(d.start)
+    d.settle()
+
+
+def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
+    enter(d)
+    before = d.window.state.scene.background
+    d.ctx.item_double_click("//###Inspector/##sky/##X")
+    d.ctx.key_chars_replace_enter("200")
+    d.ctx.yield_(3)
+    after = d.window.state.scene.background
+    assert after[0] > before[0]
+    assert after[1:] == before[1:]
+
+
+# Adding.
+
+
+def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    for kind in (*objects.SHAPES, *objects.LIGHTS):
+        light = kind in objects.LIGHTS
+        name = f"Add {kind} light" if light else f"Add {kind}"
+        before = {row.item for row in rows_of(window.state.scene)}
+        d.ctx.menu_click(f"//##MainMenuBar/Scene/Add/{name}")
+        d.ctx.yield_(3)
+        (new,) = {row.item for row in rows_of(window.state.scene)} - before
+        assert chosen(window.state) == (new,)
+    d.agreeing_images()
+    assert len(rows_of(window.state.scene)) == len(rows_of(d.start.scene)) + len(
+        (*objects.SHAPES, *objects.LIGHTS)
+    )
+
+
+# Many objects, large type.
+
+
+def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d: Driver) -> None:
+    enter(d)
+    balls = "".join(
+        f'[[objects]]\ntype = "sphere"\nname = "ball {k}"\ncenter = [{k % 20}, 0, {k // 20}]\n'
+        "radius = 0.4\n"
+        for k in range(300)
+    )
+    opened(d, f'name = "kept"\n{balls}', "many")
+    for name, other in (("ball 0", "ball 150"), ("ball 150", "ball 0"), ("ball 0", "ball 150")):
+        d.window.amend(choose(d.window.state, (item(d, name),)))
+        d.ctx.yield_(4)
+        assert d.ctx.item_exists(in_list(d, name))
+        assert not d.ctx.item_exists(in_list(d, other))
+    d.ctx.item_click("//###Objects/##search")
+    d.ctx.key_chars_replace_enter("ball 29")
+    d.ctx.yield_(3)
+    assert now(d) == tuple(f"ball {k}" for k in range(300) if "29" in str(k))
+    d.ctx.item_click("//###Objects/##search")
+    d.ctx.key_chars_replace_enter("")
+    d.ctx.yield_(3)
+    assert len(now(d)) == len(rows_of(d.window.state.scene)) > 300
+    d.press(int(Key.escape))
+
+
+def drive_the_column_grows_with_the_type(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    window.amend(choose(window.state, (item(d, "box"),)))
+    wide = []
+    for scale in (1.0, 1.5, 1.0):
+        window.change(with_options(window.state, preferences={"font_scale": scale}))
+        d.settle()
+        d.picture()
+        wide.append(d.ctx.item_info("//###Objects/##search").rect_full.get_width())
+    assert wide[1] > 1.25 * wide[0]
+    assert abs(wide[2] - wide[0]) <= 1, wide

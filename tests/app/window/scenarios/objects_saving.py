@@ -1,0 +1,166 @@
+"""The scene in hand: saving what was changed, and what is dropped on it."""
+
+from __future__ import annotations
+
+from objects_window import (
+    CTRL,
+    SCENE,
+    SHIFT,
+    enter,
+    item,
+    opened,
+)
+from window_driver import Driver, Key
+
+from lucida.app.instruments.objects.choosing import chosen
+from lucida.app.instruments.objects.editing import with_scene
+from lucida.app.window import taking
+from lucida.app.window.scene_saving import title
+from lucida.renderer.editing.changing import set_field
+from lucida.renderer.editing.documents import is_unsaved
+from lucida.renderer.files import load_scene
+
+# Saving.
+
+
+def drive_a_changed_scene_is_saved_with_its_comments(d: Driver) -> None:
+    enter(d)
+    window, path = d.window, opened(d)
+    assert "*" not in title(window.state.scene)
+    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.75)
+    window.change(with_scene(window.state, scene))
+    d.ctx.yield_(3)
+    assert "*" in title(window.state.scene)
+    d.press(CTRL | int(Key.s))
+    d.until(lambda: not is_unsaved(window.state.scene))
+    assert "*" not in title(window.state.scene)
+    text = path.read_text()
+    for line in SCENE.splitlines():
+        assert line in text
+    assert "radius = 0.75" in text
+    d.until(lambda: any("kept.toml" in said for said in window.shell.toasts.texts))
+    window.undo()  # not what is in the file
+    d.ctx.yield_(3)
+    assert is_unsaved(window.state.scene)
+    window.redo()
+    d.ctx.yield_(3)
+    assert not is_unsaved(window.state.scene)
+    window.shell.toasts.clear()
+
+
+def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
+    enter(d)
+    window, path = d.window, opened(d, name="theirs")
+    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.5)
+    window.files.follow = lambda scene: False  # else it is read again, before anybody can save
+    try:
+        window.change(with_scene(window.state, scene))
+        path.write_text(SCENE + "\n# theirs\n")
+        for answer, kept in (("Cancel", True), ("Overwrite it", False)):
+            d.press(CTRL | int(Key.s))
+            d.until(lambda: window.files.question is not None)
+            d.ctx.yield_(3)
+            d.picture()
+            assert "# theirs" in path.read_text()
+            d.ctx.item_click(f"//##message/{answer}")
+            d.ctx.yield_(3)
+            if kept:
+                assert is_unsaved(window.state.scene)
+        d.until(lambda: not is_unsaved(window.state.scene))
+        assert "radius = 0.5" in path.read_text()
+    finally:
+        del window.files.follow
+    window.shell.toasts.clear()
+
+
+def drive_closing_asks_about_what_is_not_saved(d: Driver) -> None:
+    enter(d)
+    window, path = d.window, opened(d, name="closing")
+    ended: list[str] = []
+    window.saving.end = lambda: ended.append("quit")
+    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.25)
+    window.change(with_scene(window.state, scene))
+    d.press(CTRL | int(Key.q))
+    assert window.files.question is not None
+    assert not ended
+    d.picture()
+    d.ctx.item_click("//##message/Cancel")
+    d.ctx.yield_(3)
+    assert window.files.question is None
+    assert not ended
+    d.press(CTRL | int(Key.q))
+    d.ctx.item_click("//##message/Quit without saving")
+    d.ctx.yield_(3)
+    assert ended == ["quit"]
+    assert "radius" not in path.read_text()
+    scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.3)
+    window.change(with_scene(window.state, scene))
+    d.press(CTRL | int(Key.q))
+    d.ctx.item_click("//##message/Save")
+    d.until(lambda: len(ended) == 2)
+    assert "radius = 0.3" in path.read_text()
+    window.shell.toasts.clear()
+    assert load_scene(path).objects
+
+
+def drive_saving_as_begins_beside_the_scene_s_file(d: Driver) -> None:
+    enter(d)
+    window, path = d.window, opened(d, name="begun")
+    (d.folder / "elsewhere").mkdir()
+    window.files.dialog.go(d.folder / "elsewhere")
+    d.press(CTRL | SHIFT | int(Key.s))
+    assert window.files.dialog.folder == path.parent
+    d.until(lambda: bool(window.files.dialog.listing.files))
+    d.picture()
+    d.ctx.key_chars("copy")  # in the place of its own name
+    d.press(int(Key.enter))
+    d.until(lambda: (d.folder / "copy.toml").exists())
+    assert "# A ball" in (d.folder / "copy.toml").read_text()
+    d.settle()
+    window.shell.toasts.clear()
+
+
+def drive_opening_another_scene_asks_about_what_is_not_saved(d: Driver) -> None:
+    enter(d)
+    window, path = d.window, opened(d, name="leaving")
+    for answer, there in (("Cancel", False), ("Open without saving", True), ("Save", True)):
+        scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.75)
+        window.change(with_scene(window.state, scene))
+        window.open("spheres")
+        d.until(lambda: window.files.question is not None)
+        assert window.state.scene is scene
+        d.ctx.yield_(3)
+        d.ctx.item_click(f"//##message/{answer}")
+        d.ctx.yield_(3)
+        if there:
+            d.until(lambda: window.state.scene.name == "spheres")
+            window.undo()
+        assert window.state.scene.name == "kept"
+        assert ("radius" in path.read_text()) == (answer == "Save")
+        if answer != "Save":
+            window.undo()
+    assert not is_unsaved(window.state.scene)
+    window.shell.toasts.clear()
+
+
+def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
+    window = d.window
+    path = d.folder / "wedge.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", "utf-8")
+    before = len(window.state.scene.objects)
+    d.drop([str(path)])
+    d.until(lambda: window.files.question is not None)
+    d.ctx.yield_(2)
+    d.ctx.item_click(f"//##message/{taking.ADD}")
+    d.until(lambda: len(window.state.scene.objects) == before + 1)
+    assert chosen(window.state)
+    d.drop([str(path)])  # not asked again
+    d.until(lambda: len(window.state.scene.objects) == before + 2)
+    assert window.files.question is None
+    d.settle()
+    window.undo()
+    window.undo()
+    assert len(window.state.scene.objects) == before
+    d.ctx.menu_click("//##MainMenuBar/Scene/Add dropped models to the scene")
+    d.drop([str(path)])
+    d.until(lambda: window.state.scene.name == "wedge")

@@ -1,0 +1,255 @@
+"""The outside view: its handles, its switches, and the pixels that it shares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from imgui_bundle.imguizmo import im_guizmo
+from option_changes import with_options
+from outside_window import enter, place, press, scope, strokes, view
+from window_driver import Driver, Key
+
+from lucida.app.instruments.outside import gizmo as outside_gizmo
+from lucida.app.instruments.outside import tint as outside_tint
+from lucida.app.instruments.outside import view as outside
+from lucida.app.instruments.outside.frustum import plane_corners
+from lucida.app.instruments.outside.gizmo import LENGTH
+from lucida.app.instruments.outside.paint import ground_of
+from lucida.app.instruments.outside.view import OUTSIDE
+from lucida.app.ui import palettes, theme
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.model import Sphere
+
+
+def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    camera, size = window.renderers.camera(window.state), window.renderers.size
+    corners = plane_corners(camera)
+    target = (2 * size[1] // 3, size[0] // 4)
+    part = (target[1] + 0.5) / size[0], (target[0] + 0.5) / size[1]
+    point = corners[0] + part[0] * (corners[1] - corners[0]) + part[1] * (corners[3] - corners[0])
+    d.ctx.mouse_teleport_to_pos(place(d, point))
+    d.ctx.yield_(3)
+    name, pixel = window.hovered
+    assert name == OUTSIDE
+    near = 3 + size[0] / 60  # ImGui's mouse has whole numbers, and the plane is small on the screen
+    assert max(abs(pixel[0] - target[0]), abs(pixel[1] - target[1])) < near
+    steps = len(window.history.past)
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(2)
+    assert window.state.marked == pixel
+    assert len(window.history.past) == steps + 1
+    d.settle()
+    # Its ray goes from the eye through the pixel's centre to what the ray image has seen there.
+    (ray,) = strokes(d, "ray")
+    t = window.renderers.depth_at(window.state, pixel)
+    assert t is not None
+    drawn = camera.ray(*pixel, size)
+    x, y = place(d, drawn.origin + t * drawn.direction)
+    at = scope(d)
+    end = ray.points[0, 1] + (at.origin.x, at.origin.y)
+    assert np.allclose(end, (x, y), atol=1.0)
+    start = place(d, np.asarray(camera.eye))
+    assert np.allclose(ray.points[0, 0] + (at.origin.x, at.origin.y), start, atol=1.0)
+
+
+def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    camera = window.renderers.camera(window.state)
+    ball = next(o.shape for o in window.state.scene.objects if isinstance(o.shape, Sphere))
+    center, spot = np.asarray(ball.center), plane_corners(camera).mean(axis=0)
+    way = (center - spot) / np.linalg.norm(center - spot)
+    from_behind = center + 1.4 * ball.radius * way
+    for eye, hidden in ((from_behind, True), (spot - 0.5 * way, False)):
+        looking = Camera.look_at(eye, spot, fov_y_deg=40.0)
+        window.change(with_options(window.state, outside={"camera": looking}, marked=None))
+        d.ctx.yield_(3)  # its rows and columns are where it was drawn
+        d.settle()
+        d.ctx.mouse_teleport_to_pos(place(d, spot))
+        d.ctx.yield_(3)
+        assert (window.hovered is None) == hidden
+        d.ctx.mouse_click(0)
+        d.ctx.yield_(2)
+        assert (window.state.marked is None) == hidden
+
+
+def drive_the_legend_switches(d: Driver) -> None:
+    enter(d)
+    window = d.window
+    for name in ("basis", "image", "grid", "volume", "ray"):
+        press(d, name)
+        assert not getattr(window.state.options.outside, name)
+        d.ctx.yield_(2)
+        assert not strokes(d, {"basis": "u", "image": "none", "volume": "edges"}.get(name, name))
+        press(d, name)
+        assert getattr(window.state.options.outside, name)
+    press(d, "bundle")
+    rows, columns = window.state.options.outside.bundle
+    d.settle()
+    rays = {" ".join(p.name.split()[:3]) for p in view(d).primitives if "bundle" in p.name}
+    assert len(rays) == rows * columns
+    assert view(d).settled
+    d.window.undo()
+    assert window.state.options.outside.bundle == (0, 0)
+
+
+def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
+    enter(d)
+    d.until(lambda: view(d).settled)
+    d.ctx.yield_(3)
+    before = view(d).primitives
+    assert before
+    d.ctx.yield_(20)
+    assert view(d).primitives is before
+    d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.4, 0.6))
+    d.until(lambda: view(d).primitives is not before)  # its ray
+    assert strokes(d, "ray")
+
+
+def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
+    """The look follows the preferences a frame later: what was drawn between is of the old one."""
+    enter(d)
+    drawn: list[palettes.Palette] = []
+    layers = outside.layers
+
+    def watched(primitives: Any, ground: theme.Rgb) -> Any:
+        drawn.append(theme.used().palette)
+        return layers(primitives, ground)
+
+    outside.layers = watched
+    light = palettes.LIGHT, palettes.PRESENTED_LIGHT
+    shown = *light, palettes.PRESENTED_DARK, palettes.DARK
+    try:
+        for palette in shown:
+            look = {
+                "theme": "light" if palette in light else "dark",
+                "presentation": palette in (palettes.PRESENTED_LIGHT, palettes.PRESENTED_DARK),
+            }
+            drawn.clear()
+            d.window.change(with_options(d.window.state, preferences=look))
+            if look["presentation"]:
+                d.ctx.yield_(3)
+                d.window.shell.stage.show(OUTSIDE)
+            d.until(lambda it=palette: bool(drawn) and drawn[-1] is it)
+    finally:
+        outside.layers = layers
+
+
+def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
+    """While a handle is dragged, only our own text and colours are shown, none of ImGuizmo's."""
+    enter(d)
+    window = d.window
+    start = window.state.camera
+    press(d, "move eye")
+    assert window.state.options.outside.gizmo == "move"
+    d.ctx.yield_(2)
+    at = scope(d)
+    x, y = place(d, np.asarray(start.eye))
+    up = place(d, np.add(start.eye, 0.1 * at.reach * np.asarray(start.v)))  # along v's handle
+    way = np.array([up[0] - x, up[1] - y])
+    way = way / np.linalg.norm(way)
+    grip = np.array([x, y]) + 0.4 * LENGTH * at.extent.x * way
+    steps = len(window.history.past)
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(3)
+    with _watched() as (texts, hidden, colors):
+        d.drag(tuple(grip), tuple(grip + 60 * way))
+        d.picture()
+    moved = window.state.camera
+    way_moved = np.subtract(moved.eye, start.eye)
+    assert way_moved @ start.v > 0.1
+    assert np.allclose(way_moved, (way_moved @ start.v) * np.asarray(start.v), atol=1e-3)
+    assert (moved.u, moved.v, moved.w) == (start.u, start.v, start.w)
+    assert texts[-1] == f"Δv {way_moved @ start.v:.4g}"
+    assert max(hidden) > 0, "ImGuizmo wrote nothing that could be hidden"
+    ground = ground_of(window.state.scene.background, 0.0)
+    shown = [theme.seen_on(theme.BASIS[name], ground) for name in "uvw"]
+    expected = {packed(*(round(255 * x) for x in (c.x, c.y, c.z))) for c in shown}
+    expected |= {0, 0xFFFFFF, packed(170, 170, 170)}  # hidden, held, the way from the beginning
+    assert colors <= expected, f"ImGuizmo's own colours: {[hex(c) for c in colors - expected]}"
+    assert window.state.options.outside.camera is None  # the view was not turned by it
+    assert len(window.history.past) == steps + 1
+    d.settle()
+    window.undo()
+    assert window.state.camera == start
+    d.ctx.mouse_teleport_to_pos(tuple(grip))
+    d.ctx.yield_(3)
+    d.ctx.mouse_down(0)
+    for length in (10, 30):
+        d.ctx.mouse_teleport_to_pos(tuple(grip + length * way))
+        d.ctx.yield_(2)
+    assert window.state.camera != start
+    d.press(int(Key.escape))
+    d.ctx.mouse_teleport_to_pos(tuple(grip + 60 * way))  # the mouse is still down
+    d.ctx.yield_(2)
+    d.ctx.mouse_up(0)
+    d.ctx.yield_(2)
+    assert window.state.camera == start
+    assert len(window.history.past) == steps
+    press(d, "turn basis")
+    d.ctx.yield_(2)
+    x, y = place(d, np.asarray(start.eye))
+    for angle in np.linspace(0.0, 2 * np.pi, 16, endpoint=False):
+        turned = _turn_by(d, np.array([x, y]), angle)
+        if turned:
+            break
+    camera = window.state.camera
+    assert camera.eye == start.eye
+    assert np.abs(np.asarray(camera.w) - start.w).max() > 1e-3
+    assert np.allclose(camera.basis.T @ camera.basis, np.eye(3))
+    assert camera.determinant > 0
+    d.settle()
+
+
+@contextmanager
+def _watched() -> Iterator[tuple[list[str], list[int], set[int]]]:
+    """Watch a dragged handle: the motion's texts, the numbers of hidden vertices, the colours."""
+    texts: list[str] = []
+    hidden: list[int] = []
+    colors: set[int] = set()
+    motion, hide_text = outside_gizmo.motion, outside_gizmo.hide_text
+
+    def told(before: Camera, after: Camera) -> str:
+        texts.append(motion(before, after))
+        return texts[-1]
+
+    def counted(draw: Any, first: int) -> None:
+        shadows = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
+        hide_text(draw, first)
+        after = outside_tint.vertex_colors(draw)[first:]
+        assert (after == 0).sum() == 2 * shadows
+        hidden.append(int(shadows))
+        if outside_gizmo.is_dragging():
+            colors.update((after & 0xFFFFFF).tolist())
+
+    outside_gizmo.motion, outside_gizmo.hide_text = told, counted
+    try:
+        yield texts, hidden, colors
+    finally:
+        outside_gizmo.motion, outside_gizmo.hide_text = motion, hide_text
+
+
+def packed(red: int, green: int, blue: int) -> int:
+    return red | green << 8 | blue << 16
+
+
+def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
+    """Drags the ring of handles at an angle; whether there was one."""
+    before = d.window.state.camera
+    radius = 0.5 * LENGTH * scope(d).extent.x
+    for part in (0.7, 0.85, 1.0, 1.1):
+        grip = middle + part * radius * np.array([np.cos(angle), np.sin(angle)])
+        d.ctx.mouse_teleport_to_pos(tuple(grip))
+        d.ctx.yield_(2)
+        if not im_guizmo.is_over():
+            continue
+        d.drag(tuple(grip), tuple(grip + 30 * np.array([-np.sin(angle), np.cos(angle)])))
+        if np.abs(np.subtract(d.window.state.camera.w, before.w)).max() > 1e-3:
+            return True
+        d.window.history = type(d.window.history)(d.window.state)
+    return False

@@ -1,0 +1,206 @@
+"""Into the pixels: marks, magnification, rulers, values; on the screen's pixels."""
+
+from __future__ import annotations
+
+import numpy as np
+from option_changes import with_options
+from shown_pixels import ALT, SHIFT, choose, magnified, placement, without_overlays
+from window_driver import Driver, Key
+
+from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.ui.theme import framebuffer_scale
+
+
+def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:
+    window, before = d.window, d.agreeing_images()
+    x, y, *_ = d.rect(RASTER)
+    d.ctx.mouse_teleport_to_pos((x + 120, y + 150))
+    d.ctx.yield_()
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(2)
+    assert window.state.marked == (150, 120)
+    assert window.state.camera == d.start.camera
+    assert len(window.history.past) == 1
+    for was, now in zip(before, d.images(), strict=True):
+        places = np.argwhere(np.abs(was - now).max(axis=2) > 40)
+        assert len(places) > 20
+        assert np.allclose((places.min(axis=0) + places.max(axis=0)) / 2, (150, 120), atol=1)
+    # The keys move it, in the image that the mouse is over.
+    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.5, 0.5))
+    d.ctx.yield_(2)
+    d.ctx.key_press(int(Key.right_arrow))
+    d.ctx.key_press(SHIFT | int(Key.down_arrow))
+    d.ctx.yield_(2)
+    assert window.state.marked == (160, 121), window.state.marked
+    d.ctx.key_press(SHIFT | int(Key.left_arrow), 20)
+    d.ctx.key_press(int(Key.up_arrow))
+    d.ctx.yield_(2)
+    assert window.state.marked == (159, 0), "it stays in the image"
+    d.ctx.key_press(SHIFT | int(Key.right_arrow), 3)
+    d.ctx.yield_(2)
+    d.ctx.key_press(int(Key.escape))
+    d.ctx.yield_(2)
+    assert window.state.marked is None
+    window.undo()
+    assert window.state.marked == (159, 30)
+    # Clicked again, it is gone; a drag marks nothing.
+    x, y, *_ = d.rect(RAY)
+    d.ctx.mouse_teleport_to_pos((x + 30, y + 159))
+    d.ctx.yield_()
+    d.ctx.mouse_click(0)
+    d.ctx.yield_(2)
+    assert window.state.marked is None
+    d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
+    assert window.state.marked is None
+    assert window.state.camera != d.start.camera
+
+
+def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d: Driver) -> None:
+    window = d.window
+    choose(d, "Resolution/640 x 360")
+    x, y = d.point(RASTER, 0.3, 0.6)
+    x, y = round(x), round(y)
+    d.ctx.mouse_teleport_to_pos((x, y))
+    d.ctx.yield_(2)
+    pixel = window.hovered[1]
+    d.ctx.key_down(int(Key.mod_ctrl))
+    for _ in range(6):
+        d.ctx.mouse_wheel_y(1)
+    d.ctx.yield_(2)
+    assert window.state.images.magnification == 8
+    assert window.state.camera == d.start.camera
+    apart = np.subtract(window.hovered[1], pixel)
+    assert np.abs(apart).max() <= 1, f"{pixel} under the pointer moves by {apart}"
+    assert len(window.history.past) == 1, "the resolution; the wheel is no step of undo"
+    center = window.state.images.center
+    d.drag((x, y), (x - 80, y - 24))
+    d.ctx.key_up(int(Key.mod_ctrl))
+    assert window.state.camera == d.start.camera
+    moved = window.state.images.center
+    assert abs((moved[0] - center[0]) * 640 * 8 - 80) < 1
+    assert abs((moved[1] - center[1]) * 360 * 8 - 24) < 1
+    # A drag without Ctrl turns the camera, also where the image is magnified.
+    d.drag((x, y), (x + 30, y))
+    assert window.state.camera != d.start.camera
+    assert window.state.images.center == moved
+    window.undo()
+    d.ctx.key_press(ALT | int(Key._0))
+    d.ctx.yield_(2)
+    assert window.state.images.magnification is None
+    d.ctx.key_press(ALT | int(Key.a))
+    d.ctx.yield_(2)
+    assert window.state.images.magnification == 1
+
+
+def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
+    window = d.window
+    choose(d, "Resolution/160 x 90")
+    choose(d, "Magnification/8x")
+    window.change(with_options(window.state, images={"center": (0.4, 0.6), "grid": False}))
+    d.settle()
+    plain = d.images()
+    for name, image in zip((RASTER, RAY), plain, strict=True):
+        expected = magnified(d, name, "color")
+        difference = np.abs(without_overlays(image) - without_overlays(expected)).max(axis=2)
+        assert (difference <= 1).all(), "nearest neighbour: nothing is blurred or shifted"
+    d.ctx.key_press(ALT | int(Key.x))
+    d.settle()
+    for name, after in zip((RASTER, RAY), d.images(), strict=True):
+        lines = np.abs(after - magnified(d, name, "color")).max(axis=2) > 4
+        at, (height, width) = placement(d, name), lines.shape
+        columns = (np.arange(width) + at.visible[0] - at.origin[0]) % 8 == 0
+        rows = (np.arange(height) + at.visible[1] - at.origin[1]) % 8 == 0
+        expected = columns[None, :] | rows[:, None]
+        inner = without_overlays(np.dstack([lines, np.broadcast_to(expected, lines.shape)]))
+        assert (inner[..., 0] <= inner[..., 1]).all(), "lines stand between pixels only"
+        assert inner[..., 0].sum() > 0.9 * inner[..., 1].sum()
+    choose(d, "Magnification/4x")
+    fine = d.images()
+    d.ctx.key_press(ALT | int(Key.x))
+    d.settle()
+    assert (np.abs(fine[0] - d.images()[0]) <= 1).all(), "no lines between smaller pixels"
+
+
+def drive_rulers_stand_beside_the_image(d: Driver) -> None:
+    """No number covers a pixel; both images have the same place, and picking is exact."""
+    window, scale = d.window, framebuffer_scale()
+    choose(d, "Resolution/16 x 9")
+    at = placement(d)
+    assert at == placement(d, RAY)
+    assert at.magnification >= 8
+    wide, high = at.margin
+    assert wide > 0
+    assert high > 0
+    for name, image in zip((RASTER, RAY), d.images(), strict=True):
+        covered = np.abs(image - magnified(d, name, "color")).max(axis=2) > 4
+        side = round(at.magnification)
+        covered[::side] = covered[:, ::side] = False  # the lines between pixels
+        assert not covered.any(), f"pixels of {name} are covered"
+
+    def rulers() -> tuple[np.ndarray, np.ndarray]:
+        left, top, right, bottom = (round(edge * scale) for edge in d.rect(RASTER))
+        whole = d.picture().astype(np.int16)
+        return whole[top - high : top, left:right], whole[top:bottom, left - wide : left]
+
+    from_one = rulers()
+    assert all(np.ptp(ruler) > 100 for ruler in from_one), "there are no numbers"
+    window.change(with_options(window.state, one_based=False))
+    d.settle()
+    for before, after in zip(from_one, rulers(), strict=True):
+        assert np.abs(after - before).max() > 60, "they follow the way to count"
+    # The pixel under the pointer is the one that is drawn there, to the corners.
+    for row, column in ((0, 0), (8, 15), (4, 7)):
+        d.ctx.mouse_teleport_to_pos(d.point(RASTER, (column + 0.5) / 16, (row + 0.5) / 9))
+        d.ctx.yield_(3)
+        assert window.hovered == (RASTER, (row, column))
+    left, top, *_ = d.rect(RASTER)
+    for place in ((left - 5, top + 5), (left + 5, top - 5)):
+        d.ctx.mouse_teleport_to_pos(place)
+        d.ctx.yield_(3)
+        assert window.hovered is None, "a ruler is no pixel"
+    # Where pixels become large enough for rulers, what is under the pointer stays there.
+    choose(d, "Resolution/640 x 360")
+    choose(d, "Magnification/4x")
+    d.ctx.mouse_teleport_to_pos(tuple(map(round, d.point(RASTER, 0.4, 0.6))))
+    d.ctx.yield_(3)
+    pixel = window.hovered[1]
+    d.ctx.key_down(int(Key.mod_ctrl))
+    while not any(placement(d).margin):
+        d.ctx.mouse_wheel_y(1)
+        d.ctx.yield_(2)
+        assert np.abs(np.subtract(window.hovered[1], pixel)).max() <= 1
+    d.ctx.key_up(int(Key.mod_ctrl))
+    assert placement(d).magnification == 8
+    # Without lines between pixels there are no rulers; with large numbers in them there are.
+    choose(d, "Magnification/64x")
+    assert any(placement(d).margin)
+    d.ctx.key_press(ALT | int(Key.x))
+    d.settle()
+    assert placement(d).margin == (0, 0)
+
+
+def drive_values_are_written_into_large_pixels(d: Driver) -> None:
+    window = d.window
+    choose(d, "Resolution/64 x 36")
+    choose(d, "Magnification/64x")
+    for number, channel in enumerate(("color", "depth", "normal", "id")):
+        d.ctx.key_press(ALT | (int(Key._1) + number))
+        d.settle()
+        assert window.state.images.channel == channel
+        raster = d.images()[0]
+        cell = without_overlays(np.abs(raster - magnified(d, RASTER, channel)).max(axis=2)) > 60
+        assert cell.mean() > 0.02, "there are no numbers in the pixels"
+    # Another way to write changes the numbers.
+    d.ctx.key_press(ALT | int(Key._1))
+    d.settle()
+    counted = d.images()[0]
+    d.ctx.key_press(ALT | int(Key.v))
+    d.settle()
+    assert np.abs(without_overlays(d.images()[0] - counted)).max() > 60
+    # From 48 units a side on, each has its row and column too.
+    window.change(with_options(window.state, images={"magnification": 64.0}))
+    d.settle()
+    large = d.images()[0]
+    window.change(with_options(window.state, one_based=False))
+    d.settle()
+    assert np.abs(without_overlays(d.images()[0] - large)).max() > 60

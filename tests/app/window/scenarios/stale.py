@@ -1,0 +1,138 @@
+"""Nothing stale is shown: no ray image of another scene or size, no name, no time, no mark."""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from option_changes import with_options
+from window_driver import Driver, Key
+
+from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.state.app_state import History
+from lucida.app.state.session import from_bytes, session_of, to_bytes
+from lucida.renderer.camera.navigation import orbited
+
+COMPARE = "Compare"
+
+
+def middle(d: Driver, name: str) -> np.ndarray:
+    """The pixels in the middle of a view, away from what is written at its edges."""
+    left, top, right, bottom = d.window.shell.stage.rects[name]
+    wide, high = right - left, bottom - top
+    picture = d.picture()
+    return picture[
+        int(top + 0.35 * high) : int(top + 0.6 * high),
+        int(left + 0.2 * wide) : int(right - 0.2 * wide),
+    ].reshape(-1, 3)
+
+
+def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
+    window = d.window
+    live = window.renderers.live
+    for view, mode in ((RAY, ""), (COMPARE, "flip"), (COMPARE, "wipe")):
+        hello_imgui.switch_layout(COMPARE if mode else "Side by side")
+        d.ctx.yield_(5)
+        window.change(with_options(d.start, images={"channel": "depth"}))
+        if mode:
+            options = {"mode": mode, "flipped": True, "divider": 0.1}
+            window.change(with_options(window.state, compare=options))
+        d.settle()
+        assert len(np.unique(middle(d, view), axis=0)) > 20
+        live.request = lambda *_: None  # type: ignore[method-assign]
+        try:
+            camera = window.state.camera
+            window.change(window.state.with_camera(orbited(camera, (0, 0, 0), 0.1, 0.0)))
+            d.ctx.yield_(5)
+            assert len(np.unique(middle(d, view), axis=0)) > 20, "an image of a camera on its way"
+            window.undo()
+            shown = window.state
+            window.change(with_options(shown, images={"resolution": (300, 100)}))
+            d.ctx.yield_(5)
+            assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another size"
+            window.undo()
+            window.open("columns")
+            d.until(lambda: window.state.scene.name == "columns")
+            d.ctx.yield_(5)
+            assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another scene"
+        finally:
+            del live.request
+        d.settle()
+        assert len(np.unique(middle(d, view), axis=0)) > 20
+        window.undo()
+        d.settle()
+    hello_imgui.switch_layout("Side by side")
+    d.ctx.yield_(5)
+
+
+def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
+    """Return the status line's words for a pixel, from the window's thread, which has OpenGL."""
+    callbacks, said = d.run.params.callbacks, []
+
+    def once() -> None:
+        callbacks.post_new_frame = lambda: None
+        said.append(d.window.renderers.seen_at(d.window.state, pixel))
+
+    callbacks.post_new_frame = once
+    d.until(lambda: bool(said))
+    return said[0]
+
+
+def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
+    window, both = d.window, d.window.renderers
+    pixel = both.size[1] // 2, both.size[0] // 2
+    of_rays = seen_at(d, pixel)
+    assert ", t = " in of_rays and both.raster_s > 0
+    window.shell.stage.show(RAY, False)
+    d.ctx.yield_(5)
+    window.open("spheres")
+    d.until(lambda: window.state.scene.name == "spheres")
+    d.settle()
+    assert not both.is_tracing and both.raster_s > 0
+    pixel = both.size[1] // 2, both.size[0] // 2
+    found = both.object_at(window.state, pixel)
+    name = "background" if found is None else window.state.scene.objects[found].name
+    assert seen_at(d, pixel).startswith(name)
+    window.shell.stage.show(RASTER, False)
+    d.ctx.yield_(5)
+    assert seen_at(d, pixel) == "" and both.raster_s == 0
+    window.shell.stage.show(RASTER, True)
+    window.shell.stage.show(RAY, True)
+    d.ctx.yield_(5)
+
+
+def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
+    window, both = d.window, d.window.renderers
+    pixel = both.size[1] // 3, both.size[0] // 4
+    window.change(with_options(window.state, marked=pixel))
+    d.settle()
+
+    def direction() -> np.ndarray:
+        ray = both.camera(window.state).ray(*window.state.marked, both.size)
+        return ray.direction / np.linalg.norm(ray.direction)
+
+    def is_kept() -> bool:
+        pixel_size = 2.0 / min(both.size)
+        return float(np.linalg.norm(direction() - first)) < pixel_size
+
+    first, size = direction(), both.size
+    window.change(with_options(window.state, shadows=True))
+    kept = to_bytes(session_of(window.state, window.shell.stage.arrangement()))
+    hello_imgui.switch_layout(COMPARE)
+    d.ctx.yield_(8)
+    d.settle()
+    assert both.size != size and is_kept()
+    window.undo()
+    d.settle()
+    assert is_kept(), "after undo"
+    window.history = History(from_bytes(kept).state(window.state.scene))  # the window begins anew
+    for view in window.views.values():
+        view.begin_anew()
+    d.ctx.yield_(3)
+    d.settle()
+    assert is_kept(), "after a restart in another layout"
+    hello_imgui.switch_layout("Side by side")
+    d.ctx.yield_(8)
+    d.settle()
+    assert window.state.marked == pixel
+    d.press(int(Key.escape))
+    assert window.state.marked is None

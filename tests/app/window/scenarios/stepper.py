@@ -1,0 +1,161 @@
+"""The loop stepper in the window: its buttons, keys and sliders; the image it ends in."""
+
+from __future__ import annotations
+
+import numpy as np
+from imgui_bundle import hello_imgui
+from option_changes import with_options
+from window_driver import Driver, Key
+
+from lucida.app.instruments.outside.projected import Strokes
+from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
+from lucida.app.instruments.stepper.model import Moment
+from lucida.app.instruments.stepper.recording import Order
+from lucida.app.instruments.stepper.view import STEPPER, StepperView
+from lucida.app.ui import layout
+from lucida.app.window.palette_entries import entries
+from lucida.app.window.shortcut_sheet import sections
+
+WINDOW = f"//###{STEPPER}"
+
+
+def view(d: Driver) -> StepperView:
+    found = d.window.views[STEPPER]
+    assert isinstance(found, StepperView)
+    return found
+
+
+def enter(d: Driver, **options: object) -> None:
+    layout.switch("Loops")
+    d.ctx.yield_(5)
+    d.window.change(with_options(d.window.state, stepper=options))
+    d.settle()
+    d.until(lambda: len(view(d).moments) > 0)
+
+
+def leave(d: Driver) -> None:
+    hello_imgui.switch_layout("Side by side")
+    d.ctx.yield_(5)
+
+
+def press(d: Driver, name: str) -> None:
+    d.ctx.item_click(f"{WINDOW}/###{name}")
+    d.ctx.yield_(2)
+
+
+def moments(d: Driver) -> tuple[Moment, Moment]:
+    both = view(d).moments
+    return both[Order.RASTER], both[Order.IMAGE]
+
+
+def strokes(d: Driver, name: str) -> int:
+    outside = d.window.views[OUTSIDE]
+    assert isinstance(outside, OutsideView)
+    found = [p for p in outside.primitives if isinstance(p, Strokes) and p.name == name]
+    return sum(len(part.points) for part in found)
+
+
+def drive_buttons_go_through_both_runs(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="both")
+    steps = len(d.window.history.past)
+    assert [moment.step for moment in moments(d)] == [0, 0]
+    for count in (1, 2, 3):
+        press(d, "step")
+        assert [moment.step for moment in moments(d)] == [count, count]
+    press(d, "back")
+    assert [moment.step for moment in moments(d)] == [2, 2]
+    press(d, "pixel")
+    by_object, by_image = moments(d)
+    assert by_image.pixel == (0, 0) and by_object.triangle is not None
+    press(d, "pixel")
+    assert moments(d)[1].pixel == (0, 1)
+    press(d, "object")
+    assert moments(d)[1].object == 0 and moments(d)[1].pixel == (0, 1)
+    press(d, "last")
+    d.until(lambda: all(moment.finished for moment in moments(d)))
+    by_object, by_image = moments(d)
+    assert np.allclose(by_object.canvas, by_image.canvas, atol=1e-9)
+    press(d, "first")
+    assert [moment.step for moment in moments(d)] == [0, 0]
+    assert len(d.window.history.past) == steps  # steps are nothing to undo
+
+
+def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(4, 3), order="both", speed=20000.0)
+    press(d, "play")
+    assert view(d).playing
+    d.until(lambda: not view(d).playing)
+    assert all(moment.finished for moment in moments(d))
+    press(d, "play")  # from the beginning again
+    d.until(lambda: moments(d)[1].step > 0)
+    d.ctx.window_focus(WINDOW)
+    d.ctx.key_press(int(Key.space))
+    d.ctx.yield_(2)
+    assert not view(d).playing
+    stopped = [moment.step for moment in moments(d)]
+    d.ctx.yield_(10)
+    assert [moment.step for moment in moments(d)] == stopped
+
+
+def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="both")
+    assert strokes(d, "ray") == strokes(d, "triangle") == 0
+    for name in ("object", "pixel", "step", "step", "step", "step"):
+        press(d, name)
+    d.settle()
+    assert strokes(d, "ray") > 0
+    assert strokes(d, "triangle") > 0 and strokes(d, "bounding box") > 0
+    d.window.shell.stage.show(STEPPER, False)
+    d.ctx.yield_(4)
+    assert strokes(d, "ray") == strokes(d, "triangle") == 0
+    d.window.shell.stage.show(STEPPER)
+    d.ctx.yield_(4)
+
+
+def drive_the_palette_and_the_keys_step(d: Driver) -> None:
+    enter(d, steps=(5, 5), canvas=(16, 12), order="both")
+    assert not d.window.renderers.is_tracing  # so that no verdict on both images is announced
+    offered = {entry.name: entry for entry in entries(d.window, d.window.shell.stage)}
+    rows = dict(sections())["Loop stepper, once it is clicked"]
+    for name, keys, key, steps in (
+        ("Stepper: one line on", "Right", "right_arrow", (6, 6)),
+        ("Stepper: one line back", "Left", "left_arrow", (5, 5)),
+        ("Stepper: to the beginning", "Home", "home", (0, 0)),
+    ):
+        entry = offered[name]
+        assert entry.enabled and entry.keys == keys
+        assert (keys, name.removeprefix("Stepper: ")) in rows
+        before = d.window.state.options.stepper.steps
+        entry.run()
+        d.ctx.yield_(3)
+        assert d.window.state.options.stepper.steps == steps
+        d.window.change(with_options(d.window.state, stepper={"steps": before}))
+        d.ctx.window_focus(WINDOW)
+        d.ctx.yield_(2)
+        d.ctx.key_press(int(getattr(Key, key)))
+        d.ctx.yield_(2)
+        assert d.window.state.options.stepper.steps == steps
+    d.ctx.key_press(int(Key.down_arrow))
+    d.ctx.yield_(2)
+    assert moments(d)[1].pixel == (0, 0)
+    d.ctx.key_press(int(Key.end))
+    d.ctx.yield_(2)
+    assert all(moment.finished for moment in moments(d))
+    leave(d)
+
+
+def drive_the_same_lines_in_julia_and_the_depth_buffer(d: Driver) -> None:
+    enter(d, steps=(0, 0), canvas=(16, 12), order="both")
+    d.ctx.item_click(f"{WINDOW}/Julia")
+    d.ctx.item_click(f"{WINDOW}/depth")
+    d.ctx.yield_(2)
+    options = d.window.state.options
+    assert options.language == "julia" and options.stepper.depth
+    for _ in range(3):
+        press(d, "step")
+    assert view(d).moments[Order.IMAGE].step == 3
+    d.ctx.item_click(f"{WINDOW}/Julia")
+    d.ctx.item_click(f"{WINDOW}/depth")
+    d.ctx.yield_(2)
+    assert d.window.state.options.language == "python"
+    leave(d)

@@ -1,0 +1,103 @@
+"""The instrument of docs/architecture.md, built from that text and opened in the window."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from test_window import LIMIT_S, PATH, environment
+
+ROOT = Path(__file__).parents[3]
+MOST_LINES = 60
+FILE = r"`(app/[\w/]*depths[\w/]*\.py)`(?:(?!```).)*```python\n(.*?)```"  # a name, and its text
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+
+WINDOW = """
+import json
+from pathlib import Path
+from stepped import stepped
+from lucida.app.window.platform import start_platform
+from lucida.app.state.app_state import AppState
+from lucida.app.window.viewer import WindowRun
+from lucida.app.window.action_table import ACTIONS
+from lucida.app.instruments.depths.view import Depths
+from lucida.renderer.files import load_scene
+
+state = AppState.for_scene(load_scene("still-life"))
+run = WindowRun(start_platform(want_display=False), state, (900, 600), remember=False)
+window = run.window
+
+def step():
+    window.show("Depths")
+    if window.is_visible("Depths") and window.settled:
+        [action] = [action for action in ACTIONS if action in Depths.actions]
+        action.run(window)
+        window.check()
+        counts = Depths.counts(window.renderers.ray_image.frame, 16)
+        told = {"bars": window.options.depths.bars, "pixels": int(counts.sum())}
+        window.undo()
+        told["undone"] = window.options.depths.bars
+        Path("told.json").write_text(json.dumps(told))
+        run.params.app_shall_exit = True
+
+stepped(run, step)
+"""
+
+
+def added(path: Path, after: str, line: str, name: str, module: str) -> None:
+    """Add a line, and an import of its name, to a file of the copy."""
+    text = path.read_text()
+    assert text.count(after) == 1, (path, after)
+    text = text.replace(after, after + line)
+    first = "from __future__ import annotations\n"
+    path.write_text(text.replace(first, f"{first}\nfrom {module} import {name}\n", 1))
+
+
+def test_the_documents_instrument_opens_in_the_window(tmp_path: Path) -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text()
+    text = text[text.index("## Adding an instrument") :]
+    files = re.findall(FILE, text, re.DOTALL)
+    option, entry = re.search(r"```text\n(.*?\n)(.*?\n)```", text, re.DOTALL).groups()
+    assert [Path(name).name for name, _ in files] == ["model.py", "depths.py", "view.py"]
+    assert sum(code.count("\n") for _, code in files) + 2 <= MOST_LINES
+
+    copy = tmp_path / "copy"
+    shutil.copytree(ROOT / "app", copy / "app", ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("renderer", "shaders"):
+        (copy / name).symlink_to(ROOT / name)
+    (copy / "app" / "instruments" / "depths").mkdir()
+    for name, code in files:
+        (copy / name).write_text(code)
+    options = copy / "app" / "state" / "options" / "__init__.py"
+    added(
+        options,
+        "    costs: CostOptions = field(default_factory=CostOptions)\n",
+        option,
+        "DepthsOptions",
+        "lucida.app.state.options.depths",
+    )
+    added(
+        copy / "app" / "window" / "instruments.py",
+        "    CostsView,\n",
+        entry,
+        "Depths",
+        "lucida.app.instruments.depths.view",
+    )
+    variables = environment(tmp_path) | {"PYTHONPATH": f"{copy}:{PATH.split(':')[-1]}"}
+    done = subprocess.run(
+        [sys.executable, "-c", WINDOW],
+        cwd=tmp_path,
+        env=variables,
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    told = json.loads((tmp_path / "told.json").read_text())
+    assert (told["bars"], told["undone"]) == (64, 16)
+    assert told["pixels"] > 0

@@ -1,0 +1,31 @@
+"""The facts about a display that are known without opening one."""
+
+from __future__ import annotations
+
+import pytest
+
+from lucida.app.window import platform
+
+X11, WAYLAND = {"DISPLAY": ":0"}, {"WAYLAND_DISPLAY": "wayland-0"}
+
+
+@pytest.mark.parametrize(
+    ("system", "variables", "why"),
+    [
+        ("linux", {}, "DISPLAY is not set"),
+        ("linux", WAYLAND, "this Wayland session has no XWayland (DISPLAY is not set)"),
+        ("linux", X11, ""),
+        ("linux", X11 | WAYLAND, ""),
+        ("darwin", {}, ""),
+        ("win32", {}, ""),
+    ],
+)
+def test_why_there_is_no_display(
+    monkeypatch: pytest.MonkeyPatch, system: str, variables: dict[str, str], why: str
+) -> None:
+    for name in X11 | WAYLAND:
+        monkeypatch.delenv(name, raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setattr(platform.sys, "platform", system)
+    assert platform.why_no_display() == why

@@ -1,0 +1,334 @@
+"""Recent files, folders, pictures, clipboard: what the window does with files, without a window."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+from opened_things import found
+from PIL import Image
+from waiting import wait_for
+
+from lucida.app.ui.folders import read_folder, starting_points
+from lucida.app.ui.recent import LONGEST, MOST, Recent, RecentFiles
+from lucida.app.ui.surface import Target
+from lucida.app.window import capture, clipboard
+from lucida.app.window.capture import Captures, cut, free_path
+from lucida.app.window.files import Files
+from lucida.app.window.opening import OpenedScene, OpenedView, open_sources
+from lucida.renderer.files import load_scene, save_view, scene_parts
+from lucida.renderer.files.scene_parts import BoxTable
+from lucida.renderer.scene import shapes
+from lucida.renderer.system.errors import LucidaError
+
+PATIENT_S = 60.0
+
+
+# Recent files.
+
+
+def paths(recent: RecentFiles) -> list[str]:
+    return [entry.path for entry in recent.entries]
+
+
+def test_the_newest_file_stands_first_and_the_list_ends(tmp_path):
+    recent = RecentFiles(tmp_path, lambda: None)
+    names = [str(tmp_path / f"{number}.obj") for number in range(MOST + 3)]
+    for name in names:
+        recent.add(name)
+    recent.add(names[5])
+    assert paths(recent)[0] == names[5]  # at once, before the thread has written
+    recent.close()
+    again = RecentFiles(tmp_path, lambda: None)
+    wait_for(lambda: bool(again.entries))
+    assert paths(again)[:3] == [names[5], names[-1], names[-2]]
+    assert len(paths(again)) == MOST
+    assert all(entry.missing for entry in again.entries)
+    again.clear()
+    assert again.entries == ()
+    again.close()
+    assert json.loads((tmp_path / "recent.json").read_bytes()) == []
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
+    """Shown at once, in order, once each, no longer than it is kept; and the same at the end."""
+    awake, asleep = threading.Event(), threading.Event()
+
+    def exists(path):
+        asleep.set()
+        return not awake.wait(PATIENT_S)
+
+    monkeypatch.setattr("lucida.app.ui.recent._exists", exists)
+    recent = RecentFiles(tmp_path if kept else None, lambda: None)
+    recent.add("/first.obj")
+    assert asleep.wait(PATIENT_S)
+    names = [f"/{number}.obj" for number in range(MOST)]
+    for number, name in enumerate(names):
+        recent.add(name)
+        shown = [*reversed(names[: number + 1]), "/first.obj"][:MOST]
+        assert paths(recent) == shown
+    recent.add(names[3])
+    recent.add("/last.obj")
+    newest = ["/last.obj", names[3], *(name for name in reversed(names) if name != names[3])]
+    assert paths(recent) == newest[:MOST]
+    awake.set()
+    # Looked for, all of them: the thread has come to the newest list.
+    wait_for(lambda: [entry.missing for entry in recent.entries] == [True] * MOST)
+    assert paths(recent) == newest[:MOST]
+    recent.close()
+    if kept:
+        assert json.loads((tmp_path / "recent.json").read_bytes()) == newest[:MOST]
+
+
+def test_what_was_found_before_a_file_was_added_does_not_take_it_away(tmp_path, monkeypatch):
+    """The disk tells what was in the list after one more came in, and falls asleep again."""
+    (tmp_path / "recent.json").write_text('["/old.obj"]')
+    awake = {"/old.obj": threading.Event(), "/new.obj": threading.Event()}
+    asked = {name: threading.Event() for name in awake}
+
+    def exists(path):
+        asked[path].set()
+        return awake[path].wait(PATIENT_S)
+
+    monkeypatch.setattr("lucida.app.ui.recent._exists", exists)
+    recent = RecentFiles(tmp_path, lambda: None)
+    assert asked["/old.obj"].wait(PATIENT_S)
+    recent.add("/new.obj")
+    awake["/old.obj"].set()
+    assert asked["/new.obj"].wait(PATIENT_S)  # the thread has told of the old list
+    assert paths(recent) == ["/new.obj"]
+    awake["/new.obj"].set()
+    wait_for(lambda: paths(recent) == ["/new.obj", "/old.obj"])
+    recent.close()
+
+
+def test_two_windows_share_the_list(tmp_path):
+    one, other = RecentFiles(tmp_path, lambda: None), RecentFiles(tmp_path, lambda: None)
+    one.add("/a.obj")
+    wait_for(lambda: (tmp_path / "recent.json").exists())
+    other.add("/b.obj")
+    wait_for(lambda: len(json.loads((tmp_path / "recent.json").read_bytes())) == 2)
+    one.look()
+    wait_for(lambda: paths(one) == ["/b.obj", "/a.obj"])
+    one.close()
+    other.close()
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b'{"a": 1}', b"[1, 2]", b"[" * 9999, b"\xff"])
+def test_a_broken_list_is_an_empty_one(tmp_path, content):
+    (tmp_path / "recent.json").write_bytes(content)
+    recent = RecentFiles(tmp_path, lambda: None)
+    recent.add("/a.obj")
+    recent.close()
+    assert json.loads((tmp_path / "recent.json").read_bytes()) == ["/a.obj"]
+
+
+def test_of_the_list_s_file_only_usable_paths_are_taken(tmp_path):
+    folder = tmp_path / "new" / "settings"  # which is made
+    recent = RecentFiles(folder, lambda: None)
+    recent.add("/a.obj")
+    recent.close()
+    listed = [
+        "",
+        "/b",
+        "x" * LONGEST,
+        "x" * (LONGEST + 1),
+        "/c\0d",
+        *("/" * k for k in range(1, 20)),
+    ]
+    (folder / "recent.json").write_text(json.dumps(listed))
+    recent = RecentFiles(folder, lambda: None)
+    wait_for(lambda: bool(recent.entries))
+    assert paths(recent) == ["/b", "x" * LONGEST, *("/" * k for k in range(1, MOST - 4))]
+    assert recent.entries[0].name == "b"
+    # A path of so many letters cannot be looked for: it is missing.
+    assert [entry.missing for entry in recent.entries] == [True, True, *[False] * (MOST - 5)]
+    recent.close()
+    assert not Recent("/b").missing
+    assert Recent("/a/b").folder == "/a"
+
+
+def test_a_list_that_is_only_looked_at_is_not_written(tmp_path):
+    listed = b'[ "/b" ]'
+    (tmp_path / "recent.json").write_bytes(listed)
+    recent = RecentFiles(tmp_path, lambda: None)
+    wait_for(lambda: bool(recent.entries))
+    recent.close()
+    assert (tmp_path / "recent.json").read_bytes() == listed
+
+
+# Folders.
+
+
+def test_a_folder_is_listed_folders_first(tmp_path):
+    for name in ("b.OBJ", "a.toml", "c.txt", ".hidden.obj"):
+        (tmp_path / name).write_text("")
+    (tmp_path / "Zoo").mkdir()
+    listing = read_folder(tmp_path, (".obj", ".toml"))
+    assert (listing.folders, listing.files) == (("Zoo",), ("a.toml", "b.OBJ"))
+    assert read_folder(tmp_path).files == ("a.toml", "b.OBJ", "c.txt")
+    assert read_folder(tmp_path / "nowhere").error != ""
+    assert read_folder(tmp_path / "a.toml").error != ""
+    assert all(folder.exists() for _, folder in starting_points())
+
+
+# Several sources at once.
+
+
+def test_of_several_files_the_first_scene_and_the_first_view_are_taken(tmp_path):
+    save_view(tmp_path / "view.toml", load_scene("canonical").view)
+    (tmp_path / "broken.obj").write_text("nothing")
+    view, broken = str(tmp_path / "view.toml"), str(tmp_path / "broken.obj")
+    opened = open_sources([view, broken, "spheres", "columns"])
+    assert found(opened, OpenedScene).scene.name == "spheres"
+    assert found(opened, OpenedView).view == load_scene("canonical").view
+    assert opened.sources == (view, "spheres")
+    assert len(opened.problems) == 1
+    assert "broken.obj" in opened.problems[0]
+    with pytest.raises(LucidaError, match=r"broken\.obj"):
+        open_sources([broken])
+
+
+# Pictures.
+
+
+class Framebuffer:
+    """moderngl's, as far as pictures need it: rows from below."""
+
+    def __init__(self, pixels: np.ndarray) -> None:
+        self.pixels = pixels
+
+    def read(self, viewport: tuple, components: int, alignment: int) -> bytes:
+        assert (viewport, components, alignment) == ((0, 0, 7, 5), 3, 1)
+        return self.pixels[::-1].tobytes()
+
+
+PIXELS = np.arange(5 * 7 * 3, dtype=np.uint8).reshape(5, 7, 3)
+TARGET = Target(Framebuffer(PIXELS), (7, 5))  # type: ignore[arg-type]
+
+
+def test_a_name_that_is_taken_gets_a_number(tmp_path):
+    path = tmp_path / "lucida.png"
+    assert free_path(path) == path
+    path.write_bytes(b"taken")
+    assert free_path(path).name == "lucida-2.png"
+    (tmp_path / "lucida-2.png").symlink_to(tmp_path / "nowhere")  # writing would follow it
+    assert free_path(path).name == "lucida-3.png"
+    assert free_path(path, " ").name == "lucida 2.png"
+
+
+def test_a_picture_is_saved_and_told(tmp_path):
+    captures = Captures(lambda: None, tmp_path)
+    captures.after_drawing(TARGET)
+    assert not captures.busy
+    path = captures.default_path("raster")
+    assert path.name.startswith("lucida raster ")
+    assert captures.default_path("raster") != path  # which may not be written yet
+    captures.ask((1, 1, 4, 3), path)
+    captures.after_drawing(TARGET)
+    wait_for(path.exists)
+    told = None
+    while told is None:
+        told = captures.poll()
+    assert told[1]
+    assert str(path) in told[0]
+    assert (np.asarray(Image.open(path)) == PIXELS[1:3, 1:4]).all()
+    captures.ask(None, tmp_path / "no" / "such" / "folder.png")
+    captures.after_drawing(TARGET)
+    told = None
+    while told is None:
+        told = captures.poll()
+    assert not told[1]
+    assert "does not exist" in told[0]
+    captures.close()
+
+
+def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
+    gate, write = threading.Event(), capture.atomic_write
+    monkeypatch.setattr(capture, "atomic_write", lambda to: gate.wait(PATIENT_S) and write(to))
+    captures = Captures(lambda: None, tmp_path)
+    names = [captures.default_path("") for _ in range(3)]
+    for name in names:
+        captures.ask(None, name)
+        captures.after_drawing(TARGET)
+    gate.set()
+    told = []
+    wait_for(lambda: told.append(captures.poll()) or not captures.busy)
+    assert len(told) - told.count(None) == 3
+    assert len(set(names)) == 3 and all(name.exists() for name in names)
+    captures.close()
+
+
+def test_a_cut_has_a_pixel_at_least():
+    assert cut(PIXELS, None).shape == (5, 7, 3)
+    assert cut(PIXELS, (-9, -9, 99, 99)).shape == (5, 7, 3)
+    assert cut(PIXELS, (3, 3, 3, 3)).shape == (1, 1, 3)
+    assert cut(PIXELS, (99, 99, 120, 120)).shape == (1, 1, 3)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the programs are Linux's")
+def test_a_picture_goes_to_the_clipboards_program(tmp_path, monkeypatch):
+    buffer = io.BytesIO()
+    Image.fromarray(PIXELS).save(buffer, format="PNG")
+    program = tmp_path / "xclip"
+    program.write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/arguments\n/bin/cat > {tmp_path}/data\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("DISPLAY", ":9")
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    clipboard.copy_png(buffer.getvalue())
+    assert (tmp_path / "data").read_bytes() == buffer.getvalue()
+    assert "image/png" in (tmp_path / "arguments").read_text()
+    program.unlink()
+    with pytest.raises(LucidaError, match="install xclip"):
+        clipboard.copy_png(buffer.getvalue())
+    monkeypatch.setenv("WAYLAND_DISPLAY", "wayland-0")
+    with pytest.raises(LucidaError, match="install wl-clipboard"):
+        clipboard.copy_png(buffer.getvalue())
+    program.write_text("#!/bin/sh\nexit 3\n")
+    program.chmod(0o755)
+    with pytest.raises(LucidaError, match="xclip failed"):
+        clipboard.copy_png(buffer.getvalue())
+
+
+def test_macos_is_asked_by_its_own_program(monkeypatch):
+    asked = []
+    monkeypatch.setattr(clipboard.sys, "platform", "darwin")
+    monkeypatch.setattr(
+        subprocess, "run", lambda command, **_: asked.append(command) or os.path.exists("/")
+    )
+    clipboard.copy_png(b"png")
+    assert asked[0][0] == "osascript"
+    assert "PNGf" in asked[0][2]
+
+
+def test_a_scene_that_is_cancelled_is_not_built_to_its_end(tmp_path, monkeypatch):
+    path = tmp_path / "boxes.toml"
+    path.write_text("[[objects]]\ntype = 'box'\n" * 500)
+    built, gate, box = [], threading.Event(), shapes.box
+
+    def slow(size):
+        built.append(threading.current_thread())
+        gate.wait(PATIENT_S)
+        return box(size)
+
+    # No public way makes reading a built-in shape slow.
+    _, *more = scene_parts._SHAPES[BoxTable]
+    monkeypatch.setitem(scene_parts._SHAPES, BoxTable, (slow, *more))
+    files = Files(lambda: None)
+    files.open(str(path))
+    wait_for(lambda: bool(built))
+    files.cancel()
+    gate.set()
+    wait_for(lambda: not built[0].is_alive())
+    assert len(built) == 1
+    assert files.poll() is None
+    assert files.poll_said() == ["Loading boxes.toml was cancelled."]
+    files.close()

@@ -1,0 +1,191 @@
+"""Files whose names are not UTF-8, or are no names one would show: opened, remembered, told."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import msgspec
+import pytest
+from waiting import wait_for
+
+from lucida.app.cameras.text import command_line
+from lucida.app.state.app_state import AppState
+from lucida.app.state.paths import is_unicode, restored, stored
+from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from lucida.app.ui.background import Background
+from lucida.app.ui.dialog import FOLDER, FileDialog, FileQuestion
+from lucida.app.ui.folders import read_folder
+from lucida.app.ui.recent import RecentFiles
+from lucida.app.ui.toasts import Toasts
+from lucida.app.window import process
+from lucida.app.window.files import Files
+from lucida.app.window.opening import OpenedScene, open_sources
+from lucida.renderer.files import load_scene, save_scene
+from lucida.renderer.system.errors import LucidaError, describe, one_line
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+NAMES = (b"caf\xe9.obj", b"\xff\xfe\n\x1b[31m.obj", b"a  b.obj", "ü ⟂ 🎥.obj".encode())
+
+pytestmark = pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names are Unicode")
+
+
+@pytest.fixture(params=NAMES, ids=range(len(NAMES)))
+def model(request, tmp_path: Path) -> str:
+    path = os.path.join(os.fsencode(tmp_path), request.param)
+    with open(path, "w") as file:
+        file.write(TRIANGLE)
+    return os.fsdecode(path)
+
+
+def is_shown(text: str) -> bool:
+    """Return True if windows and terminals show the name as it is."""
+    return text.isprintable() and is_unicode(text)
+
+
+def test_what_is_shown_is_printable_and_what_is_kept_comes_back(model: str) -> None:
+    assert is_shown(one_line(model))
+    assert is_unicode(stored(model))
+    assert restored(stored(model)) == model
+    assert restored(msgspec.json.decode(msgspec.json.encode(stored(model)))) == model
+    assert one_line("caf\udce9") == r"caf\xe9"
+
+
+def test_the_scene_of_such_a_file_has_a_name_to_show(model: str, tmp_path: Path) -> None:
+    scene = load_scene(model)
+    assert is_shown(scene.name)
+    assert all(is_shown(entry.name) for entry in scene.objects)
+    save_scene(tmp_path / "copy.toml", load_scene("spheres"))
+    if is_unicode(model):  # TOML is UTF-8
+        save_scene(tmp_path / "copy.toml", scene)
+        assert len(load_scene(tmp_path / "copy.toml").objects) == 1
+        return
+    with pytest.raises(LucidaError, match="is not UTF-8") as caught:
+        save_scene(tmp_path / "copy.toml", scene)
+    assert is_shown(str(caught.value))
+    assert load_scene(tmp_path / "copy.toml").name == "spheres"  # what was there
+
+
+def test_it_is_among_the_recent_files(model: str, tmp_path: Path) -> None:
+    recent = RecentFiles(tmp_path / "settings", lambda: None)
+    recent.add(model)
+    recent.close()
+    again = RecentFiles(tmp_path / "settings", lambda: None)
+    wait_for(lambda: bool(again.entries))
+    (entry,) = again.entries
+    again.close()
+    assert (entry.path, entry.missing) == (model, False)
+    assert is_shown(entry.name)
+    assert is_shown(entry.folder)
+
+
+def test_it_comes_back_with_the_session(model: str) -> None:
+    state = AppState.for_scene(load_scene(model))
+    session = from_bytes(to_bytes(session_of(state, Arrangement())))
+    assert session.source == model
+    assert len(load_scene(session.source).objects) == 1
+
+
+def test_files_loads_it_and_tells_it(model: str, monkeypatch) -> None:
+    waiting = []
+    monkeypatch.setattr(Background, "submit", lambda _, work: waiting.append(work))
+    files = Files(lambda: None)
+    files.open(model)
+    monkeypatch.setattr(Background, "busy", True)
+    assert is_shown(files.loading)
+    monkeypatch.undo()
+    assert open_sources([model]).find(OpenedScene) is not None
+    os.unlink(model)
+    with pytest.raises(LucidaError) as caught:
+        open_sources([model])
+    assert is_shown(describe(caught.value))
+    assert is_shown(describe(OSError(2, "No such file", model)))
+    files.close()
+
+
+def test_notifications_are_text() -> None:
+    toasts = Toasts()
+    toasts.add("Saved /tmp/\udcff.png.")
+    assert toasts.texts == [r"Saved /tmp/\xff.png."]
+
+
+def test_the_dialog_opens_the_file_whose_name_it_shows(model: str) -> None:
+    chosen: list[str] = []
+    dialog = FileDialog()
+    question = FileQuestion("Open", False, (".obj",), "", chosen.extend)
+    dialog.ask(question)
+    folder, name = os.path.split(model)
+    # What ImGui would be needed for: to show the folder, to type and to confirm a name.
+    dialog.listing = read_folder(Path(folder), (".obj",))
+    dialog._name = one_line(name)  # as it is shown and can be typed
+    dialog._finish(question)
+    assert chosen == [model]
+    dialog.close()
+
+
+def test_a_folder_to_write_into_may_be_there(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    chosen: list[str] = []
+    dialog = FileDialog()
+    question = FileQuestion("Save", True, FOLDER, "film", chosen.extend)
+    dialog.ask(question)
+    for name in ("out/", "../out"):  # a slash enters it
+        dialog.listing = read_folder(tmp_path if "." not in name else dialog.folder, FOLDER)
+        dialog._name = name
+        dialog._finish(question)
+    assert dialog.folder == tmp_path / "out" and chosen == [str(tmp_path / "out" / ".." / "out")]
+    dialog.close()
+
+
+def test_the_command_line_to_copy_names_it(model: str) -> None:
+    line = command_line(load_scene("canonical").view, model)
+    assert is_unicode(line)
+    words = subprocess.run(
+        ["bash", "-c", f"printf '%s\\0' {line.splitlines()[0].removesuffix(chr(92))}"],
+        capture_output=True,
+        check=True,
+    ).stdout.split(b"\0")
+    assert os.fsencode(model) in words
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii", "latin-1"])
+def test_streams_take_any_text(encoding: str, monkeypatch) -> None:
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding, errors="strict")
+    monkeypatch.setattr(sys, "stdout", stream)
+    process.open_streams()
+    print("caf\udce9 ⟂ 🎥")
+    stream.flush()
+    assert b"caf" in stream.buffer.getvalue()
+
+
+def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> None:
+    from lucida.app.window import platform
+
+    dropped: list[list[str]] = []
+    window = SimpleNamespace()
+    given = []
+    library = SimpleNamespace(glfwSetDropCallback=lambda _, call: given.append(call))
+    monkeypatch.setattr(platform.glfw, "get_current_context", lambda: window)
+    # The binding's library itself, which the platform calls too: the binding takes all for UTF-8.
+    monkeypatch.setattr(platform.glfw, "_glfw", library)
+    monkeypatch.setattr(platform.glfw, "_GLFWdropfun", lambda call: call)
+    platform.on_drop(dropped.append)
+    given[0](window, 2, [b"/a/caf\xe9.obj", "/b/é.obj".encode()])
+    assert dropped == [["/a/caf\udce9.obj", "/b/é.obj"]]
+
+
+def test_commands_name_it_on_any_terminal(model: str) -> None:
+    environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    command = [sys.executable, "-m", "lucida", "scene", model]
+    out = subprocess.run(command, env=environment, capture_output=True)
+    assert out.returncode == 0, out.stderr
+    assert b"1 object" in out.stdout
+    os.unlink(model)
+    out = subprocess.run(command, env=environment, capture_output=True)
+    assert out.returncode == 2
+    assert out.stderr.count(b"\n") == 1
+    assert b"does not exist" in out.stderr

@@ -1,0 +1,319 @@
+"""The window, driven: real widgets, real events, real pixels, in processes of their own."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+TESTS = Path(__file__).parents[2]
+DRIVER = TESTS / "support" / "window_driver.py"
+PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
+LIMIT_S = 560  # one window
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+DRIVES_LIMIT_S = 1500  # a topic with many drives, on a busy machine; the first compiles the tracer
+drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
+DRIVES = [
+    (path.stem, node.name)
+    for path in sorted((TESTS / "scenarios").glob("*.py"))
+    for node in ast.parse(path.read_text()).body
+    if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
+]
+
+
+def environment(folder: Path, display: str | None = None) -> dict[str, str]:
+    """No display unless one is given, and no settings of whoever runs the tests."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
+    return variables | ({"DISPLAY": display} if display else {})
+
+
+def run(
+    arguments: list[str], folder: Path, display: str | None = None, limit_s: float = LIMIT_S
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *arguments],
+        cwd=folder,
+        env=environment(folder, display),
+        capture_output=True,
+        text=True,
+        timeout=limit_s,
+    )
+
+
+def drive(folder: Path, *names: str) -> dict[str, str]:
+    report = folder / "report.json"
+    arguments = [str(DRIVER), str(report), str(folder), *names]
+    done = run(arguments, folder, limit_s=DRIVES_LIMIT_S)
+    assert report.exists(), done.stdout[-2000:] + done.stderr[-2000:]
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return json.loads(report.read_text())
+
+
+@pytest.fixture(scope="module")
+def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str, str]]:
+    """Return the results of a topic, whose drives share one window."""
+    return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
+
+
+def _of_topic(topic: str) -> type:
+    """A class of tests: one process gets it whole, so that its drives share one window."""
+
+    @drives_take_long
+    @pytest.mark.parametrize("name", [name for of, name in DRIVES if of == topic])
+    def test(self: object, driven: Callable[[str], dict[str, str]], name: str) -> None:
+        assert driven(topic)[name] == ""
+
+    return type(f"Test_{topic}", (), {"test": test})
+
+
+globals().update((f"Test_{topic}", _of_topic(topic)) for topic, _ in DRIVES)
+
+
+@drives_take_long
+def test_closing_while_the_tracer_works(tmp_path: Path) -> None:
+    assert drive(tmp_path, "close_at_work") == {"close_at_work": ""}
+
+
+def check_picture(path: Path, size: tuple[int, int]) -> None:
+    """Both images are there, side by side, and nearly equal."""
+    picture = np.asarray(Image.open(path).convert("RGB")).astype(int)
+    assert picture.shape == (size[1], size[0], 3)
+    assert picture.std() > 20
+    panel = round(19.5 * 16)
+    images = picture[60 : size[1] - 60, panel + 12 :]
+    middle = images.shape[1] // 2
+    left, right = images[:, 20 : middle - 20], images[:, middle + 20 : -20]
+    width = min(left.shape[1], right.shape[1])
+    # The dividing line may lie a pixel or two beside the middle.
+    best = min(
+        np.abs(left[:, 4 + k : width - 8 + k] - right[:, 4 : width - 8]).mean()
+        for k in range(-4, 5)
+    )
+    assert best < 3
+
+
+def test_no_display(tmp_path: Path) -> None:
+    mine = tmp_path / "lucida.png"
+    mine.write_text("a user's own picture")
+    done = run(["-m", "lucida"], tmp_path)
+    assert done.returncode == 0, done.stderr
+    first, last = done.stdout.splitlines()
+    assert "no display" in first
+    assert "lucida-2.png" in last
+    check_picture(tmp_path / "lucida-2.png", (1280, 720))
+    assert mine.read_text() == "a user's own picture"
+    assert not (tmp_path / "config").exists()  # pictures neither read nor write settings
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["lucida-2.png", "lucida.png"]
+
+
+def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
+    picture = tmp_path / "out.png"
+    done = run(
+        ["-m", "lucida", "spheres", "--screenshot", str(picture), "--size", "2000x1300"], tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""
+    check_picture(picture, (2000, 1300))  # larger than the null platform's own window
+
+
+def test_mistakes_are_one_line(tmp_path: Path) -> None:
+    done = run(["-m", "lucida", "nowhere.obj"], tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "nowhere.obj" in done.stderr
+    done = run(["-m", "lucida", "--screenshot", "no/such/folder.png"], tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+
+
+def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    from lucida.app.window import platform
+    from lucida.renderer.system.errors import LucidaError
+
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setattr(platform.glfw, "create_window", lambda *_: None)
+    with pytest.raises(LucidaError, match=r"OpenGL 3\.3.*install"):
+        platform.start_platform(want_display=False)
+    platform.glfw.terminate()
+
+
+@pytest.fixture
+def xvfb() -> Iterator[str]:
+    """A display that nobody looks at."""
+    program = shutil.which("Xvfb")
+    if program is None:
+        pytest.skip("Xvfb is not installed")
+    read, write = os.pipe()
+    arguments = [program, "-displayfd", str(write), "-screen", "0", "1400x900x24"]
+    server = subprocess.Popen(arguments, pass_fds=(write,), stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        number = pipe.readline().strip()
+    try:
+        if not number:
+            pytest.skip("Xvfb did not start")
+        yield f":{number}"
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
+    """The window is not to be seen before there is a picture to see in it."""
+    script = """
+import glfw
+from pathlib import Path
+from lucida.app.window.platform import start_platform
+from lucida.app.state.app_state import AppState
+from lucida.app.window.viewer import WindowRun, save_png
+from lucida.renderer.files import load_scene
+
+platform = start_platform()
+assert platform.has_display, platform.reason
+state = AppState.for_scene(load_scene("still-life"))
+run = WindowRun(platform, state, (1280, 720), take_picture=True)
+visible = []
+
+def look(target):
+    visible.append(glfw.get_window_attrib(glfw.get_current_context(), glfw.VISIBLE))
+
+run.on_drawn = look
+save_png(Path("out.png"), run.run())
+assert visible[0] == 0 and set(visible[1:]) == {1}, visible
+"""
+    done = run(["-c", script], tmp_path, xvfb)
+    assert done.returncode == 0, done.stderr
+    check_picture(tmp_path / "out.png", (1280, 720))
+
+
+def test_a_window_that_is_resized(tmp_path: Path, xvfb: str) -> None:
+    """At every size the two images stand where their views are; pictures of it are as large."""
+    script = """
+import glfw
+import numpy as np
+from lucida.app.window.platform import start_platform
+from lucida.app.state.app_state import AppState
+from lucida.app.window.viewer import WindowRun, save_png
+from lucida.renderer.files import load_scene
+
+platform = start_platform()
+assert platform.has_display, platform.reason
+run = WindowRun(platform, AppState.for_scene(load_scene("still-life")), (1000, 700), remember=False)
+run.params.fps_idling.enable_idling = False
+sizes, still = [(1000, 700), (800, 500), (1300, 820), (640, 480)], 0
+
+def look(target):
+    global still
+    still = still + 1 if run.window.settled and target.size == sizes[0] else 0
+    if still < 5:
+        return
+    picture = target.read()
+    assert picture.shape[1::-1] == sizes[0], picture.shape
+    textures = run.window.renderers.textures
+    for name, shown in (("Raster", textures._shown_raster), ("Ray", textures._shown_ray)):
+        texture = shown._pictures["pane"].texture
+        width, height = texture.size
+        left, _, _, bottom = (round(edge) for edge in run.window.shell.stage.rects[name])
+        rows = np.frombuffer(texture.read(), np.uint8)
+        image = rows.reshape(height, width, -1)[..., :3].astype(int)
+        seen = picture[bottom - height : bottom, left : left + width]
+        assert image.std() > 20, f"no image at {sizes[0]}"
+        differ = (np.abs(seen - image).max(axis=2) > 2).mean()
+        assert differ < 0.01, f"{differ:.1%} of the pixels differ at {sizes[0]}"
+    still = 0
+    sizes.pop(0)
+    if sizes:
+        glfw.set_window_size(glfw.get_current_context(), *sizes[0])
+    else:
+        run.params.app_shall_exit = True
+
+run.on_drawn = look
+run.run()
+assert not sizes
+"""
+    done = run(["-c", script], tmp_path, xvfb)
+    assert done.returncode == 0, done.stderr
+
+
+def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -> None:
+    """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
+    script = """
+import sys, threading, time
+from lucida.app.window.platform import start_platform
+from lucida.app.state.app_state import AppState
+from lucida.app.window.viewer import WindowRun
+from lucida.renderer.files import load_scene
+
+platform = start_platform()
+assert platform.has_display, platform.reason
+run = WindowRun(platform, AppState.for_scene(load_scene("spheres")), (900, 600))
+frames = []
+run.params.callbacks.post_new_frame = lambda: frames.append(time.monotonic())
+
+def watch():
+    while not run.window.settled:
+        time.sleep(0.05)
+    drawn = 40
+    while drawn >= 40:  # at last: on a slow machine, the tracer may still be at work
+        before = len(frames)
+        time.sleep(4.0)
+        drawn = len(frames) - before
+    run.params.app_shall_exit = True
+
+threading.Thread(target=watch, daemon=True).start()
+run.run()
+"""
+    done = run(["-c", script], tmp_path, xvfb)  # a window that is never idle is never closed
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "config" / "lucida" / "window.ini").exists()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["config"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
+def test_signals_close_the_window_and_the_next_start_finds_its_layout(
+    tmp_path: Path, xvfb: str
+) -> None:
+    script = """
+import os, signal, sys, threading, time
+from lucida.app.window.platform import start_platform
+from lucida.app.state.app_state import AppState
+from lucida.app.window.viewer import WindowRun
+from lucida.renderer.files import load_scene
+
+number = getattr(signal, sys.argv[1])
+usual = signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
+signal.signal(number, usual)  # whatever this process has inherited
+run = WindowRun(start_platform(), AppState.for_scene(load_scene("spheres")), (900, 600))
+
+def watch():
+    while not run.window.settled:
+        time.sleep(0.05)
+    print(run.window.renderers.size, flush=True)
+    os.kill(os.getpid(), number)
+
+threading.Thread(target=watch, daemon=True).start()
+run.run()
+"""
+    sizes = []
+    for name in ("SIGTERM", "SIGINT"):
+        done = run(["-c", script, name], tmp_path, xvfb, limit_s=LIMIT_S / 2)
+        sizes.append(done.stdout)
+        if name == "SIGTERM":
+            assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
+        else:
+            assert done.stderr.rstrip().endswith("KeyboardInterrupt")  # which the command tells
+        assert (tmp_path / "config" / "lucida" / "window.ini").exists()
+    assert sizes[0] == sizes[1] != ""

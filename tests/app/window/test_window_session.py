@@ -1,0 +1,123 @@
+"""Sessions of the real window: killed or closed, the next one goes on where it was."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from test_window import run
+
+from lucida.app.state.session import from_bytes
+
+LIMIT_S = 500
+pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+
+WINDOW = """
+import os, signal, sys
+from pathlib import Path
+from stepped import session_window, stepped
+from lucida.app.ui import layout
+
+folder, mode = Path(sys.argv[1]), sys.argv[2]
+run = session_window(folder)
+window, file = run.window, folder / "session-1.json"
+frames = iter(range(10**9))
+
+def saved():
+    data = file.read_bytes() if file.exists() else b""
+    return b"spheres" in data and b'"Compare"' in data and b'"light"' in data
+
+def step():
+    frame = next(frames)
+    if mode == "go on":
+        if frame == 30:
+            views = sorted(view.name for view in window.shell.stage.shown)
+            theme = window.state.preferences.theme
+            opened = window.views["Camera"].sections
+            print(layout.current().name, views, theme, window.state.scene.name, opened, sep="|")
+            run.params.app_shall_exit = True
+        return
+    if frame == 5:
+        layout.switch("Compare")
+        window.views["Camera"].open_sections(("Look at",))
+    elif frame == 10:
+        window.shell.stage.show("Raster", False)
+        light = window.state.options.with_changes({"preferences": {"theme": "light"}})
+        window.change(window.state.with_options(light))
+        window.open("spheres")
+    elif frame > 20 and mode == "kill" and saved():
+        os.kill(os.getpid(), signal.SIGKILL)
+    elif frame > 20 and mode == "close" and window.state.scene.name == "spheres":
+        run.params.app_shall_exit = True
+
+stepped(run, step)
+"""
+
+
+def window(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+    return run(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
+
+
+DOCKS = "[Docking][Data]\nDockSpace ID=0x1 Window=0x2 Pos=1,1 Size=-1,-1 Split=X\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
+@pytest.mark.parametrize("mode", ["kill", "close"])
+def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
+    """Layout, hidden views, theme and scene: after a crash, and after an ordinary end. Places that
+    mean nothing leave the layout's own."""
+    path = tmp_path / "session-1.json"
+    done = window(tmp_path, mode)
+    assert done.returncode == (-signal.SIGKILL if mode == "kill" else 0), done.stderr
+    for places in ("", "x", DOCKS) if mode == "close" else ("",):
+        left = from_bytes(path.read_bytes()).arrangement
+        assert left.layout == "Compare" and "Raster" not in left.visible
+        if places:
+            kept = json.loads(path.read_bytes())
+            kept["arrangement"]["windows"] = places
+            path.write_text(json.dumps(kept))
+        done = window(tmp_path, "go on")
+        assert done.returncode == 0, done.stderr
+        layout, views, theme, scene, sections = done.stdout.strip().split("|")
+        assert (layout, theme, scene) == ("Compare", "light", "spheres")
+        assert sections == "('Look at',)"
+        assert views == str(sorted(left.visible))
+        now = from_bytes(path.read_bytes()).arrangement
+        for name in now.visible:
+            section = now.windows.partition(f"[Window][{name}]")[2].partition("\n\n")[0]
+            assert "DockId=" in section, name
+
+
+def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None:
+    (tmp_path / "session-1.json").write_bytes(b"\x00 nothing of use")
+    done = window(tmp_path, "go on")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("Side by side|")
+    assert (tmp_path / "session-1.broken-1.json").read_bytes() == b"\x00 nothing of use"
+    assert from_bytes((tmp_path / "session-1.json").read_bytes()).scene == "still-life"
+
+
+SIZES = """
+import sys
+from pathlib import Path
+from lucida.app.window import viewer
+from lucida.app.window.platform import start_platform
+from lucida.app.window.start import begin_scene
+
+viewer.settings_file = lambda fresh=False: Path(sys.argv[1]) / "window.ini"
+viewer.user_folder = lambda: None
+start = begin_scene()
+for size in (None, (640, 400)):
+    run = viewer.WindowRun(start_platform(want_display=False), start.state, size, start=start)
+    made = run.params.app_window_params
+    print(made.restore_previous_geometry, *made.window_geometry.size)
+"""
+
+
+def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path: Path) -> None:
+    done = run(["-c", SIZES, str(tmp_path)], tmp_path)
+    assert done.stdout.split("\n")[:2] == ["True 1280 720", "False 640 400"], done.stderr

@@ -1,0 +1,146 @@
+"""Models of COLMAP that are broken: one line each, naming file, line or entry, and remedy."""
+
+from __future__ import annotations
+
+import struct
+
+import pytest
+from test_colmap import BINARY, CAMERAS, IMAGES, POINTS, POSE, binary_model, model, packed_image
+
+from lucida.renderer.files.cameras import read_cameras
+from lucida.renderer.system.errors import LucidaError
+
+
+def said(folder) -> str:
+    with pytest.raises(LucidaError) as raised:
+        read_cameras(folder, "colmap")
+    error = raised.value
+    assert error.remedy and "\n" not in str(error)
+    return str(error).removeprefix(str(folder) + "/")
+
+
+def changed(text, old, new):
+    assert old in text
+    return text.replace(old, new, 1)
+
+
+TEXT = [
+    ("cameras", (CAMERAS, "2559.81", "1e300"), "line 4: f: 1e+300 is too large; "),
+    ("images", (IMAGES, "0.851773", "1e300"), "line 5: QW: 1e+300 is too large; "),
+    ("points3D", (POINTS, "1.67241", "1e300"), "holds a line that is no point; "),
+    ("cameras", (CAMERAS, "SIMPLE_PINHOLE", "PINHOLY"), "line 4: MODEL: 'PINHOLY' is unknown; "),
+    ("cameras", (CAMERAS, " 2559.81", ""), "line 4: PARAMS: SIMPLE_PINHOLE has 3 parameters, not"),
+    ("cameras", (CAMERAS, "2559.81", "-5"), "line 4: f: -5 is not above 0; "),
+    ("cameras", (CAMERAS, "2559.81", "2,5"), "line 4: PARAMS: '2,5' is no number; "),
+    ("cameras", (CAMERAS, "3072", "0"), "line 4: WIDTH: 0 is not between 1 and 1000000; "),
+    ("cameras", (CAMERAS, "\n2 PIN", "\n1 PIN"), "line 5: CAMERA_ID: 1 is given twice; "),
+    ("cameras", (CAMERAS, "2304 2559.81 1536 1152", ""), "line 4: has 3 of the parts CAMERA_ID "),
+    ("images", (IMAGES, "0.851773 0.0165051 0.503764 -0.142941", "0 0 0 0"), "line 5: QW QX QY QZ"),
+    ("images", (IMAGES, " 1 P118", " 9 P118"), "line 5: CAMERA_ID: 9 is not in cameras.txt; "),
+    ("images", (IMAGES, " P1180141.JPG", ""), "line 5: has 9 of the parts IMAGE_ID QW QX "),
+    ("images", (IMAGES, " P1180141.JPG", " a\0b"), "line 5: NAME: 'a\\x00b' is no name of a "),
+    ("images", (IMAGES, "2362.39 248.498 58396 ", "2362.39 "), "line 6: is not X Y POINT3D_ID aga"),
+    ("points3D", (POINTS, "1.67241", "x"), "holds a line that is no point; "),
+    ("points3D", (POINTS, "102 209", "102 256"), "holds a line that is no point; "),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "expected"), TEXT)
+def test_broken_text(tmp_path, name, change, expected):
+    folder = model(tmp_path, **{name.replace("points3D", "points"): changed(*change)})
+    assert said(folder).startswith(f"{name}.txt: {expected}")
+
+
+def test_poses_without_an_empty_line_between_them(tmp_path):
+    pose = "1 1 0 0 0 0 0 0 1 a.jpg\n2 1 0 0 0 0 0 0 1 b.jpg\n"
+    assert said(model(tmp_path, images=pose)).startswith(
+        "images.txt: line 2: is not X Y POINT3D_ID again and again; give each image two lines"
+    )
+
+
+def test_text_that_is_none(tmp_path):
+    images = IMAGES.encode().replace(b"P1180141", b"\xff\xfe")
+    assert said(model(tmp_path, images=images)).startswith("images.txt: line 5: is not text in UTF")
+
+
+@pytest.mark.parametrize("lost", ["cameras", "images"])
+@pytest.mark.parametrize("below", ["", "sparse/0"])
+def test_a_model_that_lacks_a_file(tmp_path, lost, below):
+    folder = model(tmp_path / below)
+    (folder / f"{lost}.txt").unlink()
+    with pytest.raises(LucidaError, match=rf"has no {lost}\.txt, which a model of COLMAP needs"):
+        read_cameras(tmp_path)
+
+
+def test_a_folder_without_a_model(tmp_path):
+    with pytest.raises(LucidaError, match="has no cameras and images of COLMAP"):
+        read_cameras(tmp_path, "colmap")
+    with pytest.raises(LucidaError, match="holds no camera"):
+        read_cameras(model(tmp_path, images="# none\n"))
+
+
+BINARY_CASES = [
+    (
+        "cameras",
+        lambda data: data[:30],
+        "number of cameras: says 2 of them, 22 bytes hold 0 at mos",
+    ),
+    ("cameras", lambda data: data[:-3], "camera 2 of 2: the file ends within it, at "),
+    ("cameras", lambda data: b"\xff" * 8 + data[8:], "number of cameras: says 18,446,744,073,709,"),
+    ("cameras", lambda data: data + b"abc", "the last entry: is followed by 3 bytes of no known "),
+    (
+        "cameras",
+        lambda data: data[:12] + struct.pack("<i", 99) + data[16:],
+        "camera 1 of 2: MODEL: 99 is unknown; ",
+    ),
+    (
+        "cameras",
+        lambda data: data[:32] + struct.pack("<d", float("nan")) + data[40:],
+        "camera 1 of 2: f: nan is not finite; ",
+    ),
+    ("images", lambda data: data[:5], "the file ends within it, at 5 bytes; copy the file whole"),
+    ("images", lambda data: data.replace(b"\0P", b"\0\0", 1), "image 1 of 2: "),
+    (
+        "images",
+        lambda data: struct.pack("<Q", 1) + packed_image(1, (0, 0, 0, 0, 1, 2, 3), 1, b"a"),
+        "image 1 of 1: QW QX QY QZ: (0, 0, 0, 0) is no rotation; ",
+    ),
+    (
+        "images",
+        lambda data: struct.pack("<Q", 1) + packed_image(1, POSE, 7, b"a"),
+        "image 1 of 1: CAMERA_ID: 7 is not in cameras.bin; ",
+    ),
+    (
+        "images",
+        lambda data: struct.pack("<Q", 1) + packed_image(1, POSE, 1, b""),
+        "image 1 of 1: NAME: '' is no name of a photograph; ",
+    ),
+    (
+        "images",
+        lambda data: struct.pack("<Q", 1) + packed_image(1, POSE, 1, b"a", 0)[:-8] + b"\xff" * 8,
+        "image 1 of 1: the file ends within it, at ",
+    ),
+    ("points3D", lambda data: data[:-1], "point 2 of 2: the file ends within it, at "),
+    ("points3D", lambda data: b"\xff" * 8 + data[8:], "number of points: says 18,446,744,073,"),
+    ("points3D", lambda data: data[:51] + b"\xff" * 8 + data[59:], "point 1 of 2: the file ends "),
+    (
+        "points3D",
+        lambda data: data[:16] + struct.pack("<d", float("inf")) + data[24:],
+        "point 1 of 2: XYZ: is not within 1e+12; ",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "expected"), BINARY_CASES)
+def test_broken_binary(tmp_path, name, change, expected):
+    folder = binary_model(tmp_path, **{name: change(BINARY[f"{name}.bin"])})
+    assert said(folder).startswith(f"{name}.bin: {expected}")
+
+
+def test_every_truncation_of_a_binary_model_is_an_error(tmp_path):
+    binary_model(tmp_path)
+    for name, data in BINARY.items():
+        for length in range(len(data)):
+            (tmp_path / name).write_bytes(data[:length])
+            assert said(tmp_path).startswith(name)
+        (tmp_path / name).write_bytes(data)

@@ -1,0 +1,103 @@
+"""The lens of a file: which of Lens's models it is, and how far it moves an image's points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from lucida import Camera, LucidaError
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.colmap_lenses import ColmapLens, add_lens
+from lucida.renderer.files.cameras.distortion import COUNTS, FISHEYE_NAMES, NAMES, lens_of, shift_px
+from lucida.renderer.files.cameras.given import Options
+
+K = np.array([[500.0, 0.0, 320.0], [0.0, 500.0, 240.0], [0.0, 0.0, 1.0]])
+SIZE = (640, 480)
+VECTOR = (
+    *(0.1, -0.05, 0.002, -0.003, 0.02, 0.01, 0.03),
+    *(-0.01, 0.004, -0.002, 0.003, 0.001, 0.02, -0.03),
+)
+# Of an image of 640 x 480 around (320, 240): the distance to which img_from_cam (pycolmap 4.2.1)
+# moves the corner that it moves farthest.
+COLMAP = [
+    ("SIMPLE_RADIAL", "900 320 240 -0.1", 7.90123456790127),
+    ("RADIAL", "900 320 240 -0.1 0.02", 7.589087029416231),
+    ("OPENCV", "900 910 320 240 -0.1 0.02 0.003 -0.004", 10.187976307496255),
+    ("OPENCV_FISHEYE", "500 510 320 240 -0.01 0.002 0.0003 -0.0004", 63.35634779993585),
+    ("FULL_OPENCV", "900 910 320 240 -0.1 0.02 0.003 -0.004 0.05 0.06 -0.07 0.08", 13.79857260607),
+    ("FOV", "500 510 320 240 0.9", 33.7720163863075),
+    ("SIMPLE_RADIAL_FISHEYE", "500 320 240 -0.02", 65.70145800106432),
+    ("RADIAL_FISHEYE", "500 320 240 -0.02 0.03", 63.603597648196136),
+    ("THIN_PRISM_FISHEYE", "500 510 320 240 -0.01 0.002 0.003 -0.004 0.0005 0.0006 0.007 -0.008",
+     64.3770742878243),
+]  # fmt: skip
+
+
+def moved(lens: Lens, origin: str = "corner", matrix: np.ndarray = K) -> tuple[float, float]:
+    return shift_px(Camera.from_intrinsics(matrix, size=SIZE, pixel_origin=origin), lens, SIZE)
+
+
+def colmap_lens(model: str, values: list[float]) -> ColmapLens:
+    found: dict[int, ColmapLens] = {}
+    add_lens(found, 1, model, *SIZE, values)
+    return found[1]
+
+
+def used(model: str, coefficients: Mapping[str, float]) -> Lens:
+    lens, ignored = lens_of(model, coefficients, Options())
+    assert lens is not None and ignored is None
+    return lens
+
+
+@pytest.mark.parametrize(("model", "parameters", "largest"), COLMAP)
+def test_a_corner_moves_as_in_colmap(model: str, parameters: str, largest: float) -> None:
+    found = colmap_lens(model, [float(word) for word in parameters.split()])
+    median_px, largest_px = moved(used(*found[2:]), matrix=found.matrix)
+    assert largest_px == pytest.approx(largest, rel=1e-11)
+    assert 0 < median_px < largest_px
+
+
+def test_a_colmap_lens_without_distortion_is_a_pinhole_unless_it_is_a_fisheye() -> None:
+    for model, parameters, _ in COLMAP:
+        values = [0.0 if -0.2 < float(word) < 1 else float(word) for word in parameters.split()]
+        lens, _ = lens_of(*colmap_lens(model, values)[2:], Options())
+        assert (lens is None) == ("FISHEYE" not in model), model
+
+
+@pytest.mark.parametrize(
+    ("count", "largest"),
+    [
+        (4, 20.875176251529727),
+        (5, 22.976015105322265),
+        (8, 16.336102233552122),
+        (12, 16.39549019682774),
+    ],
+)
+def test_opencvs_vectors_move_a_corner_as_in_opencv(count: int, largest: float) -> None:
+    """Compare with cv2.projectPoints of OpenCV 5.0.0, the farthest of the four corners."""
+    lens = used("brown", dict(zip(NAMES, VECTOR[:count], strict=False)))
+    assert moved(lens, "center")[1] == pytest.approx(largest, rel=1e-9)
+
+
+def test_a_tilted_sensor_is_refused() -> None:
+    tilted = dict(zip(NAMES, VECTOR, strict=True))
+    with pytest.raises(LucidaError, match=r"tauX: 0\.02 is a tilted sensor's"):
+        lens_of("brown", tilted, Options())
+    assert used("brown", tilted | {"tauX": 0.0, "tauY": 0.0}).coefficient("s4") == 0.001
+    assert len(NAMES) == COUNTS[-1]
+
+
+def test_a_fisheye_distorts_without_coefficients() -> None:
+    r = math.hypot(320.5, 240.5) / 500
+    lens = used("fisheye", dict.fromkeys(FISHEYE_NAMES, 0.0))
+    assert moved(lens, "center")[1] == pytest.approx(500 * (r - math.atan(r)))
+    assert lens_of("brown", dict.fromkeys(NAMES, 0.0), Options()) == (None, None)
+
+
+def test_where_a_lens_folds_it_moves_nothing() -> None:
+    """At 1.9e10 pixels, which a polynomial reaches, a lens shows nothing."""
+    assert 0 < moved(used("brown", {"k1": -1.0, "k3": -1e6}))[1] < 10
+    assert math.isfinite(moved(used("brown", {"k4": -0.5}), matrix=np.eye(3))[1])  # divides by 0

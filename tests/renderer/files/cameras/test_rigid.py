@@ -1,0 +1,55 @@
+"""The part of a camera that a rotation and a position can hold."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from format_cameras import straight_camera
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lucida.renderer.camera.checks import told_apart
+from lucida.renderer.files.cameras.rigid import rigid
+from lucida.renderer.files.cameras.rotations import quaternion_of, rotation_of
+
+
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_rigid_camera_has_the_same_rays(projection):
+    random = np.random.default_rng(1)
+    for _ in range(300):
+        camera = replace(straight_camera(random, projection), near=0.5, far=7.0)
+        found = rigid(camera, "it")
+        assert np.allclose(found.basis.T @ found.basis, np.eye(3), atol=1e-12)
+        assert found.determinant > 0
+        one, other = camera.rays((5, 4)), found.rays((5, 4))
+        assert np.allclose(one.origin, other.origin, atol=1e-12)
+        unit = 1.0 if projection == "perspective" else np.linalg.norm(camera.w)
+        assert np.allclose(one.direction, other.direction * unit, atol=1e-12)
+        # The clip planes are the same planes.
+        ends = np.multiply(camera.t_range, unit)
+        assert np.allclose(ends, found.t_range, rtol=1e-12)
+
+
+def test_quaternions_there_and_back():
+    random = np.random.default_rng(2)
+    given = [*random.normal(size=(200, 4)), *np.eye(4), *(np.eye(4) + 1e-9)]
+    for quaternion in given:
+        rotation = rotation_of(quaternion)
+        assert np.allclose(rotation @ rotation.T, np.eye(3)) and np.linalg.det(rotation) > 0
+        unit = quaternion / np.linalg.norm(quaternion)
+        found = np.array(quaternion_of(rotation))
+        assert min(np.abs(found - unit).max(), np.abs(found + unit).max()) < 1e-12
+    quarter = rotation_of([1, 0, 0, 1])  # about z: x becomes y
+    assert np.allclose(quarter @ [1, 0, 0], [0, 1, 0])
+
+
+@given(st.floats(-1e9, 1e9), st.floats(-1, 1))
+def test_numbers_that_differ_are_told_apart(one: float, part: float) -> None:
+    other = one * (1 + part * 1e-9)
+    texts = told_apart(one, other)
+    if f"{one:.16g}" != f"{other:.16g}":
+        assert texts[0] != texts[1]
+    assert one != other or texts[0] == texts[1]
+    assert all(len(text) <= 24 for text in texts)

@@ -1,0 +1,194 @@
+"""Nothing is dropped silently: other keys are harmless, reported, or an error."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from format_cameras import pasted
+
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files.cameras import CameraSet, read_cameras
+from lucida.renderer.files.cameras.given import Given
+from lucida.renderer.system.errors import LucidaError
+
+K = [[500, 0, 320], [0, 510, 240], [0, 0, 1]]
+AT_REST = np.eye(4).tolist()
+MOVED = [[1, 0, 0, 0.25], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+OPENCV = {"K": K, "image_size": [640, 480]}
+NERF = {"w": 64, "h": 48, "fl_x": 50, "frames": [{"transform_matrix": AT_REST}]}
+CAMERA = Camera.look_at((1, 2, 3), (0, 0, 0), fov_y_deg=40)
+OPENGL = {"view": CAMERA.camera_from_world.tolist()}
+OPENGL["projection"] = CAMERA.clip_from_camera(0.5, 20).tolist()
+GLTF: dict[str, Any] = {
+    "asset": {"version": "2.0"},
+    "nodes": [{"camera": 0}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+}
+FPS = {
+    "fps": 30,
+    "square_size": 25.0,
+    "avg_reprojection_error": 0.2,
+    "imu": {"rate": 200, "noise": 1e-3},
+}
+
+
+@pytest.mark.parametrize(
+    ("table", "problem"),
+    [
+        (OPENCV | {"T_robot_camera": MOVED}, "T_robot_camera: looks like a pose"),
+        (OPENCV | {"rig": {"position": [0, 0, 1]}}, "rig.position: looks like a pose"),
+        (OPENCV | {"pose": [0, 0, 1, 0, 0, 0, 1]}, "pose: looks like a pose"),
+        (OPENCV | {"K_depth": K}, "K_depth: looks like another camera's"),
+        (OPENCV | {"k": [[400, 0, 320], [0, 510, 240], [0, 0, 1]]}, "k: is not the same as K"),
+        (OPENCV | {"t": [0, 0, 1], "w2c": MOVED}, "t: is another pose than w2c"),
+        (NERF | {"frames": [{"transform_matrix": AT_REST, "pose": MOVED}]}, "pose: looks like a"),
+        (NERF | {"transform_matrix_end": MOVED}, "transform_matrix_end: looks like a pose"),
+        (NERF | {"distortion_params": [0.1, 0]}, "distortion_params: sounds like a lens's"),
+        (NERF | {"k5": 0.1}, "k5: sounds like a lens's"),
+        (NERF | {"cameras": [{"fl_x": 40}]}, r"cameras\.0\.fl_x: looks like another camera's"),
+        (OPENGL | {"modelMatrix": MOVED}, "modelMatrix: looks like a pose"),
+    ],
+)
+def test_a_key_that_may_move_a_camera_is_an_error(table: dict[str, Any], problem: str) -> None:
+    with pytest.raises(LucidaError, match=problem) as caught:
+        pasted(json.dumps(table))
+    assert caught.value.remedy and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "note"),
+    [
+        (OPENCV | {"roi": {"x_offset": 8}}, "roi.x_offset is not used: the part of the sensor"),
+        (OPENCV | {"binning_x": 2}, "binning_x is not used: the pixels that were merged"),
+        (OPENCV | {"Camera.bf": 40.0}, "Camera.bf is not used: the stereo baseline times fx"),
+        (OPENCV | {"gain": 2, "lut": "a"}, "not used, since the meaning is not known: gain, lut"),
+        (NERF | {"applied_scale": 0.5}, "applied_scale is not used: it was applied to the poses"),
+        (NERF | {"scale": 0.33}, "scale is not used: the program's own units"),
+        (NERF | {"frames": [{"transform_matrix": AT_REST, "iso": 100}] * 2}, "known: iso"),
+        (GLTF | {"animations": [{}]}, "animations are not used"),
+        (GLTF | {"cameras": 2 * GLTF["cameras"]}, r"cameras\[1\] is not used: no node"),
+    ],
+)
+def test_a_key_that_is_not_used_is_reported(table: dict[str, Any], note: str) -> None:
+    found = pasted(json.dumps(table))
+    assert [part for part in found.notes if note.replace("\\", "") in part] == [found.notes[-1]]
+    assert set(found.notes) <= set(found.taken)
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        OPENCV,
+        OPENCV | FPS | {"roi": {"x_offset": 0}, "R1": MOVED, "comment": "a"},
+        NERF | {"aabb_scale": 4, "rotation": 0.1, "up": [0, 0, 1], "T_unknown": AT_REST},
+        OPENGL | {"modelMatrix": AT_REST, "projectionMatrixInverse": MOVED},
+        GLTF,
+    ],
+)
+def test_harmless_keys_are_not_reported(table: dict[str, Any]) -> None:
+    assert not pasted(json.dumps(table)).notes
+
+
+POSES = """
+extrinsicRotation: !!opencv-matrix
+  {rows: 3, cols: 3, dt: d, data: [0, -1, 0, 1, 0, 0, 0, 0, 1]}
+extrinsicTranslation: !!opencv-matrix
+  {rows: 3, cols: 1, dt: d, data: [1, 2, 3]}
+"""
+ORB = """%YAML:1.0
+Camera1: {fx: 500, fy: 500, cx: 320, cy: 240}
+Camera2: {fx: 500, fy: 500, cx: 320, cy: 240}
+Camera.width: 640
+Camera.height: 480
+IMU.T_b_c1: !!opencv-matrix
+  {rows: 4, cols: 4, dt: f, data: [0,-1,0,1, 1,0,0,2, 0,0,1,3, 0,0,0,1]}
+Stereo.T_c1_c2: !!opencv-matrix
+  {rows: 4, cols: 4, dt: f, data: [1,0,0,2, 0,1,0,0, 0,0,1,0, 0,0,0,1]}
+"""
+EUROC = """
+T_BS: {cols: 4, rows: 4, data: [0,-1,0,1, 1,0,0,2, 0,0,1,3, 0,0,0,1]}
+rate_hz: 20
+resolution: [640, 480]
+camera_model: pinhole
+intrinsics: [500, 500, 320, 240]
+distortion_model: radial-tangential
+distortion_coefficients: [0.0, 0.0, 0.0, 0.0]
+"""
+KALIBR = """
+cam0:
+  T_cam_imu: [[0, 1, 0, -2], [-1, 0, 0, 1], [0, 0, 1, -3], [0, 0, 0, 1]]
+  intrinsics: [500, 500, 320, 240]
+  resolution: [640, 480]
+cam1:
+  T_cn_cnm1: [[1, 0, 0, -2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+  intrinsics: [500, 500, 320, 240]
+  resolution: [640, 480]
+"""
+TABLES = """
+left: {K: [500, 500, 320, 240], size: [640, 480], c2w: [0,-1,0,1, 1,0,0,2, 0,0,1,3]}
+right: {K: [500, 500, 320, 240], size: [640, 480], c2w: [0,-1,0,1, 1,0,0,4, 0,0,1,3]}
+"""
+
+
+def read(text: str) -> CameraSet:
+    return read_cameras(Given("a.yaml", text.encode(), Path("a.yaml")))
+
+
+EYES = [(1, 2, 3), (1, 4, 3)]
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        ("K: [500, 500, 320, 240]\nsize: [640, 480]" + POSES, 1),
+        (EUROC, 1),
+        (ORB, 2),
+        (KALIBR, 2),
+        (TABLES, 2),
+    ],
+    ids=["vins", "euroc", "orb-slam", "kalibr", "tables"],
+)
+def test_poses_under_the_programs_own_keys_are_read(text: str, count: int) -> None:
+    """The camera is turned by 90 degrees about z, at (1, 2, 3); its pair is 2 to the right."""
+    found = read(text)
+    assert [one.camera.eye for one in found.cameras] == [pytest.approx(e) for e in EYES[:count]]
+    for one in found.cameras:
+        assert one.camera.u == pytest.approx((0, 1, 0)) and one.camera.w == pytest.approx(
+            (0, 0, -1)
+        )
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.json", '{"K": [500, 500, 320, 240], "K": [400, 400, 320, 240]}'),
+        ("a.yaml", "K: [500, 500, 320, 240]\nK: [400, 400, 320, 240]\n"),
+        ("a.xml", "<opencv_storage><K>5 5 3 2</K><K>4 4 3 2</K></opencv_storage>"),
+    ],
+)
+def test_a_key_that_is_given_twice_is_an_error(name: str, text: str) -> None:
+    with pytest.raises(LucidaError, match="K: is given twice in one table"):
+        read_cameras(Given(name, text.encode(), Path(name)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"K": [500, 500, 320, 240], "size": [640, 480], "model": "fisheye"}',
+        "K = [500, 500, 320, 240]\nsize = 640, 480\ncamera_model = 'fisheye'\n",
+        "<opencv_storage><cam><size>640 480</size><camera_model>fisheye</camera_model>"
+        "<K>500 500 320 240</K></cam></opencv_storage>",
+    ],
+)
+def test_a_model_of_a_lens_is_read_in_any_notation(text: str) -> None:
+    lens = pasted(text).cameras[0].camera.lens
+    assert lens is not None and lens.model == "fisheye"
+
+
+def test_another_document_of_yaml_is_an_error() -> None:
+    with pytest.raises(LucidaError, match="holds 2 documents"):
+        read(f"{EUROC}\n---\n{EUROC}")

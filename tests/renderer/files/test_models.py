@@ -1,0 +1,379 @@
+"""Model files: each format read rightly, repaired where it can be, its normals and colours."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.typing import ArrayLike
+
+from lucida.renderer.files import load_scene
+from lucida.renderer.files.models.models import load_model
+from lucida.renderer.files.models.parts import Part, build_mesh, linear_colors
+from lucida.renderer.files.models.polygons import triangulated
+from lucida.renderer.files.models.texts import tidy
+from lucida.renderer.scene import Mesh, SceneObject, framing, shapes
+from lucida.renderer.scene.normals import merge_positions
+from lucida.renderer.system.errors import LucidaError
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+OBJ_TRIANGLE = f"{TRIANGLE}f 1 2 3\n"
+OFF_TRIANGLE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+ENDINGS = ("obj", "ply", "stl", "off", "glb", "gltf")
+
+
+def write(path: Path, content: str | bytes) -> Path:
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return path
+
+
+def mesh_of(entry: SceneObject) -> Mesh:
+    assert isinstance(entry.shape, Mesh)
+    return entry.shape
+
+
+def load_one(path: Path) -> Mesh:
+    (entry,) = load_model(path).objects
+    return mesh_of(entry)
+
+
+def corners(mesh: Mesh) -> np.ndarray:
+    """The faces' corners in world space, each face beginning at its smallest corner, sorted."""
+    world = mesh.vertices @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+    faces = [
+        min(tuple(map(tuple, np.roll(face, -k, axis=0).round(5).tolist())) for k in range(3))
+        for face in world[mesh.faces] + 0.0
+    ]
+    return np.array(sorted(faces))
+
+
+# All formats.
+
+
+def test_white_paper_in_any_position_is_bright_and_not_clipped_in_the_default_lights():
+    normals = np.random.default_rng(1).normal(size=(3000, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    light = np.array(framing.AMBIENT)
+    for lamp in framing.LIGHTS:
+        toward = -np.array(lamp.direction) / np.linalg.norm(lamp.direction)
+        light = light + np.maximum(normals @ toward, 0)[:, None] * lamp.color
+    assert 0.85 < light.max() < 1.0
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_every_format_gives_the_same_triangles(ending: str, tmp_path: Path) -> None:
+    torus = shapes.torus(0.5, 0.2, 24, 12)
+    path = tmp_path / f"t.{ending}"
+    source = trimesh.Trimesh(torus.vertices, torus.faces, process=False)
+    if ending == "gltf":
+        for name, data in source.export(file_type="gltf").items():
+            write(tmp_path / (path.name if name == "model.gltf" else name), data)
+    else:
+        source.export(path)
+    read = load_scene(path)
+    assert [entry.name for entry in read.objects] == [
+        "geometry_0" if ending == "gltf" else "t"
+    ] or (ending in ("glb", "gltf"))
+    np.testing.assert_allclose(corners(mesh_of(read.objects[0])), corners(torus), atol=2e-5)
+    assert read.lights == framing.LIGHTS
+    assert read.view.fit
+    assert read.name == "t"
+
+
+@pytest.mark.parametrize("ending", ["ply", "stl", "off", "obj"])
+def test_files_without_normals_get_the_surface_s(ending: str, tmp_path: Path) -> None:
+    torus = shapes.torus(0.5, 0.2, 96, 48)
+    path = tmp_path / f"t.{ending}"
+    trimesh.Trimesh(torus.vertices, torus.faces, process=False).export(
+        path, **({"include_normals": False} if ending == "obj" else {})
+    )
+    mesh = load_one(path)
+    assert len(mesh.vertices) == len(torus.vertices)  # merged where the format repeats them
+    p = mesh.vertices.astype(float)
+    ring = p * (1, 0, 1)
+    ring *= 0.5 / np.linalg.norm(ring, axis=1, keepdims=True)
+    expected = (p - ring) / 0.2
+    assert mesh.normals is not None
+    cosine = np.einsum("ij,ij->i", mesh.normals, expected)
+    assert np.degrees(np.arccos(cosine.clip(-1, 1))).max() < 1.0
+
+
+# OBJ.
+
+
+def test_obj_objects_and_materials_become_scene_objects_in_order(tmp_path: Path) -> None:
+    write(
+        tmp_path / "m.mtl",
+        "newmtl red\nKd 0.8 0.1 0.1\nKs 0.5 0.5 0.5\nNs 90\nmap_Kd /etc/hostname\n"
+        "newmtl wild\nKd 7 -1 nan\nNs 1e9\n",
+    )
+    text = (
+        "mtllib m.mtl\n" + TRIANGLE + "v 0 0 1\no first\nusemtl red\nf 1 2 3\n"
+        "o second\nusemtl wild\nf 1 2 4\no third\nusemtl none\nf 1 3 4\n"
+    )
+    first, second, third = load_model(write(tmp_path / "t.obj", text)).objects
+    assert [e.name.split("_")[0] for e in (first, second, third)] == ["first", "second", "third"]
+    assert first.material.diffuse == (0.8, 0.1, 0.1)
+    assert first.material.specular == (0.5, 0.5, 0.5)
+    assert first.material.shininess == 90
+    assert second.material.shininess == 1000
+    assert third.material == framing.MATERIAL
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "v 9 9 9\n" + TRIANGLE + "f -3/-1 -2/-1 -1/-1\n",
+        "  v\t0 0 0\n\tv 1 0 0 # x\nv 0 1 0\nf\t1 2 3\n",
+        TRIANGLE + "f 1 2\\\n  3\n",
+        TRIANGLE + "vn 0 0 1\nf 1//9 2//1 3//1\n",
+        "mtllib ../../../../../etc/passwd\nusemtl x\n" + TRIANGLE + "f 1 2 3\n",
+    ],
+    ids=range(5),
+)
+def test_obj_dialects(text: str, tmp_path: Path) -> None:
+    mesh = load_one(write(tmp_path / "t.obj", text))
+    np.testing.assert_array_equal(corners(mesh), [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+
+
+def test_obj_with_more_groups_than_objects_is_one_object(tmp_path: Path) -> None:
+    text = TRIANGLE + "".join(f"v {k} 0 1\no {k}\nf 1 2 {k + 4}\n" for k in range(10_001))
+    (entry,) = load_model(write(tmp_path / "t.obj", text)).objects
+    assert len(mesh_of(entry).faces) == 10_001
+
+
+# Colours.
+
+HALF = ((128 / 255 + 0.055) / 1.055) ** 2.4  # sRGB 128, in linear light
+
+PLY_HEADER = """ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+{vertex}element face 1
+property list uchar int vertex_indices
+{face}end_header
+"""
+RGB = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+
+
+@pytest.mark.parametrize("where", ["vertex", "face"])
+def test_ply_colours_are_srgb(where: str, tmp_path: Path) -> None:
+    header = PLY_HEADER.format(**{"vertex": "", "face": "", where: RGB})
+    on_vertex, on_face = (" 255 128 0", "") if where == "vertex" else ("", " 255 128 0")
+    rows = "".join(f"{row}{on_vertex}\n" for row in ("0 0 0", "1 0 0", "0 1 0"))
+    path = write(tmp_path / "t.ply", f"{header}{rows}3 0 1 2{on_face}\n")
+    (entry,) = load_model(path).objects
+    colors = mesh_of(entry).colors
+    np.testing.assert_allclose(colors, [[1, HALF, 0]] * 3, atol=1e-6)
+    assert entry.material.diffuse == (1, 1, 1)
+
+
+def test_two_colours_in_one_position_stay_apart() -> None:
+    box = shapes.box()
+    joined = merge_positions(box.vertices)[box.faces]
+    colors = np.linspace(0, 1, 36).reshape(12, 3)
+    mesh = build_mesh(Part("p", box.vertices, joined, face_colors=colors))
+    assert mesh is not None
+    assert mesh.colors is not None
+    np.testing.assert_allclose(
+        mesh.colors[mesh.faces], np.repeat(colors[:, None], 3, axis=1), atol=1e-7
+    )
+
+
+def test_colours_of_any_type() -> None:
+    np.testing.assert_allclose(
+        linear_colors(np.array([[255, 128, 0]], np.uint8)), [[1, HALF, 0]], rtol=1e-6
+    )
+    np.testing.assert_allclose(linear_colors([[1.0, 128 / 255, 0.0]]), [[1, HALF, 0]], rtol=1e-6)
+    np.testing.assert_allclose(linear_colors([[255.0, 128.0, 0.0]]), [[1, HALF, 0]], rtol=1e-6)
+    linear = np.array([[65535, 0, 0, 7]], np.uint16)
+    np.testing.assert_allclose(linear_colors(linear, linear=True), [[1, 0, 0]])
+    np.testing.assert_allclose(linear_colors([[math.nan, -1, 0.5]], linear=True), [[0, 0, 0.5]])
+
+
+# PLY, STL, OFF.
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_binary_ply(order: str, tmp_path: Path) -> None:
+    name = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    header = PLY_HEADER.format(vertex="", face="").replace("ascii", name)
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], f"{order}f4")
+    face = b"\3" + np.arange(3, dtype=f"{order}i4").tobytes()
+    mesh = load_one(write(tmp_path / "t.ply", header.encode() + points.tobytes() + face))
+    np.testing.assert_array_equal(corners(mesh), [points])
+
+
+def test_ply_with_edges_comments_and_empty_lines(tmp_path: Path) -> None:
+    header = PLY_HEADER.format(vertex="", face="").replace(
+        "end_header",
+        "element edge 1\nproperty int vertex1\nproperty int vertex2\ncomment caf\u00e9\nend_header",
+    )
+    text = f"{header}0 0 0\n\n1 0 0\r\n0 1 0\n3 0 1 2\n0 1\n\n\n"
+    assert len(load_one(write(tmp_path / "t.ply", text.encode("latin-1"))).faces) == 1
+
+
+FACET = (
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 {z}\nvertex 1 0 {z}\nvertex 0 1 {z}\n"
+    "endloop\nendfacet\n"
+)
+
+
+def test_text_stl_of_several_solids(tmp_path: Path) -> None:
+    text = "".join(
+        f"solid {name}\n{FACET.format(z=z)}endsolid {name}\n"
+        for z, name in enumerate(["left", "left", ""])
+    )
+    objects = load_model(write(tmp_path / "t.stl", text)).objects
+    assert [entry.name for entry in objects] == ["left", "left", "t"]
+    assert [mesh_of(entry).vertices[0, 2] for entry in objects] == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("text", "faces"),
+    [
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
+        ("OFF 4 1 0 # counts beside it\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", 2),
+        ("# first\nCOFF\n\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2\n", 1),
+        ("OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 1\n0 1 0\n4 0 1 2 3\n3 0 1 3\n2 0 1\n", 3),
+        (" \n\t\r\n  OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
+        ("# by nobody\n\n  # C:\\models\\\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
+        ("\ufeff# marked\noff\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
+    ],
+    ids=range(7),
+)
+def test_off_dialects(text: str, faces: int, tmp_path: Path) -> None:
+    assert len(load_one(write(tmp_path / "t.off", text)).faces) == faces
+
+
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+@pytest.mark.parametrize(("ending", "text"), [("obj", OBJ_TRIANGLE), ("off", OFF_TRIANGLE)])
+def test_texts_with_a_byte_order_mark(
+    ending: str, text: str, line_end: str, tmp_path: Path
+) -> None:
+    data = f"# caf\u00e9\n{text}".replace("\n", line_end).encode("utf-8-sig")
+    (tmp_path / f"t.{ending}").write_bytes(data)
+    assert len(load_one(tmp_path / f"t.{ending}").faces) == 1
+
+
+def test_a_comment_that_ends_in_a_backslash_takes_no_line_away(tmp_path: Path) -> None:
+    text = OBJ_TRIANGLE.replace("v 1", "# from C:\\models\\\nv 1").replace(" 2 3", " 2\\\n 3")
+    assert len(load_one(write(tmp_path / "t.obj", text)).vertices) == 3
+
+
+def test_a_comment_of_many_backslashes_is_read_in_linear_time() -> None:
+    text = b"#" + b"\\" * 1_000_000 + b"x\nf 1 2 \\\n3\n"  # in quadratic time: an hour
+    assert tidy(text).endswith(b"x\nf 1 2  3\n\n")
+
+
+# Numbers that are none.
+
+SIGNALLING = np.full((3, 3), 0x7F800001, np.uint32).view(np.float32)  # NaN that complains
+
+
+@pytest.mark.parametrize(
+    ("vertices", "more", "refused"),
+    [
+        (np.eye(3), {}, ""),
+        ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e300, np.nan, -np.inf]], {}, ""),
+        (np.eye(3), {"normals": [[np.nan] * 3, [1e300] * 3, [1e-300] * 3]}, ""),
+        (np.eye(3) * 1e15, {}, "vertices: 3 of 3 are NaN or too large"),
+        (SIGNALLING, {}, "vertices: "),
+        (np.eye(3), {"normals": SIGNALLING}, ""),
+        (np.eye(3), {"vertex_colors": SIGNALLING}, "colors: holds NaN"),
+    ],
+    ids=range(7),
+)
+def test_hostile_numbers_give_a_sound_mesh_or_an_error_without_a_warning(
+    vertices: ArrayLike, more: dict[str, ArrayLike], refused: str
+) -> None:
+    part = Part("", vertices, [[0, 1, 2]], **more)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        if refused:
+            with pytest.raises(LucidaError, match=refused):
+                build_mesh(part)
+            return
+        mesh = build_mesh(part)
+    assert mesh is not None
+    assert np.linalg.norm(mesh.normals, axis=1) == pytest.approx(1.0, abs=1e-6)
+    there = mesh.vertices @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+    assert there == pytest.approx(np.asarray(vertices, float)[:3], rel=1e-6)
+
+
+# Polygons.
+
+
+def area_of(mesh: Mesh) -> float:
+    a, b, c = mesh.vertices[mesh.faces].transpose(1, 0, 2)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+@pytest.mark.parametrize(
+    ("ending", "text", "area"),
+    [
+        (
+            "obj",
+            "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 2 2 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+            "f 1 2 3 4 5 6 7 8\n",
+            5,
+        ),
+        (
+            "obj",
+            "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv .5 .5 0\nv .5 1.5 0\nv 1.5 1.5 0\n"
+            "v 1.5 .5 0\nf 1 2 3 4 1 5 6 7 8 5\n",
+            3,
+        ),
+        ("off", "OFF\n4 1 0\n0 0 0\n1 1 0\n2 0 0\n1 2 0\n4 0 1 2 3\n", 1),
+        (
+            "ply",
+            PLY_HEADER.format(vertex="", face="")
+            .replace("vertex 3", "vertex 5")
+            .replace("face 1", "face 2")
+            + "0 0 0\n1 1 0\n2 0 0\n1 2 0\n3 2 0\n4 0 1 2 3\n3 2 4 3\n",
+            3,
+        ),
+    ],
+)
+def test_concave_polygons_and_holes_are_cut_right(
+    ending: str, text: str, area: float, tmp_path: Path
+) -> None:
+    assert area_of(load_one(write(tmp_path / f"t.{ending}", text))) == pytest.approx(area)
+
+
+def test_a_random_simple_polygon_is_cut_into_triangles_of_its_area() -> None:
+    dice = np.random.default_rng(5)
+    for _ in range(200):
+        angles = np.sort(dice.random(dice.integers(4, 30))) * 2 * np.pi
+        if np.diff(np.append(angles, angles[0] + 2 * np.pi)).max() > 3:
+            continue  # the origin is outside
+        x, y = dice.uniform(0.1, 1, len(angles)) * (np.cos(angles), np.sin(angles))
+        area = abs((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) / 2
+        turn = np.linalg.qr(dice.normal(size=(3, 3)))[0]
+        points = np.stack([x, y, 0 * x], axis=1)[:: dice.choice([-1, 1])] @ turn
+        count = len(points)
+        places, owner = triangulated(points, np.arange(count), np.array([count]))
+        assert len(places) == count - 2 and not owner.any()
+        a, b, c = points[places.T]
+        pieces = np.cross(b - a, c - a) / 2
+        assert np.linalg.norm(pieces.sum(axis=0)) == pytest.approx(area)  # none is turned over
+        assert np.linalg.norm(pieces, axis=1).sum() == pytest.approx(area)
+
+
+def test_binary_ply_of_triangles_and_quads(tmp_path: Path) -> None:
+    header = PLY_HEADER.format(vertex="", face=RGB).replace("ascii", "binary_little_endian")
+    header = header.replace("vertex 3", "vertex 5").replace("face 1", "face 2")
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0]], "<f4")
+    faces = [b"\4" + np.array([0, 1, 2, 3], "<i4").tobytes() + b"\xff\0\0"]
+    faces.append(b"\3" + np.array([1, 4, 2], "<i4").tobytes() + b"\0\xff\0")
+    data = header.encode() + points.tobytes() + b"".join(faces)
+    mesh = load_one(write(tmp_path / "t.ply", data))
+    assert area_of(mesh) == pytest.approx(1.5) and mesh.colors is not None
+    assert mesh.colors[mesh.faces][:, 0].tolist() == [[1, 0, 0], [1, 0, 0], [0, 1, 0]]

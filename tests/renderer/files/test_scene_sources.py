@@ -1,0 +1,217 @@
+"""The sources of scenes: built in, by names and endings; and how they are framed."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from gltf_files import gltf
+from test_scene_files import BALL, TRIANGLE, scene
+
+from lucida.app.checking.task_file import load_tasks
+from lucida.app.lecture.reading import load_lecture
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.scene import Mesh, Sphere, View, flatten
+from lucida.renderer.system.errors import LucidaError
+
+# Built-in scenes.
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_built_in_scenes_are_whole(name: str) -> None:
+    read = load_scene(name)
+    names = [entry.name for entry in read.objects]
+    assert all(names)
+    assert len(set(names)) == len(names)
+    assert read.view.fit
+    flat = flatten(read)
+    assert all(np.isfinite(array).all() for array in flat)
+    assert len(flat.faces) < 20_000  # fast everywhere
+
+
+@pytest.mark.parametrize("name", BUILTIN_SCENES)
+def test_nothing_coincides_in_built_in_scenes(name: str) -> None:
+    """No horizontal face lies in another object's horizontal plane where they overlap."""
+    read = load_scene(name)
+    meshes = [(e.name, _world(e.shape)) for e in read.objects if isinstance(e.shape, Mesh)]
+    for number, (first, a) in enumerate(meshes):
+        for second, b in meshes[number + 1 :]:
+            apart = (a.max(0) < b.min(0)) | (b.max(0) < a.min(0))
+            if apart[0] or apart[2]:
+                continue
+            heights = [np.unique(np.round(vertices[:, 1], 4)) for vertices in (a, b)]
+            planes = [(h.min(), h.max()) for h in heights]
+            gaps = [abs(p - q) for p in planes[0] for q in planes[1]]
+            assert min(gaps) > 0.009, f"{first} and {second}"
+
+
+def _world(mesh: Mesh) -> np.ndarray:
+    return mesh.vertices @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
+
+
+def test_the_default_scene_shows_near_far_and_hidden_things() -> None:
+    read = load_scene(BUILTIN_SCENES[0])
+    size = (640, 360)
+    camera = read.view.for_size(size)
+    centers = [
+        entry.shape.center if isinstance(entry.shape, Sphere) else _world(entry.shape).mean(0)
+        for entry in read.objects
+    ]
+    seen = camera.project(np.array(centers[1:]), size)  # the first one is the floor
+    assert ((seen.row > 0) & (seen.row < size[1])).all()
+    assert ((seen.column > 0) & (seen.column < size[0])).all()
+    assert seen.parameter.max() > 2 * seen.parameter.min()
+    kinds = {type(entry.shape) for entry in read.objects}
+    assert kinds == {Sphere, Mesh}
+    assert any(entry.material.checker for entry in read.objects)
+    assert any(max(entry.material.specular) > 0.3 for entry in read.objects)
+
+
+# Names and endings.
+
+
+@pytest.mark.parametrize(
+    ("source", "message"),
+    [
+        ("spherez", "scene: 'spherez' is neither a built-in scene nor a file; did you mean 'sph"),
+        ("nonsense", "scene: 'nonsense' is neither a built-in scene nor a file; built-in scenes"),
+        ("", "scene: '' is empty"),
+        ("a/b", "a/b: does not exist in "),
+        ("a.toml", "a.toml: does not exist in "),
+        ("a.obj", "a.obj: does not exist in "),
+        ("a.png", "a.png: does not exist in "),
+        ("a\0b.toml", "a\\x00b.toml: cannot be read: "),
+        ("a" * 5000, "scene: 'aaaa"),
+        ("a" * 5000 + ".obj", "aaaa"),
+    ],
+    ids=range(10),
+)
+def test_unknown_sources(source: str, message: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(LucidaError) as caught:
+        load_scene(source)
+    assert str(caught.value).startswith(message)
+    assert caught.value.remedy
+
+
+def test_endings_decide_and_a_built_in_name_wins_over_a_file(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("still-life").write_text("")
+    assert load_scene("still-life").objects
+    with pytest.raises(LucidaError, match=r"^still-life: has no ending; give files ending in"):
+        load_scene("./still-life")
+    Path("x.PLY").write_text("")
+    with pytest.raises(LucidaError, match=r"^x\.PLY: is empty"):
+        load_scene("x.PLY")
+    Path("bunny.obj").write_text(TRIANGLE)
+    with pytest.raises(LucidaError, match=r"^buny\.obj: does not .*; did you mean 'bunny\.obj'"):
+        load_scene("buny.obj")
+    assert load_scene(Path("bunny.obj")).name == "bunny"
+
+
+@pytest.mark.parametrize("name", ["x.obj", "x.toml", "x.png"])
+def test_a_link_that_leads_nowhere_is_told_as_one(name: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    try:
+        Path(name).symlink_to("gone.obj")
+    except OSError:
+        pytest.skip("this system makes no links")
+    with pytest.raises(LucidaError, match=r"is a link to 'gone\.obj', which does not exist; mend"):
+        load_scene(name)
+    Path("gone.obj").write_text(TRIANGLE)
+    if name == "x.obj":
+        assert load_scene(name).objects
+
+
+# Framing.
+
+
+@pytest.mark.parametrize("stretch", [(1, 1, 1), (10, 1, 1), (1, 10, 1), (1, 1, 10)])
+def test_a_scene_without_a_camera_is_seen_whole(stretch: tuple[int, int, int]) -> None:
+    read = scene(
+        f"[[objects]]\ntype = 'torus'\nscale = {list(stretch)}\ntranslate = [100, 0, 0]\n"
+        "[[objects]]\ntype = 'sphere'\ncenter = [100, 2, 0]\nradius = 0.5"
+    )
+    points = [_world(e.shape) for e in read.objects if isinstance(e.shape, Mesh)]
+    points.append(np.array([[100, 2.5, 0], [100.5, 2, 0], [99.5, 2, 0], [100, 2, 0.5]]))
+    for size in ((200, 200), (400, 100), (100, 400)):
+        camera = read.view.for_size(size)
+        seen = camera.project(np.concatenate(points), size)
+        assert np.isfinite(seen.row).all()
+        assert seen.row.min() > -0.5
+        assert seen.row.max() < size[1] - 0.5
+        assert seen.column.min() > -0.5
+        assert seen.column.max() < size[0] - 0.5
+    # It is not lost in the picture either: it reaches over a third of it.
+    seen = read.view.for_size((200, 200)).project(np.concatenate(points), (200, 200))
+    assert max(np.ptp(seen.row), np.ptp(seen.column)) > 67
+
+
+def test_an_empty_scene_is_seen_by_the_canonical_camera() -> None:
+    assert scene("objects = []").view == View(Camera.canonical(), fit=True)
+
+
+@pytest.mark.parametrize("radius", [1e-8, 1e12])
+def test_a_scene_out_of_reach_says_so(radius: float) -> None:
+    with pytest.raises(LucidaError, match="across; scale it"):
+        scene(f"{BALL}radius = {radius}")
+    assert math.isfinite(scene(f"{BALL}radius = {radius}\n[camera]").view.camera.eye[0])
+
+
+# A missing file, what is beside it, and which of these is suggested.
+SUGGESTED = [
+    ("buny.obj", ["bunny.obj"], "bunny.obj"),
+    ("Bunny.OBJ", ["bunny.obj"], "bunny.obj"),
+    ("bunny2.obj", ["bunny.obj"], "bunny.obj"),
+    ("bunny.glb", ["bunny.gltf", "bunny.bin"], "bunny.gltf"),
+    ("bunny.ob", ["bunny.obj"], "bunny.obj"),
+    ("scene.toml", ["scene1.obj", "scene1.json"], ""),
+    ("BoxTextured0.bin", ["BoxTextured.gltf", "BoxTextured0.png"], ""),
+    ("BoxTextured0.bin", ["BoxTextured.gltf", "boxtextured0.bin"], "boxtextured0.bin"),
+    ("wall_baseColor.png", ["wall_normal.png", "wall_occlusion.png"], ""),
+    ("wall_baseColor.png", ["wall_base_color.png"], "wall_base_color.png"),
+]
+
+
+@pytest.mark.parametrize(("missing", "beside", "close"), SUGGESTED)
+def test_what_is_suggested_for_a_missing_file(
+    tmp_path: Path, missing: str, beside: list[str], close: str
+) -> None:
+    for name in beside:
+        (tmp_path / name).write_bytes(b"x")
+    with pytest.raises(LucidaError) as error:
+        read_file(tmp_path / missing, 1)
+    assert error.value.problem == "does not exist"
+    assert error.value.remedy == (f"did you mean {str(tmp_path / close)!r}?" if close else NONE)
+
+
+NONE = "check its name"
+MODEL = '[[objects]]\ntype = "model"\nfile = "{}"\n'
+GLTF = json.dumps(gltf(buffers=[{"byteLength": 44, "uri": "model0"}]))
+REFERRERS = {  # what names a missing file of a similar name
+    "model.gltf": ("model0", GLTF),
+    "lecture.toml": (
+        "lectures.toml",
+        'title = "L"\n[[steps]]\ntitle = "S"\nscene = "lectures.toml"\n',
+    ),
+    "tasks.toml": ("task.toml", '[[tasks]]\nkind = "viewing-ray"\nviews = ["task.toml"]\n'),
+}
+
+
+@pytest.mark.parametrize("name", REFERRERS)
+def test_the_file_that_names_a_missing_one_is_not_suggested(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    missing, text = REFERRERS[name]
+    Path(name).write_text(text if text == GLTF else f"lucida = 1\n{text}", "utf-8")
+    load = {"lecture.toml": load_lecture, "tasks.toml": load_tasks}.get(name, load_scene)
+    with pytest.raises(LucidaError, match=re.escape(missing)) as error:
+        load(name)
+    assert "did you mean" not in str(error.value)

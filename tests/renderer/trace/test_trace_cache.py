@@ -1,0 +1,142 @@
+"""The cache of compiled kernels: read-only installations, no folder at all, edits, two at once."""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from numba.core import caching
+
+import lucida
+from lucida.renderer.system import compile_note
+from lucida.renderer.trace.compile import compiled
+from lucida.renderer.trace.compile.cache_folder import prune
+
+HANG_S = 280
+SMALL_KERNEL = """
+from lucida.renderer.trace.compile.compiled import kernel
+
+
+@kernel
+def tripled(x):
+    return 3 * x
+"""
+SCRIPT = """
+from numba.core import event
+from lucida.renderer.trace.compile import cache_folder
+from small_kernel import tripled
+with event.install_recorder("numba:compile") as compiled:
+    assert tripled(4) == 12
+print(cache_folder.cache_folder(), not compiled.buffer)
+"""
+
+
+@pytest.fixture
+def installation(tmp_path: Path) -> Path:
+    """Copy the package, which cannot cache beside itself here: the folder's name is taken. Beside
+    it lies a module with a kernel that takes no time to compile.
+    """
+    package = tmp_path / "installation" / "renderer"
+    source = Path(renderer.__file__).parent
+    shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
+    (package / "trace" / "__pycache__").write_text("")
+    (package.parent / "small_kernel.py").write_text(SMALL_KERNEL)
+    return package
+
+
+def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.Popen:
+    env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
+    env |= {
+        "PYTHONPATH": str(installation.parent),
+        "PYTHONPYCACHEPREFIX": str(installation.parent / "byte-code"),
+        "HOME": str(cache),
+        "XDG_CACHE_HOME": str(cache),
+        "LOCALAPPDATA": str(cache),
+    }
+    return subprocess.Popen(
+        [sys.executable, "-c", script], cwd=installation.parent, env=env, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+
+
+def finish(process: subprocess.Popen) -> str:
+    out, err = process.communicate(timeout=HANG_S)
+    assert process.returncode == 0, err
+    assert err == ""
+    return out.strip()
+
+
+def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    for process in [start(installation, cache) for _ in range(2)]:  # both compile, at once
+        folder = finish(process).rsplit(" ", 1)[0]
+        assert Path(folder).is_relative_to(cache)
+    assert finish(start(installation, cache)) == f"{folder} True"
+
+    # A damaged file costs compiling again: at once, and at the next start for the cache.
+    for file in Path(folder).rglob("*.nb?"):
+        file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    for is_loaded in (False, False, True):
+        assert finish(start(installation, cache)) == f"{folder} {is_loaded}"
+
+    # An edit of any file that kernels consist of leads to another folder.
+    shown = (
+        "from lucida.renderer.trace.compile import cache_folder; print(cache_folder.cache_folder())"
+    )
+    folders = {folder, finish(start(installation, cache, shown))}
+    assert len(folders) == 1
+    edits = "trace/reference/intersect.py", "trace/reference/vectors.py", "scene/flat.py"
+    for edited in (*edits, "images/shared_numbers.py"):
+        with (installation / edited).open("a") as text:
+            text.write("\n")
+        folders.add(finish(start(installation, cache, shown)))
+    assert len(folders) == 5
+
+
+def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compiled, "cache_folder", lambda: None)
+    assert compiled.kernel(tripled)(4) == 12
+    assert not compiled.is_cached()
+
+
+def test_a_kernel_that_cannot_be_stored_is_reported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compile_note, "_note", "")  # which counts for a whole process
+    monkeypatch.setattr(compiled, "_has_failed", threading.Event())
+    monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(caching.Cache, "save_overload", full)
+    assert compiled.kernel(tripled)(4) == 12
+    assert not compiled.is_cached()
+    assert compile_note.note() == compile_note.EACH_TIME
+    compile_note.begin(kept=True)  # another kernel's
+    assert compile_note.note() == compile_note.EACH_TIME
+
+
+def full(self: object, signature: object, data: object) -> None:
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def tripled(x):
+    return 3 * x
+
+
+def test_old_folders_are_pruned(tmp_path: Path) -> None:
+    for age in range(10):
+        folder = tmp_path / f"old{age}"
+        folder.mkdir()
+        (folder / "kernel.nbi").write_text("x")
+        stamp = time.time() - 86400 * (age + 1)
+        os.utime(folder, (stamp, stamp))
+    for name in ("young", "used"):
+        (tmp_path / name).mkdir()
+    prune(tmp_path, tmp_path / "used")
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == {"used", "young", "old0", "old1", "old2"}

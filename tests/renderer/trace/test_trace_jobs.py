@@ -1,0 +1,349 @@
+"""Jobs in the background: progress, cancelling, several at once, and their end."""
+
+from __future__ import annotations
+
+import gc
+import os
+import subprocess
+import sys
+import threading
+import time
+import weakref
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from import_path import import_path
+from trace_reference import scene_of
+
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.model import Mesh, Scene, Sphere
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace import TraceJob, Tracer
+from lucida.renderer.trace.arguments.image import BLOCK
+from lucida.renderer.trace.bvh import instances
+from lucida.renderer.trace.threads.thread_pool import Team
+
+FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
+SMALL, LARGE = (48, 32), (2048, 2048)
+HANG_S = 60  # a failure, not a measurement
+
+
+class Gate:
+    """Holds up the building of a mesh's tree. ends: how each one that was held up has ended."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.reached, self.opened = threading.Event(), threading.Event()
+        self.ends: list[str] = []
+        self.build = instances.tree_of_mesh
+        monkeypatch.setattr(instances, "tree_of_mesh", self)
+
+    def __call__(self, *arguments: Any) -> Any:
+        self.reached.set()
+        assert self.opened.wait(HANG_S)
+        self.ends.append("given up")
+        tree = self.build(*arguments)
+        self.ends[-1] = "built"
+        return tree
+
+
+def one_triangle(depth: float) -> Scene:
+    vertices = np.array([[-9, -9, depth], [9, -9, depth], [0, 20, depth]], float)
+    return scene_of(Mesh(vertices, np.array([[0, 1, 2]])))
+
+
+def nearest(frame: Frame) -> float:
+    """The distance from the eye of the nearest hit, along the view's direction."""
+    return float(frame.channel("depth").min()) * FRONT.distance
+
+
+def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with Tracer(scene_of(Sphere())) as tracer:
+        tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        tracer.set_scene(one_triangle(1.0))
+        first = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        first.cancel()
+        assert not first.result().complete  # at once
+        tracer.set_scene(scene_of(Sphere(radius=0.5)))
+        second = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        assert second.result().complete
+        assert gate.ends == ["given up"]
+        # Nothing is left of it: the same scene, asked for again, is built and drawn.
+        tracer.set_scene(one_triangle(2.0))
+        assert nearest(tracer.render(FRONT, SMALL)) == pytest.approx(3.0)
+        assert gate.ends == ["given up", "built"]
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(
+    monkeypatch: pytest.MonkeyPatch, fails: bool
+) -> None:
+    """Preparing another scene is given up, or fails. The one before is prepared again."""
+    before = one_triangle(0.5)
+    with Tracer(before) as tracer:
+        wanted = tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        other = one_triangle(2.0)
+        tracer.set_scene(replace(other, ambient=(0.9, 0.1, 0.1), background=(0.2, 0.9, 0.2)))
+        first = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        if fails:
+            build = gate.build
+            monkeypatch.setattr(gate, "build", None)  # calling it raises
+        else:
+            first.cancel()
+        tracer.set_scene(before)
+        second = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        if fails:
+            with pytest.raises(TypeError, match="not callable"):
+                first.result()
+            gate.build = build
+        assert np.array_equal(second.result().color, wanted.color)
+        assert gate.ends[:1] == ["given up"]
+
+
+def test_building_goes_on_for_another_image_of_the_same_scene(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with Tracer(scene_of(Sphere())) as tracer:
+        tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        tracer.set_scene(one_triangle(1.0))
+        first = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        first.cancel()
+        second = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        assert nearest(second.result()) == pytest.approx(4.0)
+        assert gate.ends == ["built"]
+
+
+def test_closing_gives_up_building(monkeypatch: pytest.MonkeyPatch) -> None:
+    tracer = Tracer(scene_of(Sphere()))
+    tracer.render(FRONT, SMALL)
+    gate = Gate(monkeypatch)
+    tracer.set_scene(one_triangle(1.0))
+    job = tracer.start(FRONT, SMALL)
+    assert gate.reached.wait(HANG_S)
+    closing = threading.Thread(target=tracer.close)
+    closing.start()
+    assert not job.result().complete  # at once
+    gate.opened.set()
+    closing.join(HANG_S)
+    assert gate.ends == ["given up"]
+
+
+def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with Tracer(scene_of(Sphere())) as tracer:
+        tracer.render(FRONT, SMALL)
+        gate = Gate(monkeypatch)
+        tracer.set_scene(one_triangle(1.0))
+        busy = tracer.start(FRONT, SMALL)
+        assert gate.reached.wait(HANG_S)
+        tracer.set_scene(scene_of(Sphere(radius=0.5)))
+        waiting = tracer.start(FRONT, SMALL)
+        waiting.cancel()
+        wanted = tracer.start(FRONT, SMALL)
+        gate.opened.set()
+        assert busy.result().complete
+        assert nearest(wanted.result()) == pytest.approx(4.5, rel=1e-3)
+
+
+def slow_scene() -> Scene:
+    """Each ray tries all of 5000 equal triangles: an image of LARGE takes minutes."""
+    vertices = np.array([[-9, -9, 0], [9, -9, 0], [0, 20, 0]], float)
+    return scene_of(Mesh(vertices, np.tile([0, 1, 2], (5000, 1))))
+
+
+@pytest.fixture(scope="module")
+def slow() -> Iterator[Tracer]:
+    with Tracer(slow_scene(), threads=2, method="reference") as tracer:
+        tracer.render(FRONT, (1, 1))
+        yield tracer
+
+
+def wait_until_tracing(job: TraceJob) -> None:
+    deadline = time.monotonic() + HANG_S
+    while job.progress == 0 and time.monotonic() < deadline:
+        time.sleep(0.001)
+    assert 0 < job.progress < 1
+
+
+def test_a_cancelled_job_gives_what_it_has(slow: Tracer) -> None:
+    job = slow.start(FRONT, LARGE, ("color", "depth", "normal", "id", "primitive"))
+    wait_until_tracing(job)
+    assert not job.done
+    job.cancel()
+    assert job.wait(HANG_S)
+    assert job.done
+    assert job.progress == 1
+    frame = job.result()
+    assert not frame.complete
+    assert frame is job.result()
+    first = frame.id[:BLOCK, :BLOCK]  # taken first, and finished before any progress was seen
+    assert (first == 0).any() or (frame.id == 0).any()
+    missed = frame.id < 0
+    assert missed[-BLOCK:].all()
+    assert np.isinf(frame.depth[missed]).all()
+    assert (frame.color[missed] == np.float32([0.1, 0.2, 0.3])).all()
+    assert (frame.normal[missed] == 0).all()
+    assert (frame.primitive[missed] == -1).all()
+    assert np.isfinite(frame.depth[~missed]).all()
+
+
+def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow: Tracer) -> None:
+    first = slow.start(FRONT, LARGE, ("depth",))
+    second = slow.start(FRONT, SMALL)
+    third = slow.start(FRONT, (8, 8))
+    second.cancel()
+    assert second.done  # at once, though the first goes on
+    assert not first.done
+    frame = second.result()
+    assert not frame.complete
+    assert frame.color.shape == (32, 48, 3)
+    assert np.isinf(frame.depth).all()
+    assert not third.wait(0.01)
+    first.cancel()
+    assert third.result().complete
+
+
+def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow: Tracer) -> None:
+    job = slow.start(FRONT, LARGE)
+    job.cancel()
+    job.cancel()
+    assert not job.result().complete
+    assert slow.render(FRONT, (4, 4)).complete
+    done = slow.start(FRONT, (4, 4))
+    done.wait()
+    done.cancel()
+    assert done.result().complete
+
+
+def test_progress_rises_to_one(slow: Tracer) -> None:
+    seen: list[float] = []
+    threads = set()
+
+    def progress(fraction: float) -> None:
+        seen.append(fraction)
+        threads.add(threading.current_thread())
+
+    frame = slow.render(FRONT, (96, 64), ("color", "depth"), samples=4, progress=progress)
+    assert frame.complete
+    assert seen == sorted(seen)
+    assert len(seen) >= 5
+    assert seen[-1] == 1
+    assert 0 <= seen[0] < 1
+    assert threads == {threading.current_thread()}
+
+
+def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
+    def progress(fraction: float) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        slow.render(FRONT, LARGE, progress=progress)
+    assert slow.render(FRONT, (4, 4)).complete  # not after minutes
+
+
+def test_closing_cancels_and_ends_the_threads() -> None:
+    before = threading.active_count()
+    tracer = Tracer(slow_scene(), threads=3, method="reference")
+    jobs = [tracer.start(FRONT, LARGE) for _ in range(3)]
+    wait_until_tracing(jobs[0])
+    tracer.close()
+    tracer.close()
+    assert all(job.done for job in jobs)
+    assert not any(job.result().complete for job in jobs)
+    assert threading.active_count() == before
+    with pytest.raises(LucidaError, match="closed"):
+        tracer.start(FRONT, SMALL)
+
+
+def test_a_dropped_tracer_ends_its_threads() -> None:
+    before = set(threading.enumerate())
+    tracer = Tracer(slow_scene(), threads=2, method="reference")
+    job = tracer.start(FRONT, LARGE)
+    wait_until_tracing(job)
+    started = set(threading.enumerate()) - before
+    gone = weakref.ref(tracer)
+    del tracer
+    gc.collect()
+    assert gone() is not None  # the job keeps it
+    assert not job.done
+    del job
+    gc.collect()
+    assert gone() is None
+    assert len(started) == 2
+    for thread in started:
+        thread.join(HANG_S)
+        assert not thread.is_alive()
+
+
+def test_several_tracers_at_once() -> None:
+    scenes = [scene_of(Sphere((0, 0, z), 1.0)) for z in (-4.0, -2.0, 0.0, 1.0)]
+    tracers = [Tracer(scene, threads=2) for scene in scenes]
+    jobs = [tracer.start(FRONT, (63, 65), ("depth",)) for _ in range(5) for tracer in tracers]
+    frames = [job.result() for job in jobs]
+    assert all(frame.complete for frame in frames)
+    for number, frame in enumerate(frames):
+        assert np.array_equal(frame.depth, frames[number % 4].depth)
+        assert frame.depth[32, 31] * FRONT.distance == pytest.approx(
+            4 - (-4.0, -2.0, 0.0, 1.0)[number % 4], rel=0.01
+        )
+    for tracer in tracers:
+        tracer.close()
+
+
+def test_the_image_does_not_depend_on_the_threads() -> None:
+    frames = []
+    for threads in (1, 2, 5):
+        with Tracer(scene_of(Sphere(), Sphere((1, 1, 1), 0.5)), threads) as tracer:
+            frames.append(tracer.render(FRONT, (100, 70)))
+    for channel in ("color", "depth", "normal", "id"):
+        assert all(
+            np.array_equal(getattr(frame, channel), getattr(frames[0], channel)) for frame in frames
+        )
+
+
+def test_an_error_in_the_team_reaches_the_caller() -> None:
+    team = Team(3)
+
+    def fail() -> None:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        team.run(fail)
+    calls: list[int] = []
+    team.run(calls.append, 1)
+    team.run(calls.append, 1, size=2)
+    assert len(calls) == 5
+    team.close()
+
+
+def test_the_interpreter_exits_while_jobs_run() -> None:
+    script = """
+import sys, time
+from test_trace_jobs import FRONT, LARGE, slow_scene
+from lucida.renderer.trace import Tracer
+tracers = [Tracer(slow_scene(), threads=2, method="reference") for _ in range(2)]
+jobs = [tracer.start(FRONT, LARGE) for tracer in tracers for _ in range(2)]
+while not jobs[0].progress or not jobs[2].progress:
+    time.sleep(0.01)
+sys.exit(3)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=HANG_S * 2,
+        env={**os.environ, "PYTHONPATH": import_path(__file__)},
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (3, "")
