@@ -6,5 +6,3 @@ instruments/, lecture/, checking/, web/    the instruments; lectures; students' 
 images/, cameras/, ui/                     both images; the camera as the user moves it; widgets
 state/                                     everything that undo, sessions and lectures keep
 """
-
-__version__ = "0.1.0"

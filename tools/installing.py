@@ -35,8 +35,8 @@ LINES = (
     ("render spheres -o ray.png --size 64x48 --renderer ray", ""),
     ("camera ../pinhole.toml", ""),
 )
-NOTEBOOK = "import renderer; s = lucida.load_scene('spheres'); c = s.view.for_size((64, 48)); "
-NOTEBOOK += "print(lucida.Tracer(s).render(c, (64, 48)).channel('color').shape, renderer.__file__)"
+NOTEBOOK = "import lucida; s = lucida.load_scene('spheres'); c = s.view.for_size((64, 48)); "
+NOTEBOOK += "print(lucida.Tracer(s).render(c, (64, 48)).channel('color').shape, lucida.__file__)"
 CAMERA = '[camera]\nprojection = "perspective"\neye = [0, 0, 5]\n'
 
 
@@ -140,8 +140,8 @@ def _try(folder: Path, python: str, package: Path, way: Callable[..., Path], too
     folder.mkdir()
     scripts = way(folder, python, package, tools)
     here = folder / "work"
-    (here / "renderer").mkdir(parents=True)
-    for name in ("app.py", "json.py", "renderer/__init__.py"):
+    here.mkdir()
+    for name in ("lucida.py", "json.py"):
         (here / name).write_text("raise SystemExit('a file of the user was imported')\n")
     (folder / "pinhole.toml").write_text(CAMERA)
     for line, wanted in LINES:

@@ -85,9 +85,8 @@ def command_line(view: View, source: str) -> str:
 
 def python(view: View) -> str:
     """Return a program that makes the camera, and the view if its viewport is fitted."""
-    lines = [f"from renderer import Camera{', Lens' if view.camera.lens else ''}"]
-    lines += ["from lucida.renderer.scene import View"] * view.fit
-    lines += ["", "camera = Camera("]
+    names = ["Camera", *["Lens"] * bool(view.camera.lens), *["View"] * view.fit]
+    lines = [f"from lucida import {', '.join(names)}", "", "camera = Camera("]
     for name, value in _fields(view.camera):
         if isinstance(value, Lens):
             text = f"Lens({value.model!r}, {dict(value.coefficients)!r})".replace("'", '"')

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import threading
 from importlib import import_module
+from importlib.resources import files
 from pathlib import Path
 
 from lucida.renderer.system.errors import LucidaError
@@ -58,7 +59,7 @@ def import_path() -> list[str]:
         here = os.path.realpath(os.getcwd())
     except OSError:  # it was deleted
         here = ""
-    root = os.path.realpath(Path(__file__).parents[2])
+    root = os.path.realpath(os.path.join(str(files("lucida")), ".."))
     folders = [os.path.join(here, folder) for folder in sys.path]
     return [
         folder

@@ -19,6 +19,7 @@ from concurrent.futures import ThreadPoolExecutor
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib import import_module, metadata
+from importlib.resources import files
 from pathlib import Path
 
 from lucida.renderer.raster.contexts import candidates
@@ -167,11 +168,10 @@ def _is_on_the_path() -> str:
 
 def _is_not_hidden() -> str:
     """Look for the user's files that a Python started in this folder imports in place of ours."""
-    ours = Path(__file__).parents[2]
+    ours = Path(str(files("lucida"))).resolve()
     hiding = [
         str(file)
-        for name in ("app", "renderer", "shaders")
-        for file in (Path(f"{name}.py"), Path(name, "__init__.py"))
+        for file in (Path("lucida.py"), Path("lucida", "__init__.py"))
         if file.exists() and not file.resolve().is_relative_to(ours)
     ]
     if hiding:

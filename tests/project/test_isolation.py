@@ -20,8 +20,8 @@ ROOT = Path(__file__).parents[2]
 LIMIT_S = 280  # the first rendering compiles the tracer
 # What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
 NAMES = """\
-json numpy struct app renderer/__init__ renderer/system/child renderer/system/doctor
-shaders/__init__ os re
+json numpy struct lucida/__init__ lucida/renderer/system/child lucida/renderer/system/doctor
+lucida/shaders/__init__ os re
 io subprocess threading signal ctypes enum types random logging locale numba llvmlite trimesh
 PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercustomize cuda
 scipy networkx lxml site encodings/__init__ encodings/utf_8"""
@@ -125,11 +125,11 @@ def test_the_doctor_tells_the_truth_there(here: Here) -> None:
     for name in (candidates()[0], "tracer"):
         (check,) = (check for check in checks if check["name"] == name)
         assert check == asdict(doctor.check(name))
-    assert "app.py and renderer/__init__.py" in imports["detail"]
+    assert "lucida/__init__.py" in imports["detail"]
     assert imports["remedy"].startswith("rename")
 
 
-def test_python_m_app_leaves_the_current_folder_at_once(here: Here, tmp_path: Path) -> None:
+def test_python_m_lucida_leaves_the_current_folder_at_once(here: Here, tmp_path: Path) -> None:
     (tmp_path / "struct.py").write_text(f"open({str(here.ran)!r}, 'a').write('struct ')\n")
     (tmp_path / "argparse.py").write_text(f"open({str(here.ran)!r}, 'a').write('argparse ')\n")
     folder, here.folder = here.folder, tmp_path
@@ -142,7 +142,7 @@ def test_python_m_app_leaves_the_current_folder_at_once(here: Here, tmp_path: Pa
 def test_a_python_that_a_library_starts_does_not_search_there_either(here: Here) -> None:
     script = (
         "import subprocess, sys\n"
-        "from lucida.app.__main__ import main\n"
+        "from lucida.__main__ import main\n"
         "sys.argv[1:] = ['scenes']\n"
         "main()\n"
         "print(subprocess.run([sys.executable, '-c', 'import ctypes, json']).returncode)\n"

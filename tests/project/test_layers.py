@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SOURCES = sorted([*ROOT.glob("app/**/*.py"), *ROOT.glob("renderer/**/*.py")])
+SOURCES = sorted(
+    path for top in ("app", "lucida", "renderer") for path in ROOT.glob(f"{top}/**/*.py")
+)
 
 # From the ground up, as docs/architecture.md says. A module belongs to the longest name here that
 # it is within, and imports from its own layer and from those before it; local imports count, and
@@ -34,11 +36,11 @@ LAYERS = (
     ("lucida.renderer.trace",),
     ("lucida.renderer.compare",),
     ("lucida.renderer.notebook", "lucida.renderer.system.doctor"),
-    ("renderer", "app"),
+    ("lucida.renderer", "lucida.app", "lucida"),
     ("lucida.app.state",),
     ("lucida.app.ui", "lucida.app.images", "lucida.app.cameras"),
     ("lucida.app.instruments", "lucida.app.lecture", "lucida.app.checking", "lucida.app.web"),
-    ("lucida.app.window", "lucida.app.commands", "lucida.app.cli", "lucida.app.__main__"),
+    ("lucida.app.window", "lucida.app.commands", "lucida.app.cli", "lucida.__main__"),
 )
 LAYER = {name: number for number, names in enumerate(LAYERS) for name in names}
 
@@ -73,7 +75,7 @@ def imports(path: Path, source: str | None = None) -> tuple[str, ...]:
 
 
 def _imports(path: Path, source: str | None) -> Iterator[str]:
-    package = path.relative_to(ROOT).parent.parts
+    package = name_of(path.with_name("__init__.py")).split(".")
     for node in ast.walk(ast.parse(path.read_text("utf-8") if source is None else source)):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
@@ -88,7 +90,9 @@ def is_within(name: str, package: str) -> bool:
 
 
 def name_of(path: Path) -> str:
+    """Return the name that the file is imported by: lucida/ has links to app/ and renderer/."""
     parts = path.relative_to(ROOT).with_suffix("").parts
+    parts = parts if parts[0] == "lucida" else ("lucida", *parts)
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
@@ -106,9 +110,9 @@ def imported(module: str) -> frozenset[str]:
 def layer(module: str) -> int:
     names = [name for name in LAYER if is_within(module, name)]
     # A package's own __init__ is what the layer is named by; other files need a package.
-    assert names and (module in LAYER or max(names, key=len) not in ("app", "renderer")), (
-        f"{module} belongs to no layer: put it into a package, or name it in LAYERS"
-    )
+    assert names and (
+        module in LAYER or max(names, key=len) not in ("lucida", "lucida.app", "lucida.renderer")
+    ), f"{module} belongs to no layer: put it into a package, or name it in LAYERS"
     return LAYER[max(names, key=len)]
 
 
@@ -156,7 +160,7 @@ def test_cores_draw_nothing():
     assert todo
     while todo:
         module = todo.pop()
-        if module in seen or not is_within(module, "app"):
+        if module in seen or not is_within(module, "lucida.app"):
             continue
         seen.add(module)
         todo.extend(imported(module))
@@ -179,7 +183,7 @@ def test_the_window_s_library_is_loaded_first(path):
 def test_the_check_sees_every_form_of_import():
     source = "import a.b\nfrom c import d\ndef f():\n    from . import e\n    from ..g import h"
     found = set(imports(ROOT / "renderer" / "scene" / "x.py", source))
-    assert found == {"a.b", "c.d", "lucida.renderer.scene.e", "renderer.g.h"}
+    assert found == {"a.b", "c.d", "lucida.renderer.scene.e", "lucida.renderer.g.h"}
 
 
 def test_every_file_says_what_it_is_for():

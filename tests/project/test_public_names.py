@@ -1,4 +1,4 @@
-"""The names of `renderer` that Python users import, and the errors of wrong arguments."""
+"""The names of `lucida` that Python users import, and the errors of wrong arguments."""
 
 import math
 
@@ -22,15 +22,15 @@ SIZE = (8, 6)
 
 
 def test_dir_shows_the_public_names_and_each_of_them_is_there():
-    assert dir(renderer) == sorted(renderer.__all__)
-    assert {"Camera", "load_scene", "save_view", "write_image", "picture"} <= set(dir(renderer))
-    for name in renderer.__all__:
-        assert getattr(renderer, name).__name__ == name
+    assert dir(lucida) == sorted(lucida.__all__)
+    assert {"Camera", "load_scene", "save_view", "write_image", "picture"} <= set(dir(lucida))
+    for name in lucida.__all__:
+        assert getattr(lucida, name).__name__ == name
 
 
 def test_an_unknown_name_is_python_s_own_error():
-    with pytest.raises(AttributeError, match=r"renderer.*nosuch"):
-        _ = renderer.nosuch
+    with pytest.raises(AttributeError, match=r"lucida.*nosuch"):
+        _ = lucida.nosuch
 
 
 class TestWrongArguments:

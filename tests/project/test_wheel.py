@@ -74,10 +74,11 @@ def environment() -> dict[str, str]:
 
 
 def of_the_packages() -> set[str]:
+    links = {f"lucida/{name}": ROOT / name for name in ("app", "renderer", "shaders")}
     return {
-        path.relative_to(ROOT).as_posix()
-        for package in ("app", "renderer", "shaders")
-        for path in (ROOT / package).rglob("*")
+        f"{place}/{path.relative_to(folder).as_posix()}"
+        for place, folder in {"lucida": ROOT / "lucida", **links}.items()
+        for path in folder.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".pyc"
     }
 
@@ -86,6 +87,7 @@ def test_everything_travels_and_nothing_else(wheel):
     with zipfile.ZipFile(wheel) as archive:
         packed = set(archive.namelist())
     described = {name for name in packed if ".dist-info/" in name}
+    assert {name.partition("/")[0] for name in packed - described} == {"lucida"}
     assert packed - described == of_the_packages()
     assert any(name.endswith("licenses/LICENSE") for name in described)
     assert any(name.endswith(".toml") for name in packed)
@@ -115,13 +117,11 @@ def test_one_version(wheel):
 
 
 def test_the_packages_come_from_the_installation(installed, environment, tmp_path):
-    program = (
-        "import app, renderer, shaders, sys; print(app.__file__, renderer.__file__, *sys.path)"
-    )
+    program = "import lucida.app, sys; print(lucida.__file__, lucida.app.__file__, *sys.path)"
     end = run(installed / "python", "-c", program, cwd=tmp_path, env=environment)
     assert end.returncode == 0, end.stderr
     assert str(installed.parent) in end.stdout
-    assert f"{ROOT}{os.sep}app" not in end.stdout
+    assert f"{ROOT}{os.sep}lucida" not in end.stdout
     assert str(ROOT) not in end.stdout.split()
 
 

@@ -1,1 +1,1 @@
-"""The answers of a class: which mistakes it makes, by step and over time."""
+"""The answers of a class: which mistakes it makes, and in which steps."""

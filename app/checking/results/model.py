@@ -1,20 +1,16 @@
-"""The answers of a class, counted by mistake, by step and over time. Pure."""
+"""The answers of a class, counted by mistake and by step. Pure."""
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import datetime
 
 from lucida.renderer.system.errors import one_line, shortened
 
-MOST_BINS = 24
 TALKED_ABOUT = 3
 LONGEST = 400  # characters of a text from a file
-FOLLOWED = 6  # mistakes that are followed over time
-MINUTE, DAY = timedelta(minutes=1), timedelta(days=1)
-WIDTHS = (MINUTE, 5 * MINUTE, 15 * MINUTE, 60 * MINUTE, DAY, 7 * DAY, 28 * DAY, 364 * DAY)
 
 
 @dataclass(frozen=True)
@@ -77,36 +73,12 @@ class StepCount:
 
 
 @dataclass(frozen=True)
-class Timeline:
-    """Counts in bins of equal width.
-
-    first, last: the times of the first and the last answer.
-    right, wrong: answers.
-    mistakes: the most frequent ones, and how often each was made.
-    """
-
-    first: datetime
-    last: datetime
-    starts: tuple[datetime, ...]
-    width: timedelta
-    right: tuple[int, ...]
-    wrong: tuple[int, ...]
-    mistakes: tuple[tuple[NamedMistake, tuple[int, ...]], ...]
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        form = "{0:%H:%M}" if self.width < DAY else "{0.day} {0:%b}"
-        if self.width < DAY and self.starts[0].date() != self.starts[-1].date():
-            form = "{0.day} {0:%b} {0:%H:%M}"
-        return tuple(form.format(start) for start in self.starts)
-
-
-@dataclass(frozen=True)
 class ClassResults:
     """The results of a class.
 
     steps: in the lecture's order, then the others.
     mistakes: the most frequent first.
+    days: the days of the first and the last answer, in words; empty if unknown.
     numbers: of the lecture's steps, from 1, by title.
     problems: a line for each part of the files that could not be read.
     """
@@ -115,7 +87,7 @@ class ClassResults:
     answers: int
     steps: tuple[StepCount, ...]
     mistakes: tuple[MistakeCount, ...]
-    timeline: Timeline | None
+    days: str
     numbers: dict[str, int]
     problems: tuple[str, ...] = ()
 
@@ -127,12 +99,7 @@ class ClassResults:
     def summary(self) -> str:
         """The numbers of answers counted, in words."""
         words = f"{counted(self.answers, 'answer')} by {counted(self.students, 'student')}"
-        if self.timeline is None:
-            return words
-        first, last = self.timeline.first, self.timeline.last
-        day = "{0.day} {0:%B %Y}".format
-        days = day(first) if first.date() == last.date() else f"{day(first)} to {day(last)}"
-        return f"{words}, {days}"
+        return f"{words}, {self.days}" if self.days else words
 
     def step_name(self, title: str) -> str:
         """Return a step's title with its number, if it is one of the lecture's."""
@@ -173,16 +140,21 @@ def class_results(
         by_step[answer.step].append(answer)
     numbers = {title: n for n, title in reversed(list(enumerate(titles, start=1)))}
     order = sorted(by_step, key=lambda title: numbers.get(title, len(titles) + 1))
-    mistakes = _mistakes(answers)
     return ClassResults(
         len({answer.student for answer in answers}),
         len(answers),
         tuple(_step(title, by_step[title]) for title in order),
-        mistakes,
-        _timeline(answers, [count.mistake for count in mistakes[:FOLLOWED]]),
+        _mistakes(answers),
+        _days([answer.time for answer in answers if answer.time is not None]),
         numbers,
         tuple(problems),
     )
+
+
+def _days(times: Sequence[datetime]) -> str:
+    """Return the first and the last day of times in their order, in words."""
+    days = list(dict.fromkeys(f"{time.day} {time:%B %Y}" for time in times))
+    return " to ".join(dict.fromkeys((days[0], days[-1]))) if days else ""
 
 
 def _step(title: str, answers: Sequence[ClassAnswer]) -> StepCount:
@@ -225,34 +197,3 @@ def _mistakes(answers: Sequence[ClassAnswer]) -> tuple[MistakeCount, ...]:
         for name, one in known.items()
     ]
     return tuple(sorted(found, key=lambda one: (-one.students, -one.stuck, -one.times)))
-
-
-def _timeline(answers: Sequence[ClassAnswer], followed: Sequence[NamedMistake]) -> Timeline | None:
-    timed = [(answer.time, answer) for answer in answers if answer.time is not None]
-    if not timed:
-        return None
-    first, last = timed[0][0], timed[-1][0]
-    midnight = first.replace(hour=0, minute=0, second=0, microsecond=0)
-
-    def begin(width: timedelta) -> datetime:
-        return midnight + (first - midnight) // width * width
-
-    width = next((w for w in WIDTHS if (last - begin(w)) // w < MOST_BINS), WIDTHS[-1])
-    count = (last - begin(width)) // width + 1
-    right, wrong = [0] * count, [0] * count
-    rows = {mistake.name: [0] * count for mistake in followed}
-    for time, answer in timed:
-        place = (time - begin(width)) // width
-        (right if answer.right else wrong)[place] += 1
-        for mistake in answer.mistakes:
-            if mistake.name in rows:
-                rows[mistake.name][place] += 1
-    return Timeline(
-        first,
-        last,
-        tuple(begin(width) + place * width for place in range(count)),
-        width,
-        tuple(right),
-        tuple(wrong),
-        tuple((mistake, tuple(rows[mistake.name])) for mistake in followed),
-    )

@@ -9,27 +9,19 @@ from collections.abc import Sequence
 from html import escape
 
 from lucida.app.checking.reports.page import STYLE
-from lucida.app.checking.results.model import (
-    ClassResults,
-    MistakeCount,
-    StepCount,
-    Timeline,
-    shown,
-    told,
-)
+from lucida.app.checking.results.model import ClassResults, MistakeCount, StepCount, shown, told
 from lucida.app.lecture.text import Code, DisplayedFormula, Heading, ItemList, Math, Words, parse
 from lucida.renderer.system.errors import LucidaError
 
 TITLE = "What the class answered"
 TALK = "To talk about tomorrow"
-BY_STEP, OVER_TIME, UNREAD = "By step", "Over time", "Not read"
+BY_STEP, UNREAD = "By step", "Not read"
 KEY = ("correct at once", "correct later", "not correct yet")
 KINDS = ("right", "later", "wrong")
 LATEX = (  # what the replies of lectures hold, as signs
     (r"^\mathsf{T}", "ᵀ"), (r"\mathbf", ""), (r"\cdot", "·"), (r"\times", "\u00d7"),
     (r"\,", " "), ("{", ""), ("}", ""), ("-", "\u2212"),
 )  # fmt: skip
-MOST_LABELS, COLUMN_REM = 4, 4.5  # of columns: labels that have room; their height
 MORE = """
 section h2 { display: block; } h2.part { margin: 2rem 0 .5rem; }
 .legend i { display: inline-block; width: .8rem; height: .8rem; margin-right: .3rem;
@@ -43,14 +35,8 @@ section h2 { display: block; } h2.part { margin: 2rem 0 .5rem; }
 .bar span { min-width: 1.4rem; text-align: center; line-height: 1.6rem; }
 .right { --of: var(--right); } .wrong { --of: var(--wrong); }
 .later { --of: color-mix(in srgb, var(--right) 45%, var(--paper)); color: var(--ink); }
-.bar span, .columns i, .legend i { background: var(--of); }
-.over { margin: .8rem 0 0; overflow-wrap: anywhere; }
-.columns { display: flex; gap: 2px; font-size: .8rem; line-height: 1.2; }
-.columns div { flex: 1 1 0; min-width: 0; height: 7rem; display: flex; flex-direction: column;
-  justify-content: flex-end; }
-.columns i { max-width: 4rem; } .columns small { height: 1.2em; white-space: nowrap;
-  border-top: 1px solid var(--line); color: var(--dim); font-size: inherit; }
-@media print { .step, .made, .columns { break-inside: avoid; } }
+.bar span, .legend i { background: var(--of); }
+@media print { .step, .made { break-inside: avoid; } }
 """
 
 
@@ -60,10 +46,12 @@ def page(results: ClassResults) -> str:
     if results.to_talk_about:
         parts.append(_part(TALK))
         parts += [_talk(results, count) for count in results.to_talk_about]
-    parts += [_part(BY_STEP), _key(KINDS, KEY)]
+    key = "".join(
+        f'<span><i class="{kind}"></i>{words}</span> '
+        for kind, words in zip(KINDS, KEY, strict=True)
+    )
+    parts += [_part(BY_STEP), f'<p class="legend">{key}</p>\n']
     parts += [_step(results, step) for step in results.steps]
-    if results.timeline is not None:
-        parts += [_part(OVER_TIME), *_over_time(results.timeline)]
     if results.problems:
         parts.append(_part(UNREAD))
         parts += [f"<p>{_text(problem)}</p>\n" for problem in results.problems]
@@ -106,50 +94,9 @@ def _bar(counts: Sequence[int]) -> str:
         for kind, count in zip(KINDS, counts, strict=True)
         if count
     ]
-    return _picture("bar", ", ".join(map("{}: {}".format, KEY, counts)), drawn)
-
-
-def _over_time(timeline: Timeline) -> list[str]:
-    answers = [("wrong", timeline.wrong), ("right", timeline.right)]
-    parts = [
-        _key(("right", "wrong"), ("correct answers", "wrong answers")),
-        '<p class="over">All answers</p>\n',
-        _columns(timeline, answers),
-    ]
-    for mistake, counts in timeline.mistakes:
-        parts.append(f'<p class="over">{_marked(mistake.name)}</p>\n')
-        parts.append(_columns(timeline, [("wrong", counts)]))
-    return parts
-
-
-def _columns(timeline: Timeline, rows: Sequence[tuple[str, Sequence[int]]]) -> str:
-    """Return a column per bin, its rows on one another, with the sum above and the time below."""
-    sums = [sum(counts) for counts in zip(*(counts for _, counts in rows), strict=True)]
-    most, every = max(*sums, 1), -(-len(sums) // MOST_LABELS)
-    drawn = []
-    for n, (label, total) in enumerate(zip(timeline.labels, sums, strict=True)):
-        parts = "".join(
-            f'<i class="{kind}" style="height: {COLUMN_REM * counts[n] / most:.2f}rem"></i>'
-            for kind, counts in reversed(rows)
-        )
-        shown = escape(label) if n % every == 0 else ""
-        drawn.append(f"<div>{total or ''}{parts}<small>{shown}</small></div>")
-    said = ", ".join(map("{}: {}".format, timeline.labels, sums))
-    return _picture("columns", said, drawn)
-
-
-def _picture(kind: str, said: str, drawn: Sequence[str]) -> str:
-    said = escape(said)
-    head = f'<div class="{kind}" role="img" aria-label="{said}" title="{said}">'
+    said = escape(", ".join(map("{}: {}".format, KEY, counts)))
+    head = f'<div class="bar" role="img" aria-label="{said}" title="{said}">'
     return f"{head}{''.join(drawn)}</div>\n"
-
-
-def _key(kinds: Sequence[str], words: Sequence[str]) -> str:
-    shown = "".join(
-        f'<span><i class="{kind}"></i>{word}</span> '
-        for kind, word in zip(kinds, words, strict=True)
-    )
-    return f'<p class="legend">{shown}</p>\n'
 
 
 def _part(title: str) -> str:

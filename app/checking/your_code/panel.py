@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
@@ -16,9 +16,11 @@ from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.starter import returned, signature
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from lucida.app.instruments.stepper.controls import CANVASES
 from lucida.app.state.options.shared import Notation
+from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
 from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.explaining.symbols import arguments
@@ -48,30 +50,8 @@ TRUST = (
 )
 
 
-@dataclass(frozen=True)
-class CodeHead:
-    """The contents of the panel's head.
-
-    name, folder: of the file.
-    running_s: how long it has been running; 0 if it is not.
-    progress: the finished part of the picture, 0 to 1.
-    may_run: True if the user has opened it.
-    tasks: the name of the file of tasks, "" for the built-in ones.
-    is_away: True if one of the two files has gone.
-    """
-
-    name: str
-    folder: str
-    canvas: Size
-    running_s: float = 0.0
-    progress: float = 0.0
-    may_run: bool = True
-    tasks: str = ""
-    is_away: bool = False
-
-
 def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
-    """Draw the panel when no file is open. tasks: see CodeHead."""
+    """Draw the panel when no file is open. tasks: the name of the file of tasks, or ""."""
     task = next(task for task in builtin_tasks(notation) if task.kind == "viewing-ray")
     code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
     imgui.push_text_wrap_pos(0.0)
@@ -95,34 +75,46 @@ def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
     return wish
 
 
-def head(told: CodeHead, report: CodeReport | None, fonts: Fonts) -> tuple[CodeWish, Size]:
-    """Draw the file and its buttons. Return the wish and the selected canvas size."""
+def head(
+    file: Path,
+    options: YourCodeOptions,
+    runs: CodeRuns | None,
+    report: CodeReport | None,
+    is_away: bool,
+    fonts: Fonts,
+) -> tuple[CodeWish, Size]:
+    """Draw the file and its buttons. Return the wish and the selected canvas size.
+
+    runs: None if the file may not run, because the user has not opened it.
+    is_away: the file, or that of its tasks, is missing.
+    """
     wish: CodeWish = ""
     with lettering(fonts.bold):
         imgui.align_text_to_frame_padding()
-        imgui.text(one_line(told.name))
-    tip(one_line(told.folder))
-    running = told.running_s > RUNNING_S
+        imgui.text(one_line(file.name))
+    tip(one_line(str(file.parent)))
+    running_s = runs.running_s if runs is not None else 0.0
+    running = running_s > RUNNING_S
     label, said = ("Stop", "end its process") if running else ("Run", "as when the file is saved")
     for name, shown, tooltip in (
         ("stop" if running else "run", label, said),
         ("edit", "Edit", "open it in your editor; it runs again when you save it"),
         ("open", "Open...", "another Python file"),
     ):
-        if name == "run" and not told.may_run:
+        if name == "run" and runs is None:
             continue
         follow(_button_width(shown))
         if imgui.button(f"{shown}###{name}"):
             wish = name  # type: ignore[assignment]
         tip(tooltip)
-    wish = _tasks(told.tasks) or wish
-    canvas = _canvas(told.canvas) if told.may_run else told.canvas
-    if running:
+    wish = _tasks(Path(options.tasks).name) or wish
+    canvas = options.canvas if runs is None else _canvas(options.canvas)
+    if runs is not None and running:
         width = 9 * imgui.get_font_size()
         follow(width)
-        part = told.progress if told.progress > 0 else -0.5 * told.running_s
-        imgui.progress_bar(part, ImVec2(width, 0), f"{told.running_s:.0f} s")
-    elif told.is_away:
+        part = runs.progress or -0.5 * running_s  # negative: an unknown part
+        imgui.progress_bar(part, ImVec2(width, 0), f"{running_s:.0f} s")
+    elif is_away:
         follow(imgui.calc_text_size(AWAY).x)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.ERROR, AWAY)

@@ -21,7 +21,7 @@ from lucida.app.checking.your_code.code_pictures import PicturesShown, marked_pi
 from lucida.app.checking.your_code.following import FileFollower, open_in_editor
 from lucida.app.checking.your_code.model import RAY, asked_of
 from lucida.app.checking.your_code.outside_items import outside_items
-from lucida.app.checking.your_code.panel import CodeHead, CodeWish
+from lucida.app.checking.your_code.panel import CodeWish
 from lucida.app.checking.your_code.pictures import CodePictures
 from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
@@ -186,17 +186,9 @@ class YourCodeView(Instrument):
         report = runs.report
         if report is not None and (report.question.path, report.question.tasks) != (path, tasks):
             report = None
-        file = Path(path)
-        told = CodeHead(
-            file.name,
-            str(file.parent),
-            options.canvas,
-            runs.running_s,
-            runs.progress,
-            tasks=Path(tasks).name,
-            is_away=self._follower.is_away,
+        wish, canvas = panel.head(
+            Path(path), options, runs, report, self._follower.is_away, host.fonts
         )
-        wish, canvas = panel.head(told, report, host.fonts)
         if canvas != options.canvas:
             host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
@@ -254,12 +246,9 @@ class YourCodeView(Instrument):
     # Requests of the user.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
-        """A file that a lecture has named: what is in it."""
-        file = Path(path)
-        told = CodeHead(
-            file.name, str(file.parent), host.state.options.your_code.canvas, may_run=False
-        )
-        wish, _ = panel.head(told, None, host.fonts)
+        """Draw a file that a lecture has named: its text, which the user may run."""
+        options = host.state.options.your_code
+        wish, _ = panel.head(Path(path), options, None, None, False, host.fonts)
         if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
             self._agree(host, path)
         return wish
@@ -292,9 +281,7 @@ class YourCodeView(Instrument):
         elif wish == "tasks":
             host.files.open_tasks_dialog()
         elif wish == "built-in":
-            host.change(
-                host.state.with_options(replace(host.state.options.your_code, tasks="", task=""))
-            )
+            host.edit(replace(host.options.your_code, tasks="", task=""))
 
     def write_starter(self, path: str, tasks: str = "", notation: Notation = "book") -> str:
         """Write a starter file, on a thread. Raises LucidaError.
@@ -311,11 +298,7 @@ class YourCodeView(Instrument):
     def _open_written(self, host: Host) -> None:
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
-        host.change(
-            host.state.with_options(
-                replace(host.state.options.your_code, file=stored(path), task="")
-            )
-        )
+        host.edit(replace(host.options.your_code, file=stored(path), task=""))
 
 
 def _notation_of(path: str) -> dict[str, Any]:

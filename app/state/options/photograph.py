@@ -13,7 +13,7 @@ from lucida.renderer.scene.model import View
 class PhotographOptions(OptionPart):
     """The options of the photograph.
 
-    file: the photograph's absolute path, as lucida.app.state.paths.stored() writes it, "" for none; in a
+    file: the photograph's absolute path, as stored() of state/paths.py writes it, "" for none; in a
     lecture, a file next to the lecture's.
     shown: draw it in the images.
     opacity: from 0 to 1, of display values.

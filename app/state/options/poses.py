@@ -12,7 +12,7 @@ from lucida.app.state.bounds import Beside, OptionPart, Range
 class PosesOptions(OptionPart):
     """The options of the view "Poses".
 
-    file: of the set, an absolute path, as lucida.app.state.paths.stored() writes it, "" for none; in a
+    file: of the set, an absolute path, as stored() of state/paths.py writes it, "" for none; in a
     lecture, a file or folder next to the lecture's.
     pose: the number of the selected camera, from 0; -1 for none.
     length: of the frusta, relative to what suits the set.

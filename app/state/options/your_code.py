@@ -12,7 +12,7 @@ from lucida.app.state.bounds import AtMost, Beside, OptionPart, Range
 class YourCodeOptions(OptionPart):
     """The options of the view "Your code".
 
-    file: an absolute path, as lucida.app.state.paths.stored() writes it, "" for none; in a lecture, a
+    file: an absolute path, as stored() of state/paths.py writes it, "" for none; in a lecture, a
     file next to the lecture's own.
     tasks: the path of a course's tasks in the same form, "" for the built-in ones.
     task: the name of the visible one; "" for the first whose function the file has.

@@ -68,7 +68,7 @@ def submitted(root: Path, source: str) -> dict:
     """Run the documents' recipe, with another folder and user."""
     known = f"import os, time\nROOT = {str(root)!r}\n"
     (root / "submission" / "rays.py").write_text(known + source, "utf-8")
-    documents = Path(renderer.__file__).resolve().parent.parent / "docs" / "checking.md"
+    documents = Path(lucida.__file__).resolve().parent.parent / "docs" / "checking.md"
     block = re.search(r"`run_autograder`.*?\n\n((?:    .*\n)+)", documents.read_text("utf-8"))
     assert block
     text = block[1].replace("\n    ", "\n").strip().replace("/autograder", str(root))

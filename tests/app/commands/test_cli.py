@@ -78,7 +78,7 @@ class TestHelp:
         )
         assert end.returncode == 0
         loaded = set(end.stderr.split())
-        assert "app" in loaded
+        assert "lucida" in loaded
         heavy = {"numba", "llvmlite", "moderngl", "imgui_bundle", "glfw", "trimesh", "numpy", "PIL"}
         assert not loaded & heavy
 

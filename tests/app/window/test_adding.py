@@ -70,6 +70,8 @@ def test_the_documents_instrument_opens_in_the_window(tmp_path: Path) -> None:
     shutil.copytree(ROOT / "app", copy / "app", ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("renderer", "shaders"):
         (copy / name).symlink_to(ROOT / name)
+    (copy / "lucida").mkdir()  # without links, as Git for Windows makes it
+    shutil.copy(ROOT / "lucida" / "__init__.py", copy / "lucida")
     (copy / "app" / "instruments" / "depths").mkdir()
     for name, code in files:
         (copy / name).write_text(code)

@@ -82,7 +82,7 @@ class Interrupter:
             sys.meta_path.remove(self)
             os.kill(os.getpid(), signal.SIGINT)
 sys.meta_path.insert(0, Interrupter())
-from lucida.app.__main__ import main
+from lucida.__main__ import main
 sys.argv[1:] = ["scenes"]
 sys.exit(main())
 """
@@ -101,7 +101,7 @@ def test_ctrl_c_after_the_work_is_quiet(tmp_path):
     script = """\
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from lucida.app.__main__ import main
+from lucida.__main__ import main
 sys.argv[1:] = ["scenes"]
 status = main()
 os.kill(os.getpid(), signal.SIGINT)  # as while Python ends
@@ -115,7 +115,7 @@ os.kill(os.getpid(), signal.SIGINT)  # as while Python ends
 def test_where_ctrl_c_is_ignored_it_stays_so(tmp_path):
     script = """\
 import signal, sys
-from lucida.app.__main__ import main
+from lucida.__main__ import main
 signal.signal(signal.SIGINT, signal.SIG_IGN)
 sys.argv[1:] = ["scenes"]
 main()

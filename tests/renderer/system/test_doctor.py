@@ -134,8 +134,8 @@ def test_a_package_of_an_extra_that_is_missing(capsys, monkeypatch):
 def test_files_that_hide_ours(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert doctor.check("imports").works
-    (tmp_path / "renderer.py").write_text("")
+    (tmp_path / "lucida.py").write_text("")
     check = doctor.check("imports")
     assert not check.works
-    assert "renderer.py of this folder" in check.detail
+    assert "lucida.py of this folder" in check.detail
     assert check.remedy == remedy("imports")

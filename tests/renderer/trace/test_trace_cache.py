@@ -43,25 +43,25 @@ def installation(tmp_path: Path) -> Path:
     """Copy the package, which cannot cache beside itself here: the folder's name is taken. Beside
     it lies a module with a kernel that takes no time to compile.
     """
-    package = tmp_path / "installation" / "renderer"
-    source = Path(renderer.__file__).parent
-    shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
+    package = tmp_path / "installation" / "lucida" / "renderer"
+    source = Path(lucida.__file__).parent
+    shutil.copytree(source, package.parent, ignore=shutil.ignore_patterns("__pycache__"))
     (package / "trace" / "__pycache__").write_text("")
-    (package.parent / "small_kernel.py").write_text(SMALL_KERNEL)
+    (package.parents[1] / "small_kernel.py").write_text(SMALL_KERNEL)
     return package
 
 
 def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.Popen:
     env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
     env |= {
-        "PYTHONPATH": str(installation.parent),
-        "PYTHONPYCACHEPREFIX": str(installation.parent / "byte-code"),
+        "PYTHONPATH": str(installation.parents[1]),
+        "PYTHONPYCACHEPREFIX": str(installation.parents[1] / "byte-code"),
         "HOME": str(cache),
         "XDG_CACHE_HOME": str(cache),
         "LOCALAPPDATA": str(cache),
     }
     return subprocess.Popen(
-        [sys.executable, "-c", script], cwd=installation.parent, env=env, text=True,
+        [sys.executable, "-c", script], cwd=installation.parents[1], env=env, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
 

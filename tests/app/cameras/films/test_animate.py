@@ -133,7 +133,10 @@ def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
     [
         ({}, "has no workers"),
         ({"tcp://a": __version__, "tcp://b": "0.0.1"}, r"tcp://b has version 0\.0\.1 of Lucida"),
-        (ImportError("No module named 'app'"), "a worker has no Lucida: No module named 'app'"),
+        (
+            ImportError("No module named 'lucida'"),
+            "a worker has no Lucida: No module named 'lucida'",
+        ),
     ],
 )
 def test_a_worker_with_another_version_is_refused(answer, message):

@@ -131,15 +131,6 @@ def test_counts_by_step_and_mistake():
     assert results.step_name(flipped.mistake.read) == "step 2, Two"
 
 
-@pytest.mark.parametrize("span", [0, 3, 50, 600, 60 * 24 * 3, 60 * 24 * 200, 60 * 24 * 9000])
-def test_every_answer_is_in_one_column_of_a_chart_that_can_be_read(span):
-    answers = [made("a", "One", round(part * span / 9), FLIPPED) for part in range(10)]
-    timeline = class_results(answers, ["One"]).timeline
-    assert len(timeline.starts) == len(timeline.labels) <= 25
-    assert sum(timeline.wrong) == sum(timeline.mistakes[0][1]) == 10
-    assert timeline.starts[0] <= answers[0].time < timeline.starts[0] + timeline.width
-
-
 class Tags(HTMLParser):
     def __init__(self) -> None:
         super().__init__()

@@ -56,7 +56,7 @@ def test_what_stands_under_main_is_not_run(student):
     assert one.call([F]).values == (7,)
 
 
-@pytest.mark.parametrize("name", ["app", "camera"])
+@pytest.mark.parametrize("name", ["lucida", "camera"])
 def test_imports_find_what_lies_beside_the_file(student, tmp_path, name):
     (tmp_path / f"{name}.py").write_text("mine = 7\n", "utf-8")
     assert student(f"import {name}\ndef f(): return {name}.mine\n").call([F]).values == (7,)
