@@ -456,8 +456,8 @@ def test_a_print_has_a_page_for_each_picture(written, answers):
     if shutil.which("chromium") is None:
         pytest.skip("no chromium here: scripts/setup.sh tests installs it")
     _, some = written
-    gray = np.full((300, 400, 3), 128, np.uint8)
-    html = page(some, [[Still(step.views[0], gray)] for step in some.builds], answers, True)
+    gray = np.full((900, 550, 3), 128, np.uint8)
+    html = page(some, [[Still(v, gray) for v in step.views] for step in some.builds], answers, True)
     assert ("Show the solution" in html) == answers
     printed = pdf.pdf(html, pdf.browser())
     pages = len(re.findall(rb"/Type\s*/Page\b", printed))
