@@ -258,7 +258,9 @@ def close_at_work(report: Path, folder: Path) -> None:
 def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
     """The functions of scenarios/TOPIC.py, which import this module."""
     sys.modules["window_driver"] = sys.modules[__name__]
-    found = runpy.run_path(str(Path(__file__).parents[1] / "scenarios" / f"{topic}.py"))
+    found = runpy.run_path(
+        str(Path(__file__).parents[1] / "app" / "window" / "scenarios" / f"{topic}.py")
+    )
     return {name: test for name, test in found.items() if name.startswith("drive_")}
 
 

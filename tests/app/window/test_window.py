@@ -26,7 +26,7 @@ DRIVES_LIMIT_S = 1500  # a topic with many drives, on a busy machine; the first 
 drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
 DRIVES = [
     (path.stem, node.name)
-    for path in sorted((TESTS / "scenarios").glob("*.py"))
+    for path in sorted((Path(__file__).parent / "scenarios").glob("*.py"))
     for node in ast.parse(path.read_text()).body
     if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
 ]

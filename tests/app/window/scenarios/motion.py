@@ -11,7 +11,7 @@ from imgui_bundle import hello_imgui
 from option_changes import with_options
 from window_driver import Driver
 
-from lucida.app.images import renderers as module
+from lucida.app.images import pace as module
 from lucida.app.images.compare.view import CompareView
 from lucida.app.images.live_raster import LiveRaster
 from lucida.app.images.pair.view import RASTER, RAY
@@ -41,14 +41,14 @@ def factor(found: LiveRaster) -> int:
 @contextmanager
 def slow(d: Driver) -> Iterator[None]:
     """Let all images in motion be coarse, and let nothing rest."""
-    both = d.window.renderers
-    before = both._coarseness, module.STILL_S
-    both._coarseness = Coarseness(1e-9, unknown=4)
-    both._factor, module.STILL_S = 1, 1e9
+    pace = d.window.renderers._pace
+    before = pace._coarseness, module.STILL_S
+    pace._coarseness = Coarseness(1e-9, unknown=4)
+    pace._factor, module.STILL_S = 1, 1e9
     try:
         yield
     finally:
-        both._coarseness, module.STILL_S = before
+        pace._coarseness, module.STILL_S = before
 
 
 def drive_a_drag_shows_one_camera_and_one_size_in_each_frame(d: Driver) -> None:
