@@ -85,11 +85,10 @@ def test_the_commands_run_one_after_the_other(capsys, gl_backend):
         assert main(words) == 0, line
         outs[line], err = capsys.readouterr()
         assert err == "", line
-    assert "cameras     2: " in outs["lucida camera transforms.json"]
-    assert "eye              (8, 1, 0)" in outs["lucida camera transforms.json#1"]
+    assert "cameras    2: " in outs["lucida camera transforms.json"]
+    assert "eye         (8, 1, 0)" in outs["lucida camera transforms.json#1"]
     told = outs["lucida camera calibration.yml"]
-    assert "(320, 240) from the corner" in told
-    assert "(319.5, 239.5) from that pixel's centre" in told
+    assert "K           (525, 0, 319.5), (0, 525, 239.5), (0, 0, 1)" in told
     assert "seen.png: color, raster, 640x480" in outs[next(o for o in outs if "render" in o)]
     left, right, bottom, top = load_view("corner.toml").camera.viewport  # by --pixel-origin corner
     assert np.allclose(

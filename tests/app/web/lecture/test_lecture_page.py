@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from both_lectures import both_lectures
-from tests.lecture_page.hostile_lecture import FORMULAS, TEXTS, hostile_lecture
+from hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 
 from lucida.app.checking.results.reading import read_answers
 from lucida.app.cli import main
