@@ -2,8 +2,9 @@
 
 PYTHON_IN_VENV := .venv/bin/python
 ARGS :=
-QUICK := camera checking/test_task_file.py checking/test_values.py checking/test_words.py compare costs explaining host images/test_placement.py images/test_imaging.py laboratory lecture outside pair probe \
-	project/test_layers.py state widgets
+QUICK := app/cameras app/checking/test_task_file.py app/checking/test_values.py app/checking/test_words.py app/images/test_placement.py app/images/pair app/images/compare \
+	app/instruments/costs app/instruments/laboratory app/instruments/outside app/instruments/probe app/lecture app/state/test_bounds.py app/state/test_state.py app/ui \
+	project/test_layers.py renderer/camera renderer/images
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run test quick attack bench conformance install-check notebooks pictures lint requirements clean
@@ -76,4 +77,4 @@ requirements: setup
 
 clean:
 	rm -rf .venv .venv-bench .venv-conformance .venv-notebooks build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
-	find app renderer shaders tests -name __pycache__ -type d -prune -exec rm -rf {} +
+	find app lucida renderer shaders tests tools -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -33,15 +33,13 @@ from tools.attack.forks import forked
 from tools.attack.mutants import Mutant, compiled, mutants, spans
 
 ROOT = Path(__file__).parents[2]
-# Rooms whose tests lie in folders of other names.
+# A room's tests lie in the folder of its name. Others that are about it:
 TESTS = {
-    "app/cameras": ("camera",),
-    "app/checking": ("checking",),
-    "app/images": ("images", "compare"),
-    "app/images/pair": ("pair", "images"),
-    "renderer": ("camera", "compare", "images", "parity", "project"),
-    "renderer/images": ("images", "scene"),
-    "renderer/scene": ("scene", "scene_editing"),
+    "app/images": ("renderer/images",),
+    "renderer/camera": ("app/cameras",),
+    "renderer/compare": ("parity",),
+    "renderer/images": ("renderer/files", "app/images"),
+    "renderer/scene": ("renderer/files", "renderer/editing"),
 }
 NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machine code
 # Tests of windows, of other processes and of installations: they take minutes.
@@ -65,7 +63,7 @@ def rooms() -> dict[str, list[str]]:
 
 def tests_of(room: str) -> list[str]:
     """Return the paths of a room's test files."""
-    folders = TESTS.get(room, (room.partition("/")[2],))
+    folders = (room, *TESTS.get(room, ()))
     paths = (path for folder in folders for path in ROOT.glob(f"tests/{folder}/**/test_*.py"))
     return sorted(str(p) for p in paths if not any(slow in p.as_posix() for slow in SLOW))
 

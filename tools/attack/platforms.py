@@ -13,7 +13,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-ROOMS = ("raster", "parity", "scene_editing", "images", "outside", "laboratory")
+ROOMS = (
+    "renderer/raster", "renderer/compare", "renderer/editing", "parity", "app/images",
+    "app/instruments/outside", "app/instruments/laboratory",
+)  # fmt: skip
 
 
 def main(argv: Sequence[str]) -> int:
