@@ -24,8 +24,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.camera import Camera, Floats, Vector
-from lucida.renderer.camera.checks import SMALLEST
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import SMALLEST, Floats, Vector
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.camera.navigation import depth_of
 from lucida.renderer.scene.model import View

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Floats, Vector
-from lucida.renderer.camera.checks import cross, dot, volume
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, Vector, cross, dot, volume
 
 # For each edited vector: the one that is adjusted first, and its replacement.
 _NEXT = {"u": ("v", "w"), "v": ("w", "u"), "w": ("v", "u")}

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lucida.app.cameras.basis import measures
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, format_named
 from lucida.renderer.files.cameras.distortion import effect, shift_px

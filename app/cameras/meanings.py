@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.camera import Camera, Floats
-from lucida.renderer.camera.checks import listed
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, listed
 from lucida.renderer.files.cameras import opencv
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.rigid import rigid

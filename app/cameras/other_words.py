@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Size
 from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.files.cameras.entries import ORIGIN_TOLD
 from lucida.renderer.scene.model import View

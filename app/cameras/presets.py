@@ -15,7 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.scene.model import View
 

@@ -13,7 +13,9 @@ from typing import Any, Literal, get_args
 
 from lucida.app.cameras.options import lens_text
 from lucida.app.cameras.presets import clip_around
-from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import view_to_toml
 from lucida.renderer.files.cameras import PosedCamera, opengl, written

@@ -15,7 +15,9 @@ import numpy as np
 
 from lucida.app.checking.conventions import Conventions, Shot
 from lucida.app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
-from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from lucida.app.checking.conventions import Conventions
 from lucida.app.state.options.shared import Notation
-from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.shared_numbers import LUMINANCE
 
 if TYPE_CHECKING:

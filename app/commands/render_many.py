@@ -15,7 +15,8 @@ from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import say_changes, say_notes, source_of
 from lucida.app.commands.many import look_of, make_film
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import Options, PosedCamera, read_cameras
 from lucida.renderer.images.frame import LARGEST_PIXELS, check_size
 from lucida.renderer.scene import flatten

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from lucida.app.images.request import ImageRequest
 from lucida.app.ui.background import Background
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lens_faces import looked_up_faces
 
 Key = tuple[object, ...]

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from lucida.app.state.options.shared import Pixel
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import View
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.scene.model import Mesh, Scene, Sphere
 
 MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds

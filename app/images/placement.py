@@ -14,7 +14,7 @@ from functools import cached_property
 
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.shared import ImageOptions
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 
 LEAST, MOST = range_of(ImageOptions, "magnification")
 # Where the wheel stops: whole numbers, so that all pixels are squares of one size.

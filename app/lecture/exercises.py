@@ -19,7 +19,9 @@ from lucida.app.lecture.text import escaped
 from lucida.app.state.kept_lecture import Judgement
 from lucida.app.ui.explaining import symbols
 from lucida.app.ui.explaining.arithmetic import text_of, vector, vector_text
-from lucida.renderer.camera.camera import Camera, Floats, Ray
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Ray
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files.schema import Numbers3, StrictTable
 from lucida.renderer.system.errors import LucidaError

@@ -20,7 +20,8 @@ from lucida.app.lecture.exercises import (
 from lucida.app.lecture.model import Exercise
 from lucida.app.state.kept_lecture import Judgement
 from lucida.app.state.options.shared import Notation
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 

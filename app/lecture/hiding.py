@@ -21,7 +21,8 @@ from lucida.renderer.editing.moving import bounds_of, transform
 from lucida.renderer.editing.objects import hide
 from lucida.renderer.editing.outline import OutlineRow, outline
 from lucida.renderer.files.reading import suggestion
-from lucida.renderer.scene.model import Scene, View, vector
+from lucida.renderer.scene.material import vector
+from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.errors import LucidaError
 
 Ids = NDArray[np.int32]

@@ -14,7 +14,8 @@ import numpy as np
 from lucida.app.cameras.animation import Passage
 from lucida.app.instruments.outside.frustum import plane_corners
 from lucida.app.state.app_state import AppState
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import View
 

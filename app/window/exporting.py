@@ -13,7 +13,8 @@ from pathlib import Path
 from lucida.app.ui.background import Background
 from lucida.app.ui.messages import TextListing
 from lucida.app.web import ENDINGS as PAGES
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.export import export_scene
 from lucida.renderer.files.models.subprocess_reader import CancelledError
 from lucida.renderer.scene.model import Scene, View

@@ -33,9 +33,10 @@ from lucida.app.window.opening import (
     reread,
 )
 from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
-from lucida.renderer.files.models.models import MODEL_ENDINGS, read_by
+from lucida.renderer.files.models.models import read_by
 from lucida.renderer.files.models.subprocess_reader import CancelledError, ModelReader
 from lucida.renderer.files.outside import LISTED, OutsideError
+from lucida.renderer.files.reading import MODEL_ENDINGS
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import cancelled_by
 from lucida.renderer.system.errors import describe, one_line

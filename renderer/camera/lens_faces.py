@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Camera, Floats, Size
-from lucida.renderer.camera.image_plane import LARGEST_KEPT
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import LARGEST_KEPT, Size
 from lucida.renderer.camera.lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
@@ -57,7 +58,7 @@ class Face(NamedTuple):
         steps = (right - left) / self.size[0], (top - bottom) / self.size[1]
         return (left + right) / 2, (bottom + top) / 2, *steps
 
-    def stretch(self, i: NDArray, j: NDArray) -> Floats:
+    def stretch(self, i: NDArray[Any], j: NDArray[Any]) -> Floats:
         """Return the stretch at rows and columns of the face, which may be fractional."""
         x, y = (part / self.camera.distance for part in self.camera.image_point(i, j, self.size))
         right, up, ahead = self.unit
@@ -74,12 +75,12 @@ class Faces(NamedTuple):
     faces: tuple[Face, ...]
     positions: NDArray[np.float32]
 
-    def place(self, number: int, i: NDArray, j: NDArray) -> tuple[Floats, Floats]:
+    def place(self, number: int, i: NDArray[Any], j: NDArray[Any]) -> tuple[Floats, Floats]:
         """Return where pixels (i, j) are on their face `number`: rows and columns, fractional."""
         (width, height), position = self.faces[number].size, self.positions[i, j].astype(float)
         return (height - 1) / 2 - position[:, 1], position[:, 0] + (width - 1) / 2
 
-    def texel(self, number: int, i: NDArray, j: NDArray) -> tuple[Floats, Floats]:
+    def texel(self, number: int, i: NDArray[Any], j: NDArray[Any]) -> tuple[Floats, Floats]:
         """Return rows and columns of the texels that pixels (i, j) look up there, as lens.glsl
         does.
         """

@@ -15,8 +15,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.camera.camera import Camera, Vector
-from lucida.renderer.camera.checks import LARGEST
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import LARGEST, Vector
 from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]

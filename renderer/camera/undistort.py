@@ -14,8 +14,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 
 _SCALES = 0.2, 2.0  # the least and the most by which an image's sides change

@@ -15,7 +15,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import NEAREST, Camera, Floats
+from lucida.renderer.camera.camera import NEAREST, Camera
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.lens_faces import Face
 from lucida.renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
 from lucida.renderer.scene.boxes import corners_of

@@ -24,7 +24,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.lens_faces import looked_up_faces
 from lucida.renderer.compare.seen_surfaces import (
     TOLERANCE_PX,

@@ -6,8 +6,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from lucida.renderer.files.models.model_kinds import check_kind
-from lucida.renderer.files.models.models import MODEL_ENDINGS, model_scene
-from lucida.renderer.files.reading import absence, close_matches, full_path, path_of, suggestion
+from lucida.renderer.files.models.models import model_scene
+from lucida.renderer.files.reading import (
+    MODEL_ENDINGS,
+    absence,
+    close_matches,
+    full_path,
+    path_of,
+    suggestion,
+)
 from lucida.renderer.files.scene_file import read_scene_file
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.scene.origin import Origin

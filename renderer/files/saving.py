@@ -20,9 +20,9 @@ from lucida.renderer.files.tables import VERSION
 from lucida.renderer.files.toml_writing import toml_text
 from lucida.renderer.files.views import view_table
 from lucida.renderer.scene import framing
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     PointLight,
     Scene,
     SceneObject,

@@ -35,11 +35,10 @@ from lucida.renderer.scene.limits import (
     TRIANGLES,
     VIEWS,
 )
-from lucida.renderer.scene.material import parse_color
+from lucida.renderer.scene.material import Material, parse_color
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     NamedView,
     PointLight,

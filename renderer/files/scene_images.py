@@ -16,8 +16,8 @@ from lucida.renderer.files.reading import suggestion
 from lucida.renderer.files.schema import MetalTable, TextureTable
 from lucida.renderer.files.texture_images import Bytes, read_image
 from lucida.renderer.scene.limits import TEXTURES
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.metal import EVERYWHERE, Metal
-from lucida.renderer.scene.model import Material
 from lucida.renderer.scene.texture import WRAPS, Texture
 from lucida.renderer.system.errors import LucidaError, under
 

@@ -25,7 +25,8 @@ from lucida.renderer.files.schema import (
 )
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.limits import SEGMENTS
-from lucida.renderer.scene.model import Material, Mesh, SceneObject
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, SceneObject
 from lucida.renderer.scene.origin import FileEntry
 from lucida.renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
 from lucida.renderer.system.errors import LucidaError

@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.lenses import MODELS, Lens
 from lucida.renderer.files.reading import decode_text, naming, path_of, read_file
 from lucida.renderer.files.schema import CameraFields, LookAtFields, ViewFile

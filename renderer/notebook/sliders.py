@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.lenses import MODELS, USUAL, coefficient_range, with_coefficient
 from lucida.renderer.camera.navigation import depth_of, distance_for, zoomed_viewport
 from lucida.renderer.scene.focus import Focus

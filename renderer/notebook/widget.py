@@ -20,7 +20,9 @@ import traitlets
 from PIL import Image
 
 from lucida.renderer.camera import navigation
-from lucida.renderer.camera.camera import Camera, Size, Vector, check_camera
+from lucida.renderer.camera.camera import Camera, check_camera
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing, Pixel
 from lucida.renderer.compare.pixel_report import as_rows, picked
 from lucida.renderer.files import load_scene

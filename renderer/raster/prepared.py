@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.images.shared_numbers import (
     CHECKERED,
     OBJECT_TEXELS,

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.images.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
 from lucida.renderer.raster.lens_targets import Lookup
 from lucida.renderer.raster.prepared import Prepared

@@ -24,7 +24,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import NEAREST, Camera, Floats
+from lucida.renderer.camera.camera import NEAREST, Camera
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.lens_faces import Face
 from lucida.renderer.images.shared_numbers import (
     ROW_ANCHOR,

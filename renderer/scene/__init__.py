@@ -10,11 +10,11 @@ Knows nothing of renderers, pixels or windows.
 
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     Color,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

@@ -230,7 +230,7 @@ def _ranges(counts: list[int]) -> I32:
     return np.column_stack([np.cumsum(counts) - counts, counts]).astype(np.int32)
 
 
-def _stack(parts: list, dtype: type) -> np.ndarray:
+def _stack(parts: list[NDArray[Any]], dtype: type) -> NDArray[Any]:
     if len(parts) == 1:
         return parts[0]
     return np.concatenate(parts) if parts else np.zeros((0, 3), dtype)

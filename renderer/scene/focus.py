@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Vector
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.scene.boxes import corners_of, extent
 from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 

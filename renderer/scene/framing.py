@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.focus import object_corners
-from lucida.renderer.scene.model import DirectionalLight, Material, SceneObject, Sphere, View
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import DirectionalLight, SceneObject, Sphere, View
 from lucida.renderer.system.errors import LucidaError
 
 MATERIAL = Material(diffuse=(0.62, 0.62, 0.62), specular=(0.1, 0.1, 0.1), shininess=40.0)

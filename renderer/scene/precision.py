@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.boxes import corners_of
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.system.errors import LucidaError

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,7 +85,7 @@ def are_passed(
 
 
 def _interpolated(
-    flat: FlatScene, objects: Ints, places: F64, first: Ints, read: Callable[[Ints], NDArray]
+    flat: FlatScene, objects: Ints, places: F64, first: Ints, read: Callable[[Ints], NDArray[Any]]
 ) -> F64:
     """Interpolate bilinearly between the four texels around each place.
 

@@ -14,15 +14,8 @@ from lucida import Camera, Tracer
 from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import (
-    Checker,
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-    Sphere,
-)
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Checker, Mesh, PointLight, Scene, SceneObject, Sphere
 
 SIZE = (48, 36)
 

@@ -21,10 +21,10 @@ from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.focus import scene_focus
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

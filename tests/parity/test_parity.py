@@ -15,15 +15,8 @@ from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.compare.why_black import darkness
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import (
-    Checker,
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-    Sphere,
-)
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Checker, Mesh, PointLight, Scene, SceneObject, Sphere
 from tools.attack.random_scenes import random_camera
 
 CAMERAS = int(os.environ.get("LUCIDA_PARITY_CAMERAS", "60"))

@@ -13,14 +13,8 @@ from lucida.app.instruments.probe.model import Probe
 from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import (
-    DirectionalLight,
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-)
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import DirectionalLight, Mesh, PointLight, Scene, SceneObject
 
 SIZE = (33, 33)
 LIGHTS = (PointLight((0.5, 1, 0.5)), DirectionalLight((-1, -1, -2), (0.5, 0.4, 0.3)))

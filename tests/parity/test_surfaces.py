@@ -16,15 +16,9 @@ from lucida.app.instruments.probe.crossings import Index
 from lucida.app.instruments.probe.model import Probe
 from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.metal import METAL_DIFFUSE, Metal
-from lucida.renderer.scene.model import (
-    DirectionalLight,
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-)
+from lucida.renderer.scene.model import DirectionalLight, Mesh, PointLight, Scene, SceneObject
 from lucida.renderer.scene.shapes import torus
 from lucida.renderer.scene.texture import Texture
 

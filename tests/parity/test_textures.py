@@ -14,7 +14,8 @@ from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.compare.seen_surfaces import Surfaces, View
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
 from lucida.renderer.scene.sampling import between, sampled
 from lucida.renderer.scene.texture import WRAPS, Texture, packed_texels
 

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from lucida import Camera, Frame
-from lucida.renderer.scene.model import Material, Mesh, SceneObject
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, SceneObject
 
 SIZE = (32, 24)
 CAMERA = Camera(viewport=(-0.5, 0.5, -0.375, 0.375))  # one pixel is 1/32 of a unit at t = 1

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, read_cameras
 from lucida.renderer.files.cameras.given import Given, Options

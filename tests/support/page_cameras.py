@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.views import view_table
 from lucida.renderer.scene.model import View

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

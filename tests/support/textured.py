@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from lucida.renderer.scene.model import DirectionalLight, Material, Mesh, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import DirectionalLight, Mesh, Scene, SceneObject, Sphere
 from lucida.renderer.scene.texture import Texture
 
 WHITE = (1.0, 1.0, 1.0)

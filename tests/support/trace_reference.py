@@ -14,10 +14,10 @@ import numpy as np
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

@@ -15,10 +15,10 @@ from lucida import Camera
 from lucida.renderer.camera.lenses import MODELS, Lens
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.flat import FlatScene
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

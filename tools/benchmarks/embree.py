@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from tools.benchmarks.meshes import Faces, Vertices
 from tools.benchmarks.peers import Hits, Peer, processors
 

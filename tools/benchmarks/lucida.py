@@ -5,7 +5,8 @@ Owns how it is called, by its public interface only.
 
 from __future__ import annotations
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene import Mesh, Scene, SceneObject
 from lucida.renderer.trace import Tracer

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from tools.benchmarks.cameras import rays
 from tools.benchmarks.meshes import Faces, Vertices
 

@@ -17,7 +17,8 @@ from functools import partial
 from multiprocessing.connection import Connection
 from typing import Any
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from tools.benchmarks.measure import Call, Plan, Stopwatch, Turn, turn
 from tools.benchmarks.peers import Hits, Peer
 from tools.benchmarks.scenes import Subject

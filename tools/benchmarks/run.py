@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from tools.benchmarks.cameras import look
 from tools.benchmarks.embree import NativeEmbree
 from tools.benchmarks.lucida import Lucida

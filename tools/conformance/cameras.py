@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import CameraSet, Options, PosedCamera, read_cameras, written
 from lucida.renderer.files.cameras.given import Given
 from tests.support.format_cameras import lens_camera

@@ -20,7 +20,8 @@ from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from lucida.app.state.app_state import AppState, is_orthonormal
 from lucida.app.ui.action import Action, changing
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError

@@ -16,7 +16,9 @@ from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining.symbols import program, spoken
 from lucida.app.ui.fields import Scale, number_field, short_number
-from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.system.errors import LucidaError

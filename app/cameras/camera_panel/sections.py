@@ -23,7 +23,8 @@ from lucida.app.ui.checks import checkbox, radio_button
 from lucida.app.ui.explaining.symbols import vector
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Size, Vector
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.system.errors import LucidaError
 

@@ -21,7 +21,7 @@ from lucida.app.images.picking import is_quick, nearest_hit
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
-from lucida.renderer.camera.camera import Vector
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.scene.model import Scene
 
 CAMERA = "Camera"

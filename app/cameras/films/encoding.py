@@ -14,7 +14,7 @@ from typing import BinaryIO
 from PIL import Image
 
 from lucida.app.cameras.films.workers import PACKAGE
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images import join_exrs
 from lucida.renderer.images.png import join_pngs
 from lucida.renderer.system.atomic import atomic_write

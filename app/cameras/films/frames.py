@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import ENLARGEMENT
 from lucida.renderer.images import encode_image, picture
 from lucida.renderer.images.frame import Frame

@@ -11,7 +11,8 @@ from typing import Literal
 import numpy as np
 
 from lucida.app.cameras.animation import Passage
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import dollied, orbited, switched_projection
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import View

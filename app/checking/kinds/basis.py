@@ -19,7 +19,8 @@ from lucida.app.checking.cases import generator, look
 from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, named, tolerances
 from lucida.app.checking.kinds.values import text_of
 from lucida.app.checking.tasks import CheckCase, CheckTask
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 
 Floats = NDArray[np.float64]
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from lucida.app.checking.kinds.viewing_ray import largest_number
 from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.rays import RayTask, ray_values, run_rays
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

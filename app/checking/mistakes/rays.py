@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from lucida.app.checking.conventions import camera_words, pixel_words
 from lucida.app.checking.mistakes.catalogue import Part, part, part_from_angles
 from lucida.app.checking.mistakes.program import Mistake, Program
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 
 Floats = NDArray[np.float64]

@@ -12,7 +12,8 @@ from lucida.app.checking.mistakes.catalogue import part
 from lucida.app.checking.mistakes.hits import SHAPES
 from lucida.app.checking.mistakes.program import Program
 from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_values
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 
 @functools.lru_cache(32)

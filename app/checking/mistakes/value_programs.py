@@ -12,7 +12,7 @@ from lucida.app.checking.mistakes.catalogue import part
 from lucida.app.checking.mistakes.hits import SHAPES
 from lucida.app.checking.mistakes.program import Program
 from lucida.app.checking.mistakes.value_diagnosis import ValueCase
-from lucida.renderer.camera.camera import Vector
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.images.shared_numbers import LUMINANCE
 
 

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.kinds.shapes import hits
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images import to_srgb8
 
 Floats = NDArray[np.float64]

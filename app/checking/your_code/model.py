@@ -23,7 +23,8 @@ from lucida.app.checking.mistakes.diagnosis import Diagnosis
 from lucida.app.checking.task_file import TaskSet, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.state.options.shared import Notation
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 

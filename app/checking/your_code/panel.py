@@ -27,7 +27,7 @@ from lucida.app.ui.explaining.symbols import arguments
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.rows import follow, tip
 from lucida.app.ui.theme import Fonts
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import one_line
 
 CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]

@@ -12,7 +12,8 @@ from lucida.app.checking.mistakes.diagnosis import Diagnosis
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeRays
 from lucida.app.state.options.shared import Notation
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
 

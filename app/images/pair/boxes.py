@@ -13,7 +13,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.asking import TYPED, begin_box
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError
 

@@ -9,7 +9,8 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.ui.fly import held
 from lucida.renderer.camera import navigation
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.system.errors import LucidaError
 
 HALF_TURN = math.pi  # a drag over the view's whole height

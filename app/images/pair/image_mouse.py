@@ -26,7 +26,8 @@ from lucida.app.images.screen import Screen
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera import navigation
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 
 STILL_PX = 3.0  # a mouse that has moved less is still where it was
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from lucida.app.images.placement import Placement
 from lucida.app.images.screen import Screen
 from lucida.app.ui import theme
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 SAMPLES = 49  # points of a line
 WANTED = 5  # lines from the middle of the image to its side

@@ -20,7 +20,7 @@ from lucida.app.instruments.laboratory.sheet import (
     rounded,
 )
 from lucida.app.instruments.outside.figure import Figure
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # of each drawing, and from one to the next
 FINE = 96  # points of outlines that turn into each other

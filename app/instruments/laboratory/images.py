@@ -21,7 +21,7 @@ from lucida.app.instruments.laboratory.sheet import (
 )
 from lucida.app.instruments.laboratory.stored import shown, store
 from lucida.app.instruments.outside.figure import Figure
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes, encode_srgb, to_srgb8
 
 # The shape of images: width and height. Two side by side are square.

@@ -18,7 +18,7 @@ from lucida.app.instruments.laboratory.sheet import (
     rectangle,
 )
 from lucida.app.instruments.outside.figure import Color, Figure
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 # Where red, green and blue stand when they are moved apart by 1: an upright triangle.
 APART = ((0.0, -1.0), (-0.866, 0.5), (0.866, 0.5))

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from lucida.app.instruments.laboratory.sheet import Look, Point, Sheet
 from lucida.app.state.options.laboratory import LaboratoryOptions
 from lucida.app.state.options.shared import Notation
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 
 Image = NDArray[np.float32]
 

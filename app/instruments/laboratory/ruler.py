@@ -17,7 +17,7 @@ from lucida.app.instruments.laboratory.sheet import (
 from lucida.app.instruments.outside.figure import Color, Figure
 from lucida.app.state.options.shared import Notation
 from lucida.app.ui.explaining.symbols import plain
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1

@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.sheet import Look, Sheet, between, circle, rectangle
 from lucida.app.instruments.outside.figure import WHITE, Color, Figure, Line, Polygon
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes
 
 SIDE_PX, PIXELS = 512, 128  # of the drawing, and of its raster image

@@ -21,7 +21,8 @@ from lucida.app.instruments.outside.figure import (
     Picture,
     Polygon,
 )
-from lucida.renderer.camera.camera import Floats, Size
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes
 
 Point = tuple[float, float]

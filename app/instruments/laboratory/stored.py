@@ -7,6 +7,7 @@ has.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +24,7 @@ class Stored:
     exposure at which it was taken; it is in the array of all kinds but the last."""
 
     kind: Kind
-    array: NDArray
+    array: NDArray[Any]
     taken_ev: float
 
 

@@ -30,7 +30,7 @@ from lucida.app.ui.rows import follow
 from lucida.app.ui.sliders import slider_float
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.ui.uploads import Uploads
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
 

@@ -18,7 +18,9 @@ from lucida.app.instruments.outside.second_camera import GivenRay, corner_rays
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.breaking import broken
-from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 
 Light = NDArray[np.float32]

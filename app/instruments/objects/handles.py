@@ -26,7 +26,7 @@ from lucida.app.instruments.outside.tint import AXES, HELD, hide_text, recolor
 from lucida.app.state.options.objects import Handle, ObjectsOptions
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.guest import ShownIn
-from lucida.renderer.camera.camera import Vector
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.editing.changing import Item, fields_of
 from lucida.renderer.editing.moving import Floats, bounds_of, matrix_of, transform
 from lucida.renderer.files.schema import (

@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Role, Segments
 from lucida.app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
-from lucida.renderer.camera.camera import Floats
-from lucida.renderer.camera.checks import LARGEST
+from lucida.renderer.camera.checks import LARGEST, Floats
 
 LONGEST = 2.0  # of a direction that was given, in lengths of the correct one
 

@@ -22,7 +22,6 @@ from lucida.app.instruments.outside.diagram import (
 )
 from lucida.app.instruments.outside.frustum import (
     MOST_GRID_LINES,
-    Size,
     grid,
     has_plane,
     image_point,
@@ -43,7 +42,9 @@ from lucida.app.instruments.outside.simple_camera import pixel_numbers, simple_c
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui.explaining.symbols import vector
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.instruments.outside.diagram import Segments
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 
 @dataclass(frozen=True, eq=False)

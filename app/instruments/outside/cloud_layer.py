@@ -10,7 +10,7 @@ import numpy as np
 from lucida.app.instruments.outside.cloud import Cloud
 from lucida.app.instruments.outside.paint import CASING, line_color
 from lucida.app.instruments.outside.screen import OutsideScreen
-from lucida.app.ui import theme
+from lucida.app.ui.contrast import Rgb
 from lucida.renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
 
 NEAREST = 1e-3  # of the cloud's reach: what is nearer to the outside camera's eye is not drawn
@@ -28,7 +28,7 @@ class CloudLayer:
         self._picture: CloudPicture | None = None
 
     def picture(
-        self, cloud: Cloud | None, screen: OutsideScreen, ground: theme.Rgb
+        self, cloud: Cloud | None, screen: OutsideScreen, ground: Rgb
     ) -> CloudPicture | None:
         """Return the picture, or None without a cloud.
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui.explaining.symbols import plain
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 Role = Literal[
     "u", "v", "w", "ray", "mark", "plane", "volume", "grid", "eye", "text", "extra", "other",

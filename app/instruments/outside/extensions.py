@@ -12,7 +12,7 @@ from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.looking import NOTHING
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 
 class Extension(NamedTuple):

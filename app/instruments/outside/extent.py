@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from lucida.app.instruments.outside.frustum import border, has_plane, image_point, plane_corners
-from lucida.renderer.camera.camera import Camera, Floats
-from lucida.renderer.camera.checks import LARGEST, three
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import LARGEST, Floats, three
 from lucida.renderer.system.errors import LucidaError
 
 FOV_Y_DEG = 50.0

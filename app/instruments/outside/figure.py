@@ -16,7 +16,8 @@ from lucida.app.instruments.outside.diagram import Role, runs
 from lucida.app.instruments.outside.placing import Box, LabelPlacer
 from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.app.instruments.outside.screen import OutsideScreen
-from lucida.renderer.camera.camera import Floats, Size
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.raster.overlay import BACK_LIGHT, Plane
 
 Depths = NDArray[np.float32]

@@ -26,7 +26,6 @@ from lucida.app.instruments.outside.figure import (
     Depths,
     Figure,
     PlaneImage,
-    Size,
     figure_parts,
     with_picture,
 )
@@ -38,9 +37,10 @@ from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
 from lucida.app.instruments.outside.svg import svg
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.ui import theme
+from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.atomic import atomic_write
@@ -83,7 +83,7 @@ class Sketch:
         return Figure(screen.size, parts, screen.unit_px, self.ground, self.image)
 
 
-def _sketch(view: OutsideView, host: Host, size: Size, ground: theme.Rgb) -> Sketch:
+def _sketch(view: OutsideView, host: Host, size: Size, ground: Rgb) -> Sketch:
     """Return the present inputs of a figure, without the scene's image.
 
     ground: the colour that the lines must contrast with. Raises LucidaError, moderngl.Error.
@@ -148,7 +148,7 @@ def export_figure(host: Host, ground: Ground) -> None:
     """Ask for a file, and write the present outside view into it as SVG."""
     view, state = host.view(OutsideView), host.state
     behind = ground_of(state.scene.background, state.images.exposure_ev)
-    page: theme.Rgb = behind if ground == "window" else WHITE
+    page: Rgb = behind if ground == "window" else WHITE
     try:
         sketch = _sketch(view, host, view.size_px or ALONE, page)
         sketch = _with_image(sketch, host)

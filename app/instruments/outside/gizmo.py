@@ -16,9 +16,10 @@ from lucida.app.instruments.outside.frustum import plane_corners
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.tint import handle_colors, hide_text, recolor
 from lucida.app.ui import theme
+from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Camera, Floats, Vector
-from lucida.renderer.camera.checks import three, volume
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, Vector, three, volume
 from lucida.renderer.system.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo
@@ -63,7 +64,7 @@ class Gizmo:
             let_go()
         self._drag = None
 
-    def follow(self, host: Host, scope: Scope, ground: theme.Rgb) -> None:
+    def follow(self, host: Host, scope: Scope, ground: Rgb) -> None:
         """Draw the selected handles into the current window, and move the camera by them.
 
         ground: the colour under the handles.
@@ -88,7 +89,7 @@ class Gizmo:
         now: tuple[Camera, Vector],
         kind: Kind,
         orthonormal: bool,
-        ground: theme.Rgb,
+        ground: Rgb,
         fonts: theme.Fonts,
     ) -> tuple[Camera, Vector]:
         """Draw the handles. Return the camera and up as they moved them."""

@@ -29,20 +29,15 @@ from lucida.app.instruments.outside.diagram import (
     in_notation,
     polyline,
 )
-from lucida.app.instruments.outside.frustum import (
-    Size,
-    ideal_point,
-    image_point,
-    pixel_corners,
-    ways,
-)
+from lucida.app.instruments.outside.frustum import ideal_point, image_point, pixel_corners, ways
 from lucida.app.instruments.outside.simple_camera import simple_ray
 from lucida.app.state.options.outside import LENS_STAGES, STAGES
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui.explaining.notation import number, text_tuple
 from lucida.app.ui.explaining.symbols import latex
-from lucida.renderer.camera.camera import Camera, Floats
-from lucida.renderer.camera.checks import three
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, three
+from lucida.renderer.camera.image_plane import Size
 
 BASIS = ("u", "v", "w")
 THIN = 1.6  # the width of the basis, next to the terms along it

@@ -8,7 +8,6 @@ import numpy as np
 
 from lucida.app.instruments.outside.diagram import Dot, Face, Item, Label, Segments, polyline
 from lucida.app.instruments.outside.frustum import (
-    Size,
     border,
     grid,
     has_plane,
@@ -18,7 +17,9 @@ from lucida.app.instruments.outside.frustum import (
     point_at,
 )
 from lucida.app.state.options.shared import Pixel
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 
 EDGES = 8  # rays along the border that stand for the edges of a pyramid
 SIDE_PARTS = 6  # faces for a side of the view volume

@@ -23,7 +23,9 @@ from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import depth_of, orbited
 from lucida.renderer.system.memo import Memo, same
 

@@ -15,7 +15,8 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
 from lucida.renderer.camera import navigation
-from lucida.renderer.camera.camera import Camera, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 
 WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
 STILL_PX = 4.0  # a press that moves less is a click

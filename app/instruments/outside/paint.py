@@ -16,7 +16,8 @@ from lucida.app.instruments.outside.diagram import Role, Segments
 from lucida.app.instruments.outside.figure import Color
 from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.app.ui import palettes, theme
-from lucida.renderer.camera.camera import Vector
+from lucida.app.ui.contrast import Rgb
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.raster.lines import (
     BARE,
@@ -62,7 +63,7 @@ Rgba = tuple[float, float, float, float]
 CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
 
 
-def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
+def role_color(role: Role, ground: Rgb | None = None) -> ImVec4:
     """Return the colour of a role in the current theme. ground: the colour under it; None: a
     panel.
     """
@@ -77,14 +78,14 @@ def role_color(role: Role, ground: theme.Rgb | None = None) -> ImVec4:
     return theme.MARK if role == "mark" else FIXED[role]
 
 
-def figure_color(role: Role, tint: float, ground: theme.Rgb) -> Color:
+def figure_color(role: Role, tint: float, ground: Rgb) -> Color:
     """Return the colour of a role in a figure on a ground, with a tint (1: white, -1: black)."""
     darker = DARKER if min(ground) > 0.5 else {}
     return _tinted(darker.get(role, role_color(role, ground)), tint)
 
 
 @lru_cache(maxsize=1)
-def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
+def ground_of(background: Vector, exposure_ev: float) -> Rgb:
     """Return the displayed colour of a scene's background, given in linear light.
 
     The drawing must contrast with it, not with the theme's own ground.
@@ -93,7 +94,7 @@ def ground_of(background: Vector, exposure_ev: float) -> theme.Rgb:
     return red / 255, green / 255, blue / 255
 
 
-def layers(primitives: Iterable[Primitive], ground: theme.Rgb) -> list[Layer]:
+def layers(primitives: Iterable[Primitive], ground: Rgb) -> list[Layer]:
     """Return the layers for Overlay.draw(), the lowest first, without texts."""
     parts = sorted((one for one in primitives if not isinstance(one, Text)), key=_layer)
     color = cache(partial(_color, ground=ground))
@@ -116,7 +117,7 @@ def _layer(part: Strokes | Shape) -> int:
     return part.layer
 
 
-def line_color(item: Segments, ground: theme.Rgb) -> Rgba:
+def line_color(item: Segments, ground: Rgb) -> Rgba:
     """Return the display colour of an item's lines, with their opacity."""
     return _color(item.role, item.opacity, 0.0, ground)
 
@@ -167,7 +168,7 @@ def _corners(parts: Sequence[Shape], color: Callable[[Role, float, float], Rgba]
     return rows
 
 
-def _color(role: Role, opacity: float, tint: float, ground: theme.Rgb) -> Rgba:
+def _color(role: Role, opacity: float, tint: float, ground: Rgb) -> Rgba:
     color = role_color(role, ground)
     return *_tinted(color, tint), color.w * opacity
 

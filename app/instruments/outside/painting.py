@@ -14,7 +14,6 @@ from lucida.app.instruments.outside.figure import (
     WHITE,
     Color,
     Figure,
-    Floats,
     Label,
     Line,
     Picture,
@@ -23,6 +22,7 @@ from lucida.app.instruments.outside.figure import (
 )
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.checks import Floats
 
 Point = tuple[float, float]
 Box = tuple[Point, Point]  # upper left and lower right corner

@@ -20,7 +20,9 @@ from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.memo import Memo

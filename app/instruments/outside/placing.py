@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 Spot = tuple[float, float]
 Label = tuple[str, str, int]  # name, role, how many before it have both

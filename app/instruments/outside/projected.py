@@ -25,8 +25,7 @@ from lucida.app.instruments.outside.diagram import (
     polyline,
 )
 from lucida.app.instruments.outside.screen import OutsideScreen, Seen
-from lucida.renderer.camera.camera import Floats
-from lucida.renderer.camera.checks import cross
+from lucida.renderer.camera.checks import Floats, cross
 
 CIRCLE = 28  # corners of what is round
 HEAD = 4.2  # the least length of an arrow's head, in widths of its shaft

@@ -9,11 +9,13 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments, in_notation
-from lucida.app.instruments.outside.frustum import Size, plane_parameter, point_at
+from lucida.app.instruments.outside.frustum import plane_parameter, point_at
 from lucida.app.state.options.outside import Point
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui.explaining.notation import number
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 
 BEFORE, LAST = -1.2, 4.0  # the least and the largest t that is drawn of a line
 NAMED = 2.5  # the t at which the line's formula is written

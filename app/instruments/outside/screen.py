@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.instruments.outside.frustum import has_plane, plane_corners
-from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.raster.overlay import Plane, plane_on_screen
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off

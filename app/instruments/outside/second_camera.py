@@ -20,7 +20,7 @@ from lucida.app.instruments.outside.diagram import (
     Segments,
     polyline,
 )
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
 ROLE: Role = "other"

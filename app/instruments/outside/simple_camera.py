@@ -18,10 +18,12 @@ from lucida.app.instruments.outside.diagram import (
     Segments,
     polyline,
 )
-from lucida.app.instruments.outside.frustum import Size, image_point, pixel_corners, plane_corners
+from lucida.app.instruments.outside.frustum import image_point, pixel_corners, plane_corners
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.notation import number, text_tuple
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 
 MOST_NUMBERED = 12  # rows or columns that are all numbered
 AXES = 0.55  # the length of the world's axes, in distances of the image plane

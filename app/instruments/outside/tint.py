@@ -13,17 +13,18 @@ from imgui_bundle import ImVec4, imgui
 from numpy.typing import NDArray
 
 from lucida.app.ui import theme
+from lucida.app.ui.contrast import Rgb
 
-Rgb = tuple[int, int, int]
+Rgb8 = tuple[int, int, int]  # 0..255
 
 # ImGuizmo's own: of the axes x, y, z, and of the handle under the mouse. They come with several
 # opacities, which stay.
-AXES: dict[str, Rgb] = {"u": (170, 0, 0), "v": (0, 170, 0), "w": (0, 0, 170)}
-HELD: Rgb = (255, 128, 16)  # almost the colour of u
+AXES: dict[str, Rgb8] = {"u": (170, 0, 0), "v": (0, 170, 0), "w": (0, 0, 170)}
+HELD: Rgb8 = (255, 128, 16)  # almost the colour of u
 SHADOW = np.uint32(0xFF000000)  # black: of the text alone, which is drawn over it
 
 
-def handle_colors(ground: theme.Rgb) -> dict[Rgb, ImVec4]:
+def handle_colors(ground: Rgb) -> dict[Rgb8, ImVec4]:
     """Return the colours that replace ImGuizmo's in the current theme. ground: the colour under the
     handles.
     """
@@ -31,7 +32,7 @@ def handle_colors(ground: theme.Rgb) -> dict[Rgb, ImVec4]:
     return {**colors, HELD: theme.rgb("#ffffff")}
 
 
-def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb, ImVec4]) -> None:
+def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb8, ImVec4]) -> None:
     """Exchange colours in all vertices of a draw list from `first` on. Opacities stay."""
     packed = vertex_colors(draw)[first:]
     rgb = packed & 0xFFFFFF

@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.instruments.outside.diagram import Role
 from lucida.app.instruments.outside.extent import way_of
-from lucida.app.instruments.outside.looking import TRIAD_PX, Floats, camera_along
+from lucida.app.instruments.outside.looking import TRIAD_PX, camera_along
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.paint import role_color
 from lucida.app.instruments.outside.painting import measured, rimmed_text
@@ -31,9 +31,11 @@ from lucida.app.state.bounds import whole_range_of
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.ui import theme
 from lucida.app.ui.areas import press_area
+from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
 
 PAD = 6  # around the menu's button
 
@@ -209,7 +211,7 @@ def written(
     ]  # fmt: skip
 
 
-def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: theme.Rgb) -> None:
+def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: Rgb) -> None:
     """Draw labels into a view at `origin`. ground: the colour under them."""
     draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.85))
     for role, (x, y), size, pieces, lit in labels:

@@ -51,10 +51,12 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.areas import focused_steps, mouse_area
+from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import orbited
 from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
 from lucida.renderer.scene.model import Scene
@@ -375,6 +377,6 @@ def _pointed(content: Content, scope: Scope) -> float | None:
     return float(found[0])
 
 
-def _ground(state: AppState) -> theme.Rgb:
+def _ground(state: AppState) -> Rgb:
     """Return the colour that most of the drawing is on."""
     return ground_of(state.scene.background, state.images.exposure_ev)

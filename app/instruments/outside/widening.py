@@ -13,7 +13,8 @@ import numpy as np
 
 from lucida.app.instruments.outside.answers import points_of
 from lucida.app.instruments.outside.diagram import Item
-from lucida.renderer.camera.camera import Camera, Floats
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:

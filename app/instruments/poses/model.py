@@ -19,7 +19,8 @@ from lucida.app.instruments.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_
 from lucida.app.instruments.outside.frustum import border
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import stored
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, read_cameras
 from lucida.renderer.files.cameras.given import Options, given
 from lucida.renderer.scene.model import Scene, View

@@ -40,7 +40,8 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.ui.uploads import Uploads
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene import Scene
 from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo

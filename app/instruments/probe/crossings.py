@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.scene.positions import world_vertices
 from lucida.renderer.scene.sampling import are_passed

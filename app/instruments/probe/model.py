@@ -23,8 +23,9 @@ from lucida.app.instruments.probe.reading import (
     Reading,
 )
 from lucida.app.ui.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
-from lucida.renderer.camera.camera import Camera, Size, Vector
-from lucida.renderer.camera.checks import three
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector, three
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.scene.flat import FlatScene, flatten

@@ -31,7 +31,7 @@ from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.app.ui.theme import Fonts
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.scene.model import Color

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from lucida.app.ui.explaining.shading import Shading, SurfaceHit
-from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import Color
 
 # The relation of a crossing to the pixel.

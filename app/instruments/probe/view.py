@@ -32,7 +32,8 @@ from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.messages import wrapped
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 

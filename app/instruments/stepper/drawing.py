@@ -18,7 +18,7 @@ from lucida.app.ui.explaining.breaking import narrowed
 from lucida.app.ui.explaining.languages import julia
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 
 GAP_EM = 0.9

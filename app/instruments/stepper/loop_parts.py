@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from lucida.app.instruments.probe.crossings import Index
-from lucida.renderer.camera.camera import Camera, Floats, Size, Vector
-from lucida.renderer.camera.checks import three
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, Vector, three
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.flat import FlatScene, flatten
 from lucida.renderer.scene.model import Color, Scene
 from lucida.renderer.trace import pure_python as scalar

@@ -16,7 +16,7 @@ from lucida.app.instruments.stepper.raster_parts import WHOLE, Corner, Triangle
 from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.ui.explaining.columns import Column
 from lucida.app.ui.explaining.notation import number, text_tuple
-from lucida.renderer.camera.camera import Floats
+from lucida.renderer.camera.checks import Floats
 
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip

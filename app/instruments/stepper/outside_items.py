@@ -13,7 +13,8 @@ from lucida.app.instruments.stepper.loop_parts import ViewingRay
 from lucida.app.instruments.stepper.model import Moment
 from lucida.app.instruments.stepper.programs import Hits
 from lucida.app.state.options.shared import Pixel
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 
 def run_items(camera: Camera, size: Size, moments: tuple[Moment, ...], end: float) -> list[Item]:

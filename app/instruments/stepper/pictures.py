@@ -31,7 +31,9 @@ from lucida.app.ui import theme
 from lucida.app.ui.canvas import Marks, color_picture
 from lucida.app.ui.host import Host
 from lucida.app.ui.uploads import Uploads
-from lucida.renderer.camera.camera import Camera, Floats, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 

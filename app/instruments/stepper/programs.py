@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from lucida.app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
 from lucida.app.state.options.shared import Pixel
-from lucida.renderer.camera.camera import Camera, Floats, Size
-from lucida.renderer.camera.checks import three
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, three
+from lucida.renderer.camera.image_plane import Size
 
 GLOW = 0.01  # of a run: the lines that have just been executed shine together
 # When a line is executed: once, in each row, in each turn of the outer loop, in each turn of the

@@ -6,7 +6,7 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.ui import theme
 from lucida.app.ui.canvas import Marks, draw_canvas
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 
 # In the unit square, y down: the eye, the frame's corners (near below, near above, far above, far
 # below), a ball, and where a ray passes the frame and meets the ball.

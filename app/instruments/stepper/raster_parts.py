@@ -26,7 +26,9 @@ from lucida.app.instruments.stepper.loop_parts import (
     light_at,
     viewing_ray,
 )
-from lucida.renderer.camera.camera import NEAREST, Camera, Floats, Size, Vector
+from lucida.renderer.camera.camera import NEAREST, Camera
+from lucida.renderer.camera.checks import Floats, Vector
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.scene.model import Color
 from lucida.renderer.scene.sampling import on_triangles, opacity

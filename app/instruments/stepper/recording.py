@@ -20,7 +20,8 @@ from lucida.app.instruments.stepper.source import Source, source_of
 from lucida.app.state.bounds import check, whole_range_of
 from lucida.app.state.options.stepper import StepperOptions
 from lucida.app.ui.explaining.columns import Column
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
 # The interpreter is left to other threads for a moment, this often.

@@ -8,7 +8,8 @@ from typing import Generic, NamedTuple, TypeVar
 from lucida.app.instruments.stepper.loop_parts import Model
 from lucida.app.instruments.stepper.recording import Order, Recording
 from lucida.app.ui.background import Background
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.memo import Memo, same
 

@@ -11,8 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from lucida.renderer.camera.camera import Vector
-from lucida.renderer.camera.checks import three
+from lucida.renderer.camera.checks import Vector, three
 from lucida.renderer.images.shared_numbers import NEAREST_LIGHT
 from lucida.renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from lucida.renderer.scene.model import Color

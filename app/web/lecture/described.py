@@ -14,7 +14,8 @@ from lucida.app.lecture.model import Step
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.outside import STAGES
 from lucida.app.ui.explaining.notation import number, text_tuple
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.editing.moving import bounds_of
 from lucida.renderer.editing.outline import outline
 

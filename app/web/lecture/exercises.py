@@ -31,7 +31,7 @@ from lucida.app.ui.explaining import symbols
 from lucida.app.web.lecture.drawn import paper
 from lucida.app.web.lecture.mathml import VECTORS
 from lucida.app.web.lecture.text import plain, written
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.views import view_table
 
 BOLD = frozenset("uvwepdx")

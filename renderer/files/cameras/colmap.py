@@ -15,7 +15,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import viewport_of
 from lucida.renderer.files.cameras import colmap_binary, colmap_lenses, colmap_text
 from lucida.renderer.files.cameras.colmap_lenses import model_for

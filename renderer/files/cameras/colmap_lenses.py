@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Size
 from lucida.renderer.camera.checks import Floats, listed, number, positive
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.system.errors import LucidaError, under
 

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.posed import PosedCamera

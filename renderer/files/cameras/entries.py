@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, listed, number
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin, matrix
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.posed import PosedCamera

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from lucida.renderer.camera.camera import Size
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.files.reading import decode_text, path_of, read_file
 from lucida.renderer.system.errors import LucidaError

@@ -12,8 +12,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import listed
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.entries import sized
 from lucida.renderer.files.cameras.given import Given, Options
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera

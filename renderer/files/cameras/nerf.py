@@ -15,8 +15,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import listed
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import check_for_lens, pixel_offset, viewport_of
 from lucida.renderer.files.cameras import nerf_lens
 from lucida.renderer.files.cameras.distortion import FileLens

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import (
     PixelOrigin,
     as_camera_from_world,

@@ -10,8 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, listed, told_apart
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError
 
 STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.distortion import check_held
 from lucida.renderer.files.export.gltf_scene import glb_of
 from lucida.renderer.files.reading import path_of

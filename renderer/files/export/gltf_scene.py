@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.gltf import camera_table, node_matrix
 from lucida.renderer.files.cameras.rigid import rigid
 from lucida.renderer.files.export.checkers import with_checker_uv
@@ -29,11 +30,11 @@ from lucida.renderer.files.export.meshes import Triangles, arrays_of, unit_spher
 from lucida.renderer.files.models.gltf_textures import WRAP_NAMES
 from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.images.png import png_of
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     Color,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

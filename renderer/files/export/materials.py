@@ -13,7 +13,8 @@ import numpy as np
 
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.framing import median_distance
-from lucida.renderer.scene.model import Color, Material, PointLight, Scene
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Color, PointLight, Scene
 from lucida.renderer.system.errors import one_line
 
 MOST_REFLECTED = 0.9  # of the light at normal incidence

@@ -39,7 +39,7 @@ from lucida.renderer.files.models.parts import Part, linear_colors
 from lucida.renderer.files.reading import check_count
 from lucida.renderer.files.texture_images import ModelImages
 from lucida.renderer.scene.limits import OBJECTS, TRIANGLES
-from lucida.renderer.scene.model import Material
+from lucida.renderer.scene.material import Material
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError
 

@@ -13,8 +13,9 @@ import numpy as np
 from lucida.renderer.files.models.gltf_file import MATERIALS, GltfMaterial, OpenGltf
 from lucida.renderer.files.models.gltf_textures import read_texture
 from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
-from lucida.renderer.scene.model import Color, Material
+from lucida.renderer.scene.model import Color
 from lucida.renderer.scene.texture import WHITE, Texture, placed_alike
 
 WORDS = {

@@ -22,9 +22,9 @@ from lucida.renderer.files.reading import MODEL_ENDINGS, check_count, naming
 from lucida.renderer.files.texture_images import ModelImages, shown
 from lucida.renderer.scene import framing, shapes
 from lucida.renderer.scene.limits import OBJECTS, TRIANGLES
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     Mesh,
     NamedView,
     PointLight,

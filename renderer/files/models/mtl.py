@@ -15,7 +15,7 @@ from lucida.renderer.files.models.texts import tidy
 from lucida.renderer.files.reading import read_file
 from lucida.renderer.files.texture_images import ModelImages, read_image
 from lucida.renderer.scene.limits import MATERIAL_BYTES
-from lucida.renderer.scene.model import Material
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.system.errors import LucidaError
 

@@ -22,7 +22,7 @@ from lucida.renderer.files.models.texts import read_text_bytes
 from lucida.renderer.files.reading import damaged
 from lucida.renderer.files.texture_images import ModelImages, inner_path, shown
 from lucida.renderer.scene.limits import OBJECTS
-from lucida.renderer.scene.model import Material
+from lucida.renderer.scene.material import Material
 from lucida.renderer.system.errors import LucidaError
 
 _CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")

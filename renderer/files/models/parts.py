@@ -14,7 +14,8 @@ from lucida.renderer.files.models.polygons import check_corners
 from lucida.renderer.files.models.repairs import note_repairs
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.boxes import extent
-from lucida.renderer.scene.model import BRIGHTEST, Material, Mesh
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import BRIGHTEST, Mesh
 from lucida.renderer.scene.normals import merge_positions, smooth_normals
 from lucida.renderer.system.errors import LucidaError
 

@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Camera, Size, Vector
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 
 
 class KernelView(NamedTuple):

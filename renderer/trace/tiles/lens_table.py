@@ -20,7 +20,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Camera, Size
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.trace.arguments.image import Rows
 from lucida.renderer.trace.compile.compiled import inlined, kernel
 from lucida.renderer.trace.threads.thread_pool import CANCELLED, NEXT, Control

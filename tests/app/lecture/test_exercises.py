@@ -21,7 +21,8 @@ from lucida.app.lecture.exercises import (
     WrongVector,
 )
 from lucida.app.ui.explaining.arithmetic import number, text_of, vector, vector_text
-from lucida.renderer.camera.camera import Camera, Ray
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Ray
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError
 

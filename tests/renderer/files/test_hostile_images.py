@@ -15,7 +15,8 @@ from lucida.renderer.files.texture_images import FoundImage, ModelImages, decode
 from lucida.renderer.raster.tables import TABLE_WIDTH
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE
-from lucida.renderer.scene.model import Material, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.system.errors import LucidaError
 

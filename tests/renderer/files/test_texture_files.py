@@ -18,7 +18,8 @@ from lucida.renderer.files import load_scene
 from lucida.renderer.files.models.repairs import repairs
 from lucida.renderer.files.oddities import oddities
 from lucida.renderer.files.saving import save_scene
-from lucida.renderer.scene.model import Material, Mesh, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, Scene, SceneObject, Sphere
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.system.errors import LucidaError
 

@@ -8,14 +8,8 @@ from raster_scenes import CAMERAS, SIZE, WIDE, agrees, square, still_life, trian
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.raster_and_ray import CHANNELS
-from lucida.renderer.scene.model import (
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-    Sphere,
-)
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, PointLight, Scene, SceneObject, Sphere
 
 
 class TestAnalytic:

@@ -8,11 +8,11 @@ from textured import noise
 
 from lucida.renderer.scene.flat import flatten, same_meshes, same_places
 from lucida.renderer.scene.flat_textures import on_sphere
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.metal import Metal
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

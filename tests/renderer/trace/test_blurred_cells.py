@@ -8,7 +8,8 @@ import pytest
 from lucida import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject
 from lucida.renderer.trace.tiles.cells import are_blurred, cells_of
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

@@ -19,7 +19,8 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.raster_and_ray import CHANNELS
 from lucida.renderer.compare.seen_surfaces import TOLERANCE_PX, Surfaces, View, slope_of
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
-from lucida.renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, PointLight, Scene, SceneObject, Sphere
 from lucida.renderer.trace.arguments.image import Image, Rows, new_image
 from lucida.renderer.trace.arguments.view import KernelView
 from lucida.renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control

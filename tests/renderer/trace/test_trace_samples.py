@@ -8,7 +8,8 @@ import pytest
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.images.samples import check_samples, offsets, supersampled
-from lucida.renderer.scene.model import Material, Mesh, Scene, SceneObject
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, Scene, SceneObject
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import Tracer
 

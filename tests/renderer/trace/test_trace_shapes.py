@@ -12,7 +12,8 @@ from trace_reference import cast, scene_of, tree_of
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import Checker, Material, Mesh, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.tracer import METHODS

@@ -12,7 +12,8 @@ import pytest
 from lucida.app.instruments.objects import silhouette
 from lucida.app.instruments.objects.silhouette import edges_of, outline_of, outlines_of
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.scene.model import Material, Mesh, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, SceneObject, Sphere
 from lucida.renderer.scene.shapes import box
 
 CAMERAS = (

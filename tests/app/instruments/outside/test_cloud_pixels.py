@@ -17,7 +17,8 @@ from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.raster import Rasterizer
 from lucida.renderer.raster.overlay import CLOUD_HIDDEN, Overlay
-from lucida.renderer.scene.model import Material, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
 SIZE = (160, 120)
 GROUND = (0.0, 0.0, 0.0)

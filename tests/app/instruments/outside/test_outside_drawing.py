@@ -17,7 +17,8 @@ from lucida.app.ui import contrast, palettes, theme
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.raster import Rasterizer
 from lucida.renderer.raster.overlay import Overlay, Plane, plane_on_screen
-from lucida.renderer.scene.model import Material, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 from lucida.renderer.system.errors import LucidaError
 
 SIZE = (160, 120)

@@ -7,9 +7,9 @@ from dataclasses import replace
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.probe.reading import Reading
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

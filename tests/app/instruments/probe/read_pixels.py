@@ -6,13 +6,8 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import (
-    Material,
-    PointLight,
-    Scene,
-    SceneObject,
-    Sphere,
-)
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import PointLight, Scene, SceneObject, Sphere
 
 SIZE = (64, 48)
 ALL = ("color", "depth", "normal", "id", "primitive")

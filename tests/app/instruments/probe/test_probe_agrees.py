@@ -16,9 +16,9 @@ from lucida.app.ui.explaining.notation import number
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.images.display import encode_srgb, to_srgb8
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

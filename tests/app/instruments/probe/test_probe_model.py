@@ -13,9 +13,9 @@ from lucida.app.instruments.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN
 from lucida.app.ui.explaining.shading import SurfaceHit
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

@@ -9,7 +9,8 @@ from lucida.app.instruments.stepper.model import Moment, moment_at
 from lucida.app.instruments.stepper.recording import Order, Recording
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene import shapes
-from lucida.renderer.scene.model import Material, PointLight, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import PointLight, Scene, SceneObject, Sphere
 
 SIZE = (20, 15)
 TWO_BALLS = Scene(

@@ -26,9 +26,11 @@ from lucida.app.instruments.stepper.raster_parts import (
     whole_within,
 )
 from lucida.app.instruments.stepper.recording import Order
-from lucida.renderer.camera.camera import NEAREST, Camera, Size
+from lucida.renderer.camera.camera import NEAREST, Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene import shapes
-from lucida.renderer.scene.model import Material, Mesh, PointLight, Scene, SceneObject, Sphere
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Mesh, PointLight, Scene, SceneObject, Sphere
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.trace import Tracer
 

@@ -19,7 +19,8 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.raster_and_ray import compare_frames
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.images.frame import CHANNELS
-from lucida.renderer.scene.model import Material, Scene, SceneObject
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Scene, SceneObject
 from lucida.renderer.trace import Tracer
 
 # One image, proved against the fast renderers.

@@ -10,9 +10,9 @@ import pytest
 
 from lucida.app.ui.explaining.shading import SurfaceHit, hit_at, shade
 from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     Scene,

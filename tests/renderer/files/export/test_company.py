@@ -19,7 +19,8 @@ from lucida.renderer.files import load_scene
 from lucida.renderer.files.export import export_scene
 from lucida.renderer.files.export.gltf_scene import glb_of
 from lucida.renderer.scene import Scene, flatten
-from lucida.renderer.scene.model import Checker, DirectionalLight, Material, Mesh, SceneObject
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.model import Checker, DirectionalLight, Mesh, SceneObject
 from lucida.renderer.scene.texture import WRAPS, Texture
 
 SIZE = (12, 8)

@@ -13,10 +13,10 @@ from test_company import CAMERA, SIZE, objects, scene_of
 
 from lucida.renderer.files.export.gltf_scene import glb_of
 from lucida.renderer.scene import Scene, shapes
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
-    Material,
     Mesh,
     PointLight,
     SceneObject,
