@@ -21,6 +21,7 @@ import resource
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -53,11 +54,12 @@ BASELINE_S, LEAST_S, LONGEST_S = 600.0, 5.0, 10.0  # limits; tests that take lon
 def rooms() -> dict[str, list[str]]:
     """Return the modules of each room that has tests and code that draws nothing."""
     found: dict[str, list[str]] = {}
-    for path in sorted([*ROOT.glob("app/*/**/*.py"), *ROOT.glob("renderer/**/*.py")]):
+    for path in sorted([*ROOT.glob("app/*/**/*.py"), *ROOT.glob("renderer/*/**/*.py")]):
         name, text = path.relative_to(ROOT).as_posix(), path.read_text("utf-8")
-        room = "/".join(path.relative_to(ROOT).parts[:-1][:2])
+        parts = path.relative_to(ROOT).parts
+        room = "/".join(parts[: 3 if parts[1] == "instruments" else 2])
         if tests_of(room) and not any(word in text for word in NO_MUTANTS):
-            found.setdefault(room, []).append(name)
+            found.setdefault(room, []).append(f"lucida/{name}")  # as it is imported
     return found
 
 
@@ -162,8 +164,12 @@ class _Plugin:
             self.found = {"error": (answer or {}).get("failed") or "no result"}
             return True
         lengths, reached = answer["lengths"], answer["reached"]
+        gc.unfreeze()  # the tests' imports end with a freeze: nothing would be found
         functions = [one for one in gc.get_objects() if isinstance(one, FunctionType)]
         gc.freeze()  # what is not looked through in a fork is not copied for it
+        if planted := self._missed(items, reached, functions):
+            self.found = {"error": f"no test notices that {planted} fails: the attack sees nothing"}
+            return True
         killers: dict[str, int] = {}
         noticed = []
         for mutant in self._chosen:
@@ -182,6 +188,32 @@ class _Plugin:
                 killers[killer] = killers.get(killer, 0) + 1
         self.found = {"noticed": noticed}
         return True
+
+    def _missed(
+        self,
+        items: list[pytest.Item],
+        reached: dict[str, list[str]],
+        functions: list[FunctionType],
+    ) -> str:
+        """Plant a fault that the tests must find: the function that most of them call fails.
+
+        Return the function's name where none of them notices it.
+        """
+        counts = Counter(name for names in reached.values() for name in names)
+        if not counts:
+            return ""
+        ((name, _),) = counts.most_common(1)
+        seen = [item for item in items if name in reached.get(item.nodeid, ())]
+        module, function = name.split(" ")
+
+        def plant() -> str:
+            for one in functions:
+                code = one.__code__
+                if code.co_filename == str(ROOT / module) and code.co_qualname == function:
+                    one.__code__ = _failing.__code__.replace(co_freevars=code.co_freevars)
+            return self._run_until_failure(seen)
+
+        return name if forked(plant, BASELINE_S) == "" else ""
 
     def _baseline(self, items: list[pytest.Item]) -> dict[str, Any]:
         """Return of each test its seconds and the functions that it calls; and one that fails."""
@@ -213,11 +245,18 @@ class _Plugin:
     def _try(self, mutant: Mutant, items: list[pytest.Item], functions: list[FunctionType]) -> str:
         """Return the first test that notices a mutant; empty if none does."""
         _replace(mutant, functions)
+        return self._run_until_failure(items)
+
+    def _run_until_failure(self, items: list[pytest.Item]) -> str:
         for item, after in _in_order(items):
             _run(item, after)
             if self._failed:
                 return self._failed
         return ""
+
+
+def _failing(*_: Any, **__: Any) -> None:
+    raise AssertionError("a planted fault")
 
 
 def _in_order(items: list[pytest.Item]) -> Iterator[tuple[pytest.Item, pytest.Item | None]]:
