@@ -1,4 +1,4 @@
-"""What tests look for among the opened things."""
+"""Find an opened thing of a kind, which a test knows to be there."""
 
 from __future__ import annotations
 

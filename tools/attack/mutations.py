@@ -102,7 +102,7 @@ def main(argv: Sequence[str]) -> int:
             print(f"{room}: the time was over before its tests had run once", flush=True)
             continue
         if found is None or "error" in found:
-            print(f"{room}: the tests do not pass as they are: {found}", flush=True)
+            print(f"{room}: no mutant was tried: {found and found['error']}", flush=True)
             broken += 1
             continue
         killed = sum(found["noticed"])
@@ -176,7 +176,7 @@ class _Plugin:
             if time.monotonic() >= self._end_s:
                 break
             name = f"{mutant.module} {mutant.function}"
-            seen = [item for item in items if name in reached.get(item.nodeid, ())]
+            seen = _reaching(name, items, reached)
             seen.sort(key=lambda item: (-killers.get(item.nodeid, 0), lengths[item.nodeid]))
             limit_s = LEAST_S + 4 * sum(lengths[item.nodeid] for item in seen)
             killer = forked(lambda m=mutant, s=seen: self._try(m, s, functions), limit_s)  # type: ignore[misc]
@@ -203,14 +203,12 @@ class _Plugin:
         if not counts:
             return ""
         ((name, _),) = counts.most_common(1)
-        seen = [item for item in items if name in reached.get(item.nodeid, ())]
-        module, function = name.split(" ")
+        seen = _reaching(name, items, reached)
 
         def plant() -> str:
-            for one in functions:
-                code = one.__code__
-                if code.co_filename == str(ROOT / module) and code.co_qualname == function:
-                    one.__code__ = _failing.__code__.replace(co_freevars=code.co_freevars)
+            for function in _called(*name.split(" "), functions):
+                freevars = function.__code__.co_freevars
+                function.__code__ = _failing.__code__.replace(co_freevars=freevars)
             return self._run_until_failure(seen)
 
         return name if forked(plant, BASELINE_S) == "" else ""
@@ -274,13 +272,23 @@ def _replace(mutant: Mutant, functions: list[FunctionType]) -> None:
     for name in mutant.function.split("."):
         parts = (part for part in code.co_consts if isinstance(part, CodeType))
         code = next(part for part in parts if part.co_name == name)
-    for function in functions:
-        if (
-            function.__code__.co_filename == code.co_filename
-            and function.__code__.co_firstlineno == code.co_firstlineno
-            and function.__code__.co_qualname == mutant.function
-        ):
+    for function in _called(mutant.module, mutant.function, functions):
+        if function.__code__.co_firstlineno == code.co_firstlineno:
             function.__code__ = code
+
+
+def _called(module: str, name: str, functions: list[FunctionType]) -> list[FunctionType]:
+    """Return the loaded functions of a module that have a qualified name."""
+    place = str(ROOT / module), name
+    codes = ((function, function.__code__) for function in functions)
+    return [function for function, c in codes if (c.co_filename, c.co_qualname) == place]
+
+
+def _reaching(
+    name: str, items: list[pytest.Item], reached: dict[str, list[str]]
+) -> list[pytest.Item]:
+    """Return the tests that call a function."""
+    return [item for item in items if name in reached.get(item.nodeid, ())]
 
 
 if __name__ == "__main__":
