@@ -13,7 +13,6 @@ from lucida.app.state.options.shared import Notation, Preferences, Theme
 from lucida.app.ui import layout
 from lucida.app.ui.action import Action, changing
 from lucida.app.ui.explaining import symbols
-from lucida.app.ui.host import Host
 from lucida.app.window import bookmarks
 from lucida.app.window.camera_files import CAMERA_FILES
 
@@ -77,27 +76,7 @@ def _bookmark(number: int, stores: bool) -> Action:
     )
 
 
-# Words, view, copy, keys.
-PICTURES = (
-    ("Save a picture of the window", False, False, "F12"),
-    ("Save a picture of the view in use", True, False, "Shift+F12"),
-    ("Save a picture of the window as...", False, None, ""),
-    ("Save a picture of the view in use as...", True, None, ""),
-    ("Copy a picture of the window", False, True, "Ctrl+F12"),
-    ("Copy a picture of the view in use", True, True, "Ctrl+Shift+F12"),
-)
-
-
-def _picture(name: str, view: bool, copy: bool | None, keys: str) -> Action:
-    """Return the action. copy: to the clipboard; None: into a file that the user names."""
-
-    def run(window: Host) -> None:
-        if copy is None:
-            window.shell.picture_as(view)
-        else:
-            window.shell.picture(view, copy)
-
-    return Action("File/Picture", name, run, keys, separated=keys == "Ctrl+F12")
+PICTURES = "File/Picture"
 
 
 FILE = (
@@ -132,20 +111,33 @@ FILE = (
     ),
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E"),
-    *(_picture(*entry) for entry in PICTURES),
+    Action(PICTURES, "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
+    Action(
+        PICTURES,
+        "Save a picture of the view in use",
+        lambda w: w.shell.picture(view=True),
+        "Shift+F12",
+    ),
+    Action(PICTURES, "Save a picture of the window as...", lambda w: w.shell.picture_as()),
+    Action(
+        PICTURES,
+        "Save a picture of the view in use as...",
+        lambda w: w.shell.picture_as(view=True),
+    ),
 )
 
 QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", separated=True),)
 
+FORGET = Action(
+    "Camera/Bookmarks",
+    "Forget all bookmarks",
+    changing(lambda state: state.with_options(replace(state.options, bookmarks=()))),
+    can=lambda w: bool(w.state.options.bookmarks),
+    separated=True,
+)
 BOOKMARKS = (
     *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
-    Action(
-        "Camera/Bookmarks",
-        "Forget all bookmarks",
-        changing(lambda state: state.with_options(replace(state.options, bookmarks=()))),
-        can=lambda w: bool(w.state.options.bookmarks),
-        separated=True,
-    ),
+    FORGET,
 )
 
 LOOK = (

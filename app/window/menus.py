@@ -7,7 +7,6 @@ Owns its look. Knows nothing of what actions do.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
@@ -21,6 +20,7 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.stage import Stage
 from lucida.app.window import bookmarks
 from lucida.app.window.action_table import ACTIONS, MENUS
+from lucida.app.window.actions import FORGET
 from lucida.renderer.files import SCENE_NAMES
 
 HISTORY_STEPS = 15
@@ -200,25 +200,7 @@ def _bookmarks(window: Host) -> None:
             if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:
                 bookmarks.store(window, number)
         imgui.end_menu()
-    if imgui.begin_menu("Rename", bool(marks)):
-        for mark in marks:
-            imgui.set_next_item_width(20 * imgui.get_font_size())
-            done, name = imgui.input_text(
-                f"{mark.number}##name{mark.number}",
-                mark.name,
-                imgui.InputTextFlags_.enter_returns_true,
-            )
-            if (done or imgui.is_item_deactivated_after_edit()) and name.strip():
-                window.change(bookmarks.renamed(window.state, mark.number, name.strip()[:80]))
-        imgui.end_menu()
-    if imgui.begin_menu("Forget", bool(marks)):
-        for mark in marks:
-            if imgui.menu_item(f"{mark.name}###drop{mark.number}", str(mark.number), False)[0]:
-                window.change(bookmarks.without(window.state, mark.number))
-        imgui.separator()
-        if imgui.menu_item("All", "", False)[0]:
-            window.change(window.state.with_options(replace(window.state.options, bookmarks=())))
-        imgui.end_menu()
+    _item(FORGET, window, first=True)
 
 
 def _views(stage: Stage) -> None:

@@ -97,13 +97,11 @@ class Shell:
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
 
-    def picture(self, view: bool = False, copy: bool = False) -> None:
-        """A picture of the window, or of the view in use, into the folder of pictures, or the
-        clipboard."""
+    def picture(self, view: bool = False) -> None:
+        """Save a picture of the window, or of the view in use, in the folder of pictures."""
         try:
             what = self._view_in_use() if view else ""
-            path = None if copy else self.captures.default_path(what.lower())
-            self.captures.ask(self._rect(what), path)
+            self.captures.ask(self._rect(what), self.captures.default_path(what.lower()))
         except LucidaError as error:
             self.toasts.add(describe(error), good=False)
 

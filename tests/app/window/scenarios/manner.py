@@ -256,7 +256,7 @@ def drive_bookmarks_bring_views_back(d: Driver) -> None:
     d.until(lambda: d.window.state.view == home)
     d.press(CTRL | int(Key.z))
     d.until(lambda: d.window.state.view == away)
-    d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/Forget/All")
+    d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/Forget all bookmarks")
     assert d.window.state.options.bookmarks == ()
     d.press(CTRL | int(Key.z))
     assert [mark.number for mark in d.window.state.options.bookmarks] == [3, 9]
