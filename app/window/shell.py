@@ -109,7 +109,12 @@ class Shell:
         """The same into a file that the user names."""
         what = self._view_in_use() if view else ""
         name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
-        self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
+        self.files.ask_name(
+            "Save the picture",
+            name,
+            ("Pictures", ".png"),
+            lambda path: self._picture_to(what, path),
+        )
 
     def export_as(self, host: Host) -> None:
         """The scene and its camera for other renderers, into a file that the user names."""
@@ -323,7 +328,6 @@ class Shell:
         left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
         return left, top, right, bottom
 
-    def _picture_to(self, view: str, path: Path) -> None:
-        ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
-        self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
+    def _picture_to(self, view: str, path: str) -> None:
+        self.captures.ask(self._rect(view) if view in self.stage.rects else None, Path(path))
         hello_imgui.request_refresh()
