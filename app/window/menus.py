@@ -15,7 +15,7 @@ from lucida.app.lecture.view import LECTURE
 from lucida.app.state.app_state import History
 from lucida.app.state.changes import change
 from lucida.app.ui import layout, theme
-from lucida.app.ui.action import Action
+from lucida.app.ui.action import draw_entry
 from lucida.app.ui.host import Host
 from lucida.app.ui.stage import Stage
 from lucida.app.window import bookmarks
@@ -26,8 +26,6 @@ from lucida.renderer.files import SCENE_NAMES
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
-
-USES = {one.name: one.use for one in layout.CHOICES}
 
 
 def menu_bar(
@@ -90,7 +88,7 @@ def _actions(menu: str, window: Host, history: History) -> None:
     drawn: set[str] = set()
     for action in ACTIONS:
         if action.menu == menu:
-            _item(action, window)
+            draw_entry(action, window)
             if action.name == "Open...":
                 _scenes(window)
                 _recent(window)
@@ -111,21 +109,8 @@ def _actions(menu: str, window: Host, history: History) -> None:
             else:
                 for entry in ACTIONS:
                     if entry.menu == action.menu:
-                        _item(entry, window, first=entry is action)
+                        draw_entry(entry, window, first=entry is action)
             imgui.end_menu()
-
-
-def _item(action: Action, window: Host, first: bool = False) -> None:
-    if action.separated and not first:
-        imgui.separator()
-    on = action.is_on(window.state) if action.is_on else False
-    if action.menu == "View/Layout":
-        on = action.name == layout.current().name
-    can = action.can(window) if action.can else True
-    if imgui.menu_item(action.name, action.keys, on, can)[0]:
-        action.run(window)
-    if action.menu == "View/Layout" and action.name in USES:
-        imgui.set_item_tooltip(USES[action.name])
 
 
 def _scenes(window: Host) -> None:
@@ -200,7 +185,7 @@ def _bookmarks(window: Host) -> None:
             if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:
                 bookmarks.store(window, number)
         imgui.end_menu()
-    _item(FORGET, window, first=True)
+    draw_entry(FORGET, window, first=True)
 
 
 def _views(stage: Stage) -> None:
@@ -227,5 +212,5 @@ def _layouts(window: Host, name: str) -> None:
     if opened:
         for action in ACTIONS:
             if action.menu == "View/Layout":
-                _item(action, window)
+                draw_entry(action, window)
         imgui.end_menu()
