@@ -18,7 +18,6 @@ from imgui_bundle import hello_imgui, imgui
 from lucida.app.cameras.presets import framed
 from lucida.app.cameras.travel import CameraTransition
 from lucida.app.checking.your_code.view import YourCodeView
-from lucida.app.images.pair.boxes import asking_pixel, asking_size
 from lucida.app.images.pair.view import RASTER
 from lucida.app.images.renderers import Renderers
 from lucida.app.instruments.outside.view import OutsideView
@@ -30,11 +29,11 @@ from lucida.app.state.options import Options
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.background import Background
+from lucida.app.ui.entry_box import EntryBox
 from lucida.app.ui.fly import Fly
 from lucida.app.ui.host import T
 from lucida.app.ui.instrument import Instrument
 from lucida.app.window.action_table import run_shortcuts
-from lucida.app.window.entry_boxes import EntryBoxes
 from lucida.app.window.files import Files
 from lucida.app.window.instruments import make_views
 from lucida.app.window.menu_keys import MenuKeys
@@ -80,7 +79,7 @@ class MainWindow:
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
         self._gesture = 0
         self._was_active = False
-        self.boxes = EntryBoxes()
+        self.box: EntryBox | None = None
         self._focus = Memo(scene_focus)
         self.transition = CameraTransition()
         self.transition.instant = not smooth
@@ -205,18 +204,6 @@ class MainWindow:
 
     def unclick(self) -> None:
         self.history = self.history.unclicked(("drag", self._gesture))
-
-    def ask_resolution(self) -> None:
-        """Opens the box to type the images' resolution into."""
-        self.boxes.size = asking_size(self.state, self.renderers.size)
-
-    def ask_pixel(self) -> None:
-        """Opens the box to type a pixel's row and column into."""
-        if min(self.renderers.size):
-            self.boxes.pixel = asking_pixel(self.state, self.renderers.size)
-
-    def close_boxes(self) -> bool:
-        return self.boxes.close()
 
     def travel(self, state: AppState) -> None:
         ends = self.view(OutsideView).ends(self, state)
@@ -378,12 +365,14 @@ class MainWindow:
         if self.lecture.arrangements != arrangements:
             begun, stage = self.lecture.take_begun(), self.shell.stage
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
-        if not self.boxes.focused:
+        typing = self.box is not None and self.box.focused  # its digits are no bookmarks
+        if not typing:
             run_shortcuts(self)
-        self.change(self.boxes.draw(self.state, self.renderers))
+        if self.box is not None and not self.box.draw():
+            self.box = None
         self.renderers.update(self.state, moving)
         self._bars()
-        self.shell.draw(self, self.boxes.focused, self.menu_keys.in_menus)
+        self.shell.draw(self, typing, self.menu_keys.in_menus)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 

@@ -149,8 +149,8 @@ class Shell:
             self.exports.listing = None
         elif self.help:
             self.help = False
-        elif window.close_boxes():
-            pass
+        elif window.box is not None:
+            window.box = None
         elif self.files.loading:
             self.files.cancel()
         elif self.exports.busy:

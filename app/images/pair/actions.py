@@ -17,6 +17,7 @@ from lucida.app.images.imaging import (
     with_pixel_size,
     with_resolution,
 )
+from lucida.app.images.pair.boxes import ask_pixel, ask_resolution
 from lucida.app.images.placement import magnification_text, step_from
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
@@ -105,7 +106,7 @@ SIZES = (
     Action(
         RESOLUTION,
         "Custom size...",
-        lambda w: w.ask_resolution(),
+        ask_resolution,
         "Alt+S",
         is_on=lambda state: state.images.resolution not in (None, *RESOLUTIONS),
         separated=True,
@@ -196,7 +197,7 @@ IMAGE = (
         off=False,
         can=lambda window: not window.state.camera.is_parallel,
     ),
-    Action("Image", "Go to pixel...", lambda w: w.ask_pixel(), "Ctrl+G", separated=True),
+    Action("Image", "Go to pixel...", ask_pixel, "Ctrl+G", separated=True),
     *(
         choosing(
             COUNTING,

@@ -126,12 +126,12 @@ def drive_resolutions_are_fixed_and_fitted(d):
     d.ctx.key_chars_replace_enter("nonsense")
     d.ctx.yield_(3)
     assert both.size == (1280, 720)
-    assert window.boxes.size is not None and "nonsense" in window.boxes.size.problem
+    assert window.box is not None and "nonsense" in window.box.problem
     d.ctx.key_chars_replace_enter("37x23")
     d.ctx.yield_(3)
     d.settle()
     assert both.size == (37, 23)
-    assert window.boxes.size is None
+    assert window.box is None
     d.ctx.key_press(ALT | int(Key.w))
     d.settle()
     assert window.state.images.resolution is None
