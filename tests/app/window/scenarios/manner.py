@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from option_changes import with_options
@@ -286,11 +284,6 @@ def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
     assert np.abs(whole[half] - view[half]).mean() < 2
     d.until(lambda: not shell.captures.busy)
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
-    # Without a display there is no clipboard: one line says so.
-    os.environ["PATH"], path = "", os.environ["PATH"]
-    d.press(CTRL | int(Key.f12))
-    d.until(lambda: any("clipboard" in text for text in shell.toasts.texts))
-    os.environ["PATH"] = path
 
 
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
