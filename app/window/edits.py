@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from imgui_bundle import imgui
+from imgui_bundle import hello_imgui, imgui
 
+from lucida.app.images.renderers import Renderers
+from lucida.app.lecture.movement import Movement
 from lucida.app.state.app_state import AppState, History
 from lucida.app.state.bounds import OptionPart
 from lucida.app.state.options import Options
 from lucida.app.window.playing import Playing
+from lucida.renderer.scene.focus import scene_focus
 
 
 class Edits:
@@ -18,6 +21,9 @@ class Edits:
 
     A change ends a movement between two states, because it would come from a state on the way.
     """
+
+    renderers: Renderers
+    moves: bool
 
     def __init__(self, state: AppState) -> None:
         self.history = History(state)
@@ -65,6 +71,23 @@ class Edits:
     def amend(self, state: AppState) -> None:
         if not self.playing.under_way:  # otherwise asked for again after the movement
             self.history = self.history.amended(state)
+
+    def move(
+        self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
+    ) -> None:
+        start = start or self.state
+        self.playing.end()
+        self.change(state)
+        if move_s and self.moves and not state.preferences.reduced_motion:
+            movement = Movement(start, state, scene_focus(state.scene), self.renderers.size)
+            self.playing.begin(movement, move_s, loop)
+            self.animate()
+
+    def end_movement(self) -> bool:
+        return self.playing.end()
+
+    def animate(self) -> None:
+        hello_imgui.request_refresh()
 
     def unclick(self) -> None:
         self.history = self.history.unclicked(("drag", self._gesture))

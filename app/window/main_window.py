@@ -135,14 +135,6 @@ class MainWindow(Edits):
     def is_visible(self, view: str) -> bool:
         return view in self.shell.stage.rects
 
-    def move(
-        self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
-    ) -> None:
-        self.motions.move(self, state, move_s, loop, start)
-
-    def end_movement(self) -> bool:
-        return self.playing.end()
-
     def travel(self, state: AppState) -> None:
         self.motions.travel(self, state)
 
@@ -152,9 +144,6 @@ class MainWindow(Edits):
 
     def focus_object(self) -> None:
         self.motions.focus_object(self, self._over or self.views[RASTER])
-
-    def animate(self) -> None:
-        hello_imgui.request_refresh()
 
     def undo(self) -> None:
         """One step back; what was entered last and is not legal is the last step."""
@@ -261,10 +250,7 @@ class MainWindow(Edits):
         self.motions.frame(self, active, keyed if is_keyed else self._over)
         if self.state.step is None and not self.saving.busy and self.files.follow(self.state.scene):
             hello_imgui.request_refresh()
-        opened = self.files.poll()
-        if opened is not None:
-            self.animate()
-            take_opened(self, opened)
+        take_opened(self)
         moving = active or self.motions.under_way
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)

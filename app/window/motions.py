@@ -11,13 +11,12 @@ from imgui_bundle import imgui
 from lucida.app.cameras.presets import framed
 from lucida.app.cameras.travel import CameraTransition
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.lecture.movement import Movement
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.fly import Fly
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.window.edits import Edits
-from lucida.renderer.scene.focus import object_corners, scene_focus
+from lucida.renderer.scene.focus import object_corners
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -69,18 +68,6 @@ class Motions:
         except LucidaError:  # too large for numbers
             return
         host.travel(view.with_flown(host.state, camera))
-
-    def move(
-        self, host: Host, state: AppState, move_s: float, loop: bool, start: AppState | None
-    ) -> None:
-        """Do what Host.move() says."""
-        start = start or host.state
-        self._edits.playing.end()
-        host.change(state)
-        if move_s and host.moves and not state.preferences.reduced_motion:
-            movement = Movement(start, state, scene_focus(state.scene), host.renderers.size)
-            self._edits.playing.begin(movement, move_s, loop)
-            host.animate()
 
     def frame(self, host: Host, active: bool, over: Instrument | None) -> None:
         """Move everything on by a frame. A press of the mouse ends a movement; on an item, a
