@@ -33,12 +33,10 @@ from lucida.app.window.opening import (
     reread,
 )
 from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
-from lucida.renderer.files.models.models import read_by
-from lucida.renderer.files.models.subprocess_reader import CancelledError, ModelReader
 from lucida.renderer.files.outside import LISTED, OutsideError
 from lucida.renderer.files.reading import MODEL_ENDINGS
 from lucida.renderer.scene import Scene, View
-from lucida.renderer.system.cancelling import cancelled_by
+from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
 from lucida.renderer.system.errors import describe, one_line
 
 LECTURE_ENDING = ".toml"
@@ -72,7 +70,7 @@ class Files:
     ) -> None:
         self._wake = wake
         self._loading: Background[Opened] = Background("lucida-load", wake)
-        self.models = ModelReader()
+        self._cancellation = Cancellation()
         self._rereading: Background[Opened] = Background("lucida-reread", wake)
         self._watch = SceneWatch()
         self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
@@ -149,12 +147,11 @@ class Files:
         return self._watch.waiting
 
     def cancel(self) -> None:
-        """Ends the loading. A large model is in a process of its own, which is killed; what is not
-        is left between two of its parts."""
+        """End the loading: its thread stops between two parts of its work."""
         if self._loading.busy:
-            self.models.cancel()
+            self._cancellation.cancel()
             self._loading.close(0.0)
-            self.models = ModelReader()
+            self._cancellation = Cancellation()
             self._loading = Background("lucida-load", self._wake)
             self._said.append(f"Loading {self._source} was cancelled.")
 
@@ -276,7 +273,7 @@ class Files:
         self._wake()
 
     def close(self) -> None:
-        self.models.cancel()
+        self._cancellation.cancel()
         self._loading.close()
         self._rereading.close()
         self._saving.close(5.0)
@@ -289,10 +286,10 @@ class Files:
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()
-        models = self.models
+        check = self._cancellation.check
 
         def loaded() -> Opened:
-            with read_by(models.read), cancelled_by(models.check):
+            with cancelled_by(check):
                 return load(agreed)
 
         self._loading.submit(loaded)
