@@ -251,7 +251,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock = Clock(d)
     d.ctx.key_press(int(Key.p))
     window = d.window
-    assert window.transition.under_way
+    assert window.motions.transition.under_way
     distances = []
     for part in (0.2, 0.4, 0.6):
         clock.s = 10.0 + part * DURATION_S
@@ -265,7 +265,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock.s += DURATION_S
     d.ctx.yield_(2)
     assert window.state.camera.is_parallel
-    assert not window.transition.under_way
+    assert not window.motions.transition.under_way
     assert len(window.history.past) == 1
     d.agreeing_images()
     window.undo()
