@@ -59,7 +59,7 @@ def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
     posed, lens = found[0]
     told = f"{lens}{' ignored' if ignored else ''}: it moves "
     told += effect(posed.camera, lens, posed.size)
-    return told if len(cameras) == 1 else f"{told}, the first of {len(found)}"
+    return told if len(found) == 1 else f"{told}, the first of {len(found)}"
 
 
 def _of_all(found: CameraSet) -> list[Fact]:
