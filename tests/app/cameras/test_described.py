@@ -88,9 +88,6 @@ class TestOne:
     def test_a_basis_says_what_it_is(self, fields, said):
         assert told(Camera(**fields))["basis"] == said
 
-    def test_a_fitted_viewport_is_that_of_the_size(self):
-        assert told(Camera(), (200, 100), fit=True)["viewport"] == "(-1, 1, -0.5, 0.5)"
-
     def test_what_products_leave_is_no_number(self):
         assert told(replace(PLAIN, eye=(-1e-15, 2, -0.0)))["eye"] == "(0, 2, 0)"
         assert told(replace(PLAIN, eye=(1e-13, 2, 0)))["eye"] == "(1e-13, 2, 0)"
@@ -134,15 +131,6 @@ class TestSet:
         }
         assert "points" not in of_set(*cameras, points=np.zeros((0, 3)))
 
-    def test_names_and_sizes_are_told_up_to_three(self):
-        sizes = [(1, 1), (2, 1), (2, 1), (3, 1), None]
-        cameras = [PosedCamera(PLAIN, size, str(n)) for n, size in enumerate(sizes)]
-        assert of_set(*cameras[:3])["cameras"] == "3: 0, 1, 2"
-        assert of_set(*cameras[:4])["cameras"] == "4: 0, 1, 2, ..."
-        assert of_set(*cameras[:4])["size"] == "1x1, 2x1, 3x1"
-        assert of_set(*cameras)["size"] == "1x1, 2x1, 3x1, ..."
-        assert of_set(PosedCamera(PLAIN), PosedCamera(PLAIN))["cameras"] == "2"
-
 
 def test_text_has_two_columns():
     text = as_text(facts(CameraSet("view", (PosedCamera(PLAIN),) * 2)))
@@ -179,11 +167,3 @@ class TestData:
             "lens": None,
             "ignored": None,
         }
-
-    def test_what_there_is_not_is_none(self):
-        parallel = PosedCamera(Camera(projection="parallel"), SIZE)
-        data = as_data(CameraSet("view", (PosedCamera(PLAIN), parallel)))
-        first, second = data["cameras"]
-        assert data["points"] == 0
-        assert [first[name] for name in ("size", "K", "R", "t", "ignored")] == [None] * 5
-        assert [second[name] for name in ("fov_deg", "K", "R", "t", "ignored")] == [None] * 5

@@ -10,7 +10,6 @@ import pytest
 from lucida.app.instruments.objects import editing
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of, unlocked
 from lucida.app.state.app_state import AppState
-from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import set_field
 from lucida.renderer.editing.moving import bounds_of
 from lucida.renderer.files import SCENE_NAMES, load_scene
@@ -25,17 +24,6 @@ def state() -> AppState:
 
 def items_of(state: AppState) -> list[int]:
     return [row.item for row in rows_of(state.scene) if row.item is not None]
-
-
-@pytest.mark.parametrize("kind", [*objects.SHAPES, *objects.LIGHTS])
-def test_what_is_added_is_chosen(state, kind):
-    focus = scene_focus(state.scene)
-    after = editing.added(state, kind, focus)
-    (item,) = chosen(after)
-    (row,) = (row for row in rows_of(after.scene) if row.item == item)
-    assert row.kind == kind
-    assert len(rows_of(after.scene)) == len(rows_of(state.scene)) + 1
-    assert after.view == state.view
 
 
 @pytest.mark.parametrize("name", SCENE_NAMES)
