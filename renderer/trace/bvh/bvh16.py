@@ -161,7 +161,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
     levels.
 
     First, compute the cost of each binary node: the least total surface of the wide nodes that its
-    subtree takes if the node above gives it 1 to WIDTH slots. In one slot: its own surface, plus
+    subtree takes if it has 1 to WIDTH slots in the node above. In one slot: its own surface, plus
     the cost of its children in WIDTH slots. In more: the same, or the cost of its children when
     they share these slots in the best way. Then create the wide nodes from the root on, according
     to the costs. below: scratch for the number of leaves below each binary node. row: the start of
