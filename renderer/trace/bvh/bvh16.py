@@ -61,10 +61,10 @@ class WideTree(NamedTuple):
 
     box: float32, for each node low x, y, z, high x, y, z, each of 16 children. The boxes of missing
         children are inside out.
-    child: int32, 16 per node: >= 0 for a node, NO_CHILD, or FIRST_LEAF - k for leaf k. corner:
-    float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles. face: int32, 16 per
-    leaf: the number of each triangle, -1 in unused places (whose corners are NaN).
-        A triangle's index in this array is called its slot.
+    child: int32, 16 per node: >= 0 for a node, NO_CHILD, or FIRST_LEAF - k for leaf k.
+    corner: float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles.
+    face: int32, 16 per leaf: the number of each triangle, -1 in unused places (whose corners are
+        NaN). A triangle's index in this array is called its slot.
     normal: float32, for each leaf x, y, z of 16 unit normals by the winding; 0 for no area.
     bounds: float64 (2, 3), lowest and highest corner.
     levels: number of nodes on the longest path from the root; it bounds a traversal's stack.

@@ -3,8 +3,8 @@
 A lens bends rays, but all of them start at the eye. Within a tile they differ little from the rays
 of a pinhole camera that looks at the tile's middle, and whose image is fitted to the tile's pixels:
 the tile's frame. In it, pixels lie next to a grid. Their exact places are stored, and edge
-functions are evaluated there, so the result is exact. A tile whose rays
-spread too far for one frame (in a small panorama) is divided among the six faces of a cube.
+functions are evaluated there, so the result is exact. A tile whose rays spread too far for one
+frame (in a small panorama) is divided among the six faces of a cube.
 
 The table does not depend on eye and basis: it is made once for a lens and a size.
 """
@@ -179,7 +179,7 @@ class _Fit(NamedTuple):
     """An affine map from a frame's plane to the tile's grid. It maps (x, y) to (column, row), and
     any point (x', y') to
 
-    (column + a (x' - x) + b (y' - y), row + c (x' - x) + d (y' - y)) for a point (x', y').
+    (column + a (x' - x) + b (y' - y), row + c (x' - x) + d (y' - y)).
     """
 
     x: float
