@@ -80,7 +80,7 @@ class AppState:
         return replace(self, view=replace(self.view, camera=camera))
 
     def with_view(self, view: View) -> AppState:
-        """Return the state with another view. A basis that is not orthonormal turns the switch off."""
+        """Return the state with another view. A skewed basis turns keep_orthonormal off."""
         keep = self.keep_orthonormal and is_orthonormal(view.camera)
         return replace(self, view=view, keep_orthonormal=keep)
 
@@ -97,7 +97,7 @@ class AppState:
         )
 
     def with_fit(self, fit: bool) -> AppState:
-        """Return the state with this switch. Off, the camera does not keep its own image's shape."""
+        """Return the state with this switch. Off, the camera's own image size is forgotten."""
         return replace(
             self, view=replace(self.view, fit=fit, given=self.view.given if fit else None)
         )

@@ -25,7 +25,7 @@ DERIVED = (
     "sphere_object",
     "object_sphere",
     "texels",
-)  # computed by modules/scene.js
+)  # by modules/scene.js
 # The values of a vertex that has none of its own.
 EMPTY = {"normals": 0.0, "colors": 1.0, "uv": 0.0}
 

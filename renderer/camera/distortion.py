@@ -179,7 +179,7 @@ class Distortion:
         return x.reshape(shape), y.reshape(shape)
 
     def newton_step(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
-        """Return one step of Newton's method from (x, y) to the points that are mapped to (a, b)."""
+        """Return one step of Newton's method from (x, y) to the points mapped to (a, b)."""
         at_a, at_b = self._map(x, y)
         (xx, xy), (yx, yy) = self._slopes(x, y)
         da, db, turned = at_a - a, at_b - b, xx * yy - xy * yx

@@ -241,7 +241,7 @@ def _radius_of(lens: Lens, angle: Floats) -> Floats:
 
 
 def _angle_of(lens: Lens, radius: Floats) -> Floats:
-    """Return the angle to the axis of directions that appear at a distance from the image's middle."""
+    """Return the angle to the axis of directions at a distance from the image's middle."""
     match lens.model:
         case "stereographic":
             return 2 * np.arctan(radius / 2)

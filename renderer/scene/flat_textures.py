@@ -125,7 +125,7 @@ def on_sphere(texture: Texture, size: tuple[int, int]) -> tuple[float, float, fl
 
 
 def _shift(texture: Texture, size: tuple[int, int], axis: int, middle: float) -> float:
-    """Return the distance of texel coordinates from 0, in whole periods of an image that repeats."""
+    """Return the distance of texel coordinates from 0, in whole periods of the image."""
     if texture.wrap[axis] == "clamp":
         return 0.0
     # The period is twice the image, because every other one may be mirrored.

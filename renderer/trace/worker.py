@@ -165,7 +165,7 @@ class Worker:
             self.is_compiling = False
 
     def _is_unwanted(self, scene: Scene, task: Work) -> bool:
-        """Return True if another scene was requested since, so that preparing this one is useless."""
+        """Return True if another scene was requested since: this one need not be prepared."""
         return self._closed or (task.finished.is_set() and self._newest is not scene)
 
 
