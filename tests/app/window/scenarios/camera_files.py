@@ -26,7 +26,7 @@ LENS = '{"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0
 
 
 def only_sections(d: Driver, *names: str) -> None:
-    for other in ("Copy and paste", "Look at", "Presets", "K, R and t"):
+    for other in ("Look at", "K, R and t"):
         d.ctx.item_close(f"{PANEL}/{other}")
     d.ctx.yield_(2)
     for wanted in names:
@@ -58,6 +58,17 @@ def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> boo
     points = np.random.default_rng(1).uniform(-1, 1, (9, 3))
     seen, wanted = one.project(points, size), other.project(points, size)
     return np.allclose(seen.row, wanted.row) and np.allclose(seen.column, wanted.column)
+
+
+def drive_a_camera_is_copied_and_pasted(d: Driver) -> None:
+    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
+    d.ctx.menu_click("//##MainMenuBar/Edit/Copy camera as/OpenCV")
+    d.ctx.yield_(2)
+    assert said(d).endswith("OpenCV.")
+    d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
+    d.press(CTRL | int(Key.v))
+    assert same_camera(d.window.renderers.camera(d.window.state), shown, size)
+    assert "pasted from the clipboard: " in said(d)
 
 
 def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
