@@ -148,9 +148,8 @@ def _diagnosis(
 ) -> Diagnosis | None:
     if task.feedback != "diagnosis":
         return None
-    from lucida.app.checking.diagnosed import (
-        diagnosis,  # loads the mistakes, so only if there are some
-    )
+    # Loads the mistakes, so only if there are some.
+    from lucida.app.checking.mistakes.diagnosis import diagnosis
 
     return diagnosis(task, cases, given, wrong)
 

@@ -24,7 +24,7 @@ from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.basis import PARTS
 from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
-from lucida.app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
+from lucida.app.checking.tasks import CAMERA_KINDS, SEED, WITH_CAMERAS, CheckTask
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
@@ -35,7 +35,6 @@ from lucida.renderer.system.errors import LucidaError, under
 from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
-WITH_CAMERAS = ("viewing-ray", "render")
 VISION = "K, R and t: x right, y down, z forward"
 NAME = re.compile(r"[^\W\d]\w*")
 

@@ -23,6 +23,7 @@ FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosi
 
 # Kinds of generated cameras, from the simplest; see cases.py.
 CAMERA_KINDS = ("canonical", "moved", "turned", "off-axis", "skewed")
+WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
 RIGID_KINDS = ("canonical", "moved", "turned")
 SEED = 20
 MOST_CALLS = 500_000  # per task, limited by memory and patience

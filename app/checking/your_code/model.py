@@ -15,11 +15,10 @@ from lucida.app.checking.builtin import BUILTIN, builtin_tasks
 from lucida.app.checking.calls import Failure, Limits, Run
 from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
-from lucida.app.checking.diagnosed import diagnosis
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.basis import case_of
 from lucida.app.checking.kinds.viewing_ray import cases_of
-from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.mistakes.diagnosis import Diagnosis, diagnosis
 from lucida.app.checking.task_file import TaskSet, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.state.options.shared import Notation
@@ -182,8 +181,8 @@ def rays_of(
     )
 
 
-def diagnosis_of(rays: CodeRays) -> Diagnosis | None:
-    """Return the diagnosis of the rays, if there is one. Takes a while."""
+def diagnosis_of(rays: CodeRays) -> Diagnosis:
+    """Return the diagnosis of the rays. Takes a while."""
     wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
     return diagnosis(rays.task, rays.cases, rays.given, wrong)
 
