@@ -84,7 +84,7 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
     kind = KINDS[task.kind]
     cases = kind.cases(task)
     result = judged(task, cases, student.call(kind.calls(task, cases)))
-    if result.status == "wrong" and task.feedback == "diagnosis" and not task.vectorised:
+    if result.status == "wrong" and task.feedback == "diagnosis":
         return _asked_again(student, result)
     return result
 

@@ -124,7 +124,6 @@ def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -
         size=entry.size,
         seed=seed,
         feedback=entry.feedback or file.feedback,
-        vectorised=_vectorised(entry, kind),
         weights=base.weights if entry.weights is None else entry.weights,
         inclusive=entry.at_threshold != 0,
         column_major=entry.order == "column-major",
@@ -296,14 +295,6 @@ def camera_view(table: dict[str, Any]) -> View:
     except LucidaError as error:
         field = error.field.removeprefix("camera").lstrip(".")
         raise LucidaError(field, error.problem, error.remedy) from None
-
-
-def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
-    if entry.vectorised and kind.name != "viewing-ray":
-        raise LucidaError(
-            "vectorised", f"{kind.name} has no pixels to be called for", "leave it out"
-        )
-    return entry.vectorised
 
 
 def _check(task: CheckTask) -> None:

@@ -49,6 +49,7 @@ class TaskTable(ConventionsTable, kw_only=True):
     arguments: words, or name = "word".
     returns: words.
     cases: the number of generated cases.
+    vectorised: ignored, as the function is called for each pixel.
     views: cameras as tables, files, or names of built-in scenes.
     weights: of to-gray.
     at_threshold: of to-bitmap: the result for a gray equal to the threshold.

@@ -154,13 +154,13 @@ def rays_of(
     """Return the rays of a run that answers all of the cases, or the first of them."""
     kind = KINDS[task.kind]
     values = [None if isinstance(value, Failure) else value for value in run.values]
-    given, _ = kind.given(task, cases, values)
+    given = np.array(kind.given(task, cases, values)[0])
     result = judged(replace(task, feedback="first-wrong"), cases, run)
     if task.kind == RAY:
-        right, rays = kind.right(cases), given
+        right, rays = np.array([case.right for case in cases], float), given
         wrong = kind.wrong(task, cases, given) & np.isfinite(given).all(axis=(1, 2))
     else:
-        right, rays = _turned(camera, size, kind.right(cases)[0]), _turned(camera, size, given[0])
+        right, rays = _turned(camera, size, cases[0].right), _turned(camera, size, given[0])
         wrong = np.full(len(rays), bool(kind.wrong(task, cases, given)[0]))
         wrong &= np.isfinite(rays).all(axis=(1, 2))
     width, height = size

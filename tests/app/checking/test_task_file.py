@@ -84,7 +84,7 @@ def test_all_that_a_file_can_say(tmp_path):
     assert says.camera[:2] == (("pos", "eye"), ("c2w", "camera_to_world"))
     assert (says.base, says.rows, says.axes) == (1, "bottom", (-1, 1, -1))
     assert says.row_vectors and says.unit and says.any_origin and says.space == "world"
-    assert says.returns == ("direction", "origin") and rays.vectorised
+    assert says.returns == ("direction", "origin")
     assert rays.projections == ("perspective", "parallel") and rays.cameras == ("moved", "turned")
     assert (rays.size, rays.count, rays.seed) == ((12, 8), 7, 6)
     assert rays.feedback == "first-wrong" and offset.feedback == "verdict" and offset.seed == 5
@@ -106,7 +106,7 @@ def test_what_such_tasks_ask(tmp_path):
     (task,) = load(tmp_path, text).tasks
     for case in KINDS["memory-offset"].cases(task):
         i, j, _ = (value for _, value in case.arguments)
-        assert case.right == (j - 1) * case.size[1] + i - 1
+        assert case.right == (j - 1) * case.values["height"] + i - 1
     text = '[[tasks]]\nkind = "basis"\narguments = ["eye", "forward", "up"]\n'
     (task,) = load(tmp_path, text + 'returns = ["forward", "left"]').tasks
     kind = KINDS["basis"]
@@ -171,7 +171,6 @@ OTHERS = {
     "[conventions]\nrow = 1\n" + RAYS: ("2: conventions.row", "did you mean 'rows'"),
     '[[tasks]]\nkind = "basis"\ncameras = ["turned"]': ("3: tasks[0].cameras", "no cameras"),
     '[[tasks]]\nkind = "basis"\nsize = [3, 4]': ("3: tasks[0].size", "no cameras"),
-    '[[tasks]]\nkind = "basis"\nvectorised = true': ("3: tasks[0].vectorised", "no pixels"),
     '[[tasks]]\nkind = "basis"\nreturns = ["w", "back"]': ("3: tasks[0].returns", "twice"),
     '[[tasks]]\nkind = "hit-sphere"\nreturns = ["t"]': ("3: tasks[0].returns", "leave it out"),
     '[[tasks]]\nkind = "closest-hit"\nreturns = ["t"]': ("3: tasks[0].returns", "one thing"),
