@@ -36,7 +36,7 @@ class DrawnAnswer:
         if items and asked != self._drawn:
             host.show(outside.name)
         self._drawn = asked
-        outside.show(SOURCE, items, answer=asked)
+        outside.show(SOURCE, items)
 
     def hide(self, outside: OutsideView) -> None:
         """Take the drawing away."""

@@ -15,8 +15,6 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.kept_lecture import Answers, KeptLecture
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui.watching import FilesWatch, fingerprint
-from lucida.renderer.files.models.models import read_by
-from lucida.renderer.files.models.subprocess_reader import ModelReader
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.file_dependencies import stamp
 
@@ -169,8 +167,7 @@ def reread(session: LectureSession) -> LectureReread:
     """Read a lecture's file again, on a thread. Another lecture may have begun before this ends."""
     agreed = frozenset(session.lecture.outside)
     try:
-        # A large model of its scenes is read in a separate process.
-        with session.watch.reading(), read_by(ModelReader().read):
+        with session.watch.reading():
             lecture = load_lecture(session.path, agreed)
     except Exception as error:  # shown below the text, which stays
         return LectureReread(session, None, describe(error))

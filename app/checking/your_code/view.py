@@ -241,7 +241,7 @@ class YourCodeView(Instrument):
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
+        self._outside.show(YOUR_CODE, items)
 
     # Requests of the user.
 

@@ -124,7 +124,7 @@ FISHEYE = Lens("fisheye", {"k1": 0.1})
 )
 def test_a_lens_passes_evenly_or_switches_at_half_of_the_way(start, end, early, late):
     one, two = (View(replace(BASE, lens=lens)) for lens in (start, end))
-    passage = Passage(one, two, (0.0, 0.5, 0.0), BOX, SIZE)
+    passage = Passage(one, two, (0.0, 0.5, 0.0), SIZE)
     assert (passage.at(0.0), passage.at(1.0)) == (one, two)
     if not isinstance(early, dict):
         assert passage.at(0.4).camera.lens == early
@@ -139,7 +139,7 @@ def test_a_lens_passes_evenly_or_switches_at_half_of_the_way(start, end, early, 
 
 def test_parallel_rays_pass_through_no_lens_on_the_way():
     parallel = navigation.switched_projection(BASE, (0, 0.5, 0))
-    passage = Passage(View(replace(BASE, lens=BARREL)), View(parallel), (0, 0.5, 0), BOX, SIZE)
+    passage = Passage(View(replace(BASE, lens=BARREL)), View(parallel), (0, 0.5, 0), SIZE)
     kinds = {passage.at(float(part)).camera.projection for part in np.linspace(0, 1, 101)}
     assert kinds == {"perspective", "parallel"}
     assert math.isclose(passage.at(0.01).camera.lens.coefficient("k1"), -0.2, rel_tol=1e-2)

@@ -19,14 +19,15 @@ from hard_readings import (
 )
 
 from lucida.app.instruments.probe.color_formulas import color_lines
-from lucida.app.instruments.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
+from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python, as_text
 from lucida.app.instruments.probe.formulas import LEAST_COSINE, hit_lines, ray_lines
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.lecture.typesetting import mistake
 from lucida.app.ui import formula
-from lucida.app.ui.explaining.languages import julia
+from lucida.app.ui.explaining.symbols import TABLE
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.scene.model import (
     DirectionalLight,
@@ -333,6 +334,28 @@ def test_a_copied_program_leaves_what_the_probe_knows(name):
         assert left["normal"] == pytest.approx(np.array(reading.hit.normal), abs=1e-6)
 
 
+@pytest.mark.parametrize("notation", ["book", "code"])
+def test_a_copied_program_has_one_notation(notation):
+    """None of its names is a symbol of the other one; a pixel's ray is the same in both."""
+    of = {"book": ("letter", "p", "d"), "code": ("code", "origin", "direction")}
+    symbol, *names = of[notation]
+    own = {"w"} | {getattr(one, symbol) for one in TABLE}
+    others = {name for one in TABLE for name in (one.letter, one.code)} - own
+    for reading in (on_the_floor(), lensed()):
+        program = as_python(reading, notation=notation)
+        bare = "\n".join(line.partition("#")[0] for line in program.split("\n"))
+        assert not others & set(re.findall(r"(?<![\w.])(?:cam\.)?[A-Za-z_]\w*", bare))
+        left: dict = {"print": lambda *_: None}
+        exec(program, left)
+        np.testing.assert_allclose(left[names[0]], reading.origin)
+        np.testing.assert_allclose(left[names[1]], reading.direction)
+
+
+def lensed() -> Reading:
+    camera = Camera(lens=Lens("brown", {"k1": -0.2, "p1": 0.01}))
+    return Probe(BALL).at((0, 1), camera, (3, 2))
+
+
 def test_a_copied_program_says_what_its_lines_are():
     reading = on_the_floor()
     program = as_python(reading)
@@ -348,8 +371,6 @@ def test_a_copied_program_says_what_its_lines_are():
         "mirrored ray 2",
         "The display: exposure, curve, 8 bits.",
     ]
-    arrays = as_python(reading, Indexing.ARRAY, "code")
-    assert as_julia(reading, Indexing.ARRAY, "code") == julia.program(arrays)
 
 
 def test_copied_formulas_stand_below_one_another():

@@ -33,8 +33,8 @@ NOTE = "//###pending camera"
 
 
 def drive_a_number_that_is_not_legal_moves_nothing(d: Driver) -> None:
-    """The presets stay where they are, and one of them is a way out."""
-    names = ("Scene's view", "Canonical", "Presets", "Look at", "##eye.x", "##distance")
+    """The buttons stay where they are, and one of them is a way out."""
+    names = ("Scene's view", "Canonical", "Look at", "##eye.x", "##distance")
 
     def places() -> list[tuple[float, float]]:
         boxes = (d.ctx.item_info(f"//Camera/{name}").rect_full for name in names)

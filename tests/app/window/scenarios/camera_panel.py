@@ -1,5 +1,4 @@
-"""The camera panel beyond its plain numbers: what is coupled, presets, passages, copy and
-paste."""
+"""The camera panel beyond its plain numbers: what is coupled, presets, lenses, passages."""
 
 from __future__ import annotations
 
@@ -11,7 +10,6 @@ from option_changes import with_options
 from window_driver import Driver, Key, changed
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS
-from lucida.app.cameras.presets import PRESETS
 from lucida.app.cameras.travel import DURATION_S
 from lucida.app.ui import typed
 from lucida.renderer.camera.camera import Camera
@@ -26,7 +24,7 @@ def open_section(d: Driver, name: str) -> None:
 
 
 def close_sections(d: Driver) -> None:
-    for name in ("Copy and paste", "Look at", "Presets", "K, R and t", "Lens"):
+    for name in ("Look at", "K, R and t", "Lens"):
         d.ctx.item_close(f"//Camera/{name}")
     d.ctx.yield_(2)
 
@@ -50,7 +48,7 @@ def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
     close_sections(d)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
-    for name in ("Lens", "K, R and t", "Presets", "Look at", "Copy and paste"):
+    for name in ("Lens", "K, R and t", "Look at"):
         assert d.ctx.item_info(f"//Camera/{name}").rect_full.max.y < bottom
 
 
@@ -174,30 +172,17 @@ def drive_a_number_is_reset_copied_and_pasted(d: Driver) -> None:
     assert len(d.window.history.past) == 3
 
 
-def drive_every_preset_frames_the_scene_in_both_images(d: Driver) -> None:
-    close_sections(d)
-    open_section(d, "Presets")
-    for preset in PRESETS:
-        d.ctx.item_click(f"//Camera/{preset.name}")
-        camera = d.window.state.camera
-        assert (camera.u, camera.v, camera.w) == (preset.u, preset.v, preset.w)
-        if preset.name in ("Left", "Isometric", "Cabinet"):
-            d.agreeing_images()
-    d.ctx.item_click("//Camera/in perspective")
-    d.ctx.item_click("//Camera/Right")
-    assert not d.window.state.camera.is_parallel
-    d.ctx.item_click("//Camera/Cabinet")
-    assert d.window.state.camera.is_parallel
-    d.ctx.menu_click("//##MainMenuBar/Camera/Presets/Top")
-    assert d.window.state.camera.w == (0, 1, 0)
-    close_sections(d)
+def drive_presets_frame_the_scene_in_both_images(d: Driver) -> None:
+    for name in ("Left", "Cabinet"):
+        d.ctx.menu_click(f"//##MainMenuBar/Camera/Presets/{name}")
+        d.agreeing_images()
 
 
 def drive_a_lens_is_chosen_dragged_and_taken_off(d: Driver) -> None:
     close_sections(d)
     open_section(d, "Lens")
     before = d.images()
-    d.ctx.item_click("//Camera/Barrel")
+    d.ctx.menu_click("//##MainMenuBar/Camera/Lens/Barrel")
     barrel = d.window.state.camera
     assert barrel.lens == LENS_PRESETS[0].lens
     assert changed(before[0], d.agreeing_images()[0]) > 0.1
@@ -222,7 +207,7 @@ def drive_a_lens_is_chosen_dragged_and_taken_off(d: Driver) -> None:
     assert d.window.state.camera.lens is None
     assert any("The lens is off" in text for text in d.window.shell.toasts.texts)
     d.window.undo()
-    d.ctx.item_click("//Camera/No lens")
+    d.ctx.menu_click("//##MainMenuBar/Camera/Lens/No lens")
     camera = d.window.state.camera
     assert (camera.lens, camera.distance) == (None, d.start.camera.distance)
     close_sections(d)
@@ -266,7 +251,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock = Clock(d)
     d.ctx.key_press(int(Key.p))
     window = d.window
-    assert window.transition.under_way
+    assert window.motions.transition.under_way
     distances = []
     for part in (0.2, 0.4, 0.6):
         clock.s = 10.0 + part * DURATION_S
@@ -280,7 +265,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     clock.s += DURATION_S
     d.ctx.yield_(2)
     assert window.state.camera.is_parallel
-    assert not window.transition.under_way
+    assert not window.motions.transition.under_way
     assert len(window.history.past) == 1
     d.agreeing_images()
     window.undo()

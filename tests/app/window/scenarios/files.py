@@ -5,15 +5,13 @@ from __future__ import annotations
 import os
 import sys
 import threading
-from pathlib import Path
 from typing import Any
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from option_changes import with_options
 from window_driver import PATIENT_S, Driver, Key, changed
 
-from lucida.app.ui import folders, messages
-from lucida.app.ui.folders import FolderContent
+from lucida.app.ui import messages
 from lucida.app.window.palette_entries import entries
 from lucida.app.window.viewer import IDLE_FPS, WAITING_FPS
 from lucida.renderer.camera.camera import Camera
@@ -174,31 +172,6 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
     d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
     assert files.recent.entries == ()
-
-
-def drive_a_name_is_meant_for_the_folder_that_was_typed_before_it(d: Driver) -> None:
-    """A slow disk has not answered for that folder yet."""
-    dialog, folder = d.window.files.dialog, d.folder / "slow"
-    folder.mkdir()
-    gate, read = threading.Event(), folders.read_folder
-
-    def slow(where: Path, endings: tuple[str, ...]) -> FolderContent:
-        assert gate.wait(60)
-        return read(where, endings)
-
-    folders.read_folder = slow
-    try:
-        d.press(CTRL | SHIFT | int(Key.s))
-        d.ctx.key_chars_replace_enter(str(folder))
-        d.ctx.yield_(2)
-        assert dialog.is_open and dialog.folder == folder and not dialog.listing.files
-        d.ctx.key_chars_replace_enter("typed")
-        d.until(lambda: (folder / "typed.toml").exists())
-    finally:
-        folders.read_folder = read
-        gate.set()
-    d.settle()
-    d.window.shell.toasts.clear()
 
 
 def drive_several_files_are_dropped(d: Driver) -> None:

@@ -25,7 +25,7 @@ def drive_a_pixel_is_typed(d: Driver) -> None:
     window = d.window
     typed(d, "31", "41")
     assert window.state.marked == (30, 40)
-    assert window.boxes.pixel is None
+    assert window.box is None
     window.change(with_options(window.state, one_based=False))
     typed(d, "31", "41")
     assert window.state.marked == (31, 41)
@@ -47,11 +47,11 @@ def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
     window.change(before)
     d.ctx.yield_(2)
     typed(d, "99999", "1")
-    assert window.boxes.pixel is not None
-    assert "'99999' is no row of this image; give 1 to" in window.boxes.pixel.problem
+    assert window.box is not None
+    assert "'99999' is no row of this image; give 1 to" in window.box.problem
     assert with_options(window.state, marked_size=None) == before
     d.press(int(Key.escape))
-    assert window.boxes.pixel is None
+    assert window.box is None
     assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
 
 
@@ -67,10 +67,10 @@ def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
     d.press(int(Key._2))
     assert not window.shell.toasts.texts
     d.press(int(Key.p))  # would switch the projection
-    assert window.boxes.pixel is not None
+    assert window.box is not None
     assert window.state == before
     d.press(int(Key.escape))
-    assert window.boxes.pixel is None
+    assert window.box is None
     assert window.state == before, "presentation goes on"
     window.undo()
     d.settle()

@@ -9,6 +9,7 @@ from imgui_bundle import hello_imgui, imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
 from window_driver import SIZE, Key
 
+from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.lenses import Lens
@@ -125,12 +126,12 @@ def drive_resolutions_are_fixed_and_fitted(d):
     d.ctx.key_chars_replace_enter("nonsense")
     d.ctx.yield_(3)
     assert both.size == (1280, 720)
-    assert window.boxes.size is not None and "nonsense" in window.boxes.size.problem
+    assert window.box is not None and "nonsense" in window.box.problem
     d.ctx.key_chars_replace_enter("37x23")
     d.ctx.yield_(3)
     d.settle()
     assert both.size == (37, 23)
-    assert window.boxes.size is None
+    assert window.box is None
     d.ctx.key_press(ALT | int(Key.w))
     d.settle()
     assert window.state.images.resolution is None
@@ -165,8 +166,12 @@ def drive_the_strip_does_the_same(d):
         ("channel", "Depth", lambda images: images.channel == "depth"),
         ("resolution", "160 x 90", lambda images: images.resolution == (160, 90)),
         ("magnification", "16x", lambda images: images.magnification == 16),
-        ("transfer", "linear", lambda images: images.transfer == "linear"),
-        ("component", "Red", lambda images: images.component == "red"),
+        (
+            "transfer",
+            LINEAR.name,
+            lambda images: images.transfer == "linear",
+        ),
+        ("component", "Red only", lambda images: images.component == "red"),
     ):
         d.ctx.item_click(f"**/##{name}")
         d.ctx.yield_(2)

@@ -12,10 +12,9 @@ from PIL import Image
 from window_driver import SIZE, Driver, Key
 
 from lucida.app.images.pair.view import RasterView
-from lucida.app.images.photograph.actions import PHOTOGRAPH
+from lucida.app.images.photograph.actions import PHOTOGRAPH, UNDISTORT
 from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.photograph.model import closed
-from lucida.app.images.photograph.panel import UNDISTORT
 from lucida.app.images.renderers import Renderers
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored
