@@ -35,6 +35,7 @@ from lucida.renderer.system.errors import LucidaError, under
 from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
+REMOVED = ("vectorised",)  # fields of older files; a function is called for each pixel
 VISION = "K, R and t: x right, y down, z forward"
 NAME = re.compile(r"[^\W\d]\w*")
 
@@ -84,7 +85,8 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     tasks: list[CheckTask] = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"
-        entry: TaskTable = to_struct(table, TaskTable, field)
+        kept = {name: value for name, value in table.items() if name not in REMOVED}
+        entry: TaskTable = to_struct(kept, TaskTable, field)
         with under(field):
             task = _task(entry, file, shared, folder)
             if any(task.name == other.name for other in tasks):

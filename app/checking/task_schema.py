@@ -49,7 +49,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     arguments: words, or name = "word".
     returns: words.
     cases: the number of generated cases.
-    vectorised: ignored, as the function is called for each pixel.
     views: cameras as tables, files, or names of built-in scenes.
     weights: of to-gray.
     at_threshold: of to-bitmap: the result for a gray equal to the threshold.
@@ -64,7 +63,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     points: Annotated[float, Meta(ge=0, le=1e6)] = 1.0
     arguments: list[str] | dict[str, str] | None = None
     returns: list[str] | None = None
-    vectorised: bool = False
     projection: Literal["perspective", "parallel", "both"] | None = None
     cameras: list[str] | None = None
     views: list[dict[str, Any] | str] = field(default_factory=list)
@@ -94,4 +92,4 @@ class TaskFile(StrictTable, kw_only=True):
     network: bool = False
     notation: Notation = "book"
     conventions: ConventionsTable = field(default_factory=ConventionsTable)
-    tasks: list[Any]
+    tasks: list[dict[str, Any]]

@@ -43,7 +43,6 @@ class CodeRays:
     wrong: the wrong rays among those returned, bool (H, W).
     result: that of a check, without diagnosis.
     camera: the window's, mirrored if the course's coordinates are left-handed.
-    seconds: the duration of the calls.
     cases, given: the cases, and the answers in the kind's own form.
     """
 
@@ -56,7 +55,6 @@ class CodeRays:
     right_directions: Floats
     wrong: NDArray[np.bool_]
     result: TaskResult
-    seconds: float
     cases: Sequence[CheckCase]
     given: Floats
 
@@ -149,7 +147,6 @@ def rays_of(
     size: Size,
     cases: Sequence[CheckCase],
     run: Run,
-    seconds: float = 0.0,
 ) -> CodeRays:
     """Return the rays of a run that answers all of the cases, or the first of them."""
     kind = KINDS[task.kind]
@@ -175,7 +172,6 @@ def rays_of(
         right[:, 1].reshape(shape),
         wrong.reshape(height, width),
         result,
-        seconds,
         cases,
         given,
     )
