@@ -96,7 +96,7 @@ class OutsideView(Instrument):
 
     @property
     def settled(self) -> bool:
-        return not self._scopes.waits and (self.tools is None or self.tools.settled)
+        return not self._scopes.moves and (self.tools is None or self.tools.settled)
 
     @property
     def primitives(self) -> Sequence[Primitive]:

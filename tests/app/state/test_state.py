@@ -173,7 +173,7 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
             STATE,
             "camera: eye, shadows, grid",
         ),
-        (STATE, STATE, "nothing to be seen"),
+        (STATE, STATE, "nothing visible"),
     ],
 )
 def test_a_step_of_undo_is_named_by_what_it_changes(before, after, words) -> None:
