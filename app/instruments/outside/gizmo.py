@@ -279,12 +279,12 @@ def manipulate(
         matrix16(view), matrix16(projection), handle.operation, handle.mode, matrix,
         snap=handle.snap,
     )  # fmt: skip
-    over = gizmo.is_using() or gizmo.is_over()
-    gizmo.pop_id()
+    using, over = is_dragging(), gizmo.is_using() or gizmo.is_over()
+    gizmo.pop_id()  # is_using() asks for the pushed one
     recolor(draw, first, handle.colors)
     hide_text(draw, first)
     after = np.asarray(matrix.values, float).reshape(4, 4).T if moved else None
-    return Manipulated(is_dragging(), over, after, projection @ view)
+    return Manipulated(using, over, after, projection @ view)
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:
