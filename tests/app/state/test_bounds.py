@@ -26,7 +26,6 @@ from lucida.app.state.options import Options
 from lucida.app.state.options.compare import CompareOptions
 from lucida.app.state.options.laboratory import LaboratoryOptions
 from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.state.options.probe import ProbeOptions
 from lucida.app.state.options.shared import Bookmark, ImageOptions, Preferences
 from lucida.app.state.options.stepper import StepperOptions
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
@@ -53,8 +52,6 @@ WRONG: list[tuple[str, str, Any, str, str]] = [
     ("outside", "bundle", [1, -1], "[1]", "-1 is out of range"),
     ("laboratory", "progress", -0.1, "", "-0.1 is out of range; give 0 to 4"),
     ("laboratory", "after_ev", 6.5, "", "6.5 is out of range; give -6 to 6"),
-    ("probe", "pins", [[0, 1], [2, -1]], "[1][1]", "-1 is out of range; give 0 to 16383"),
-    ("probe", "pins", [[0, 0]] * 257, "", "has 257 entries; give at most 256"),
     ("stepper", "canvas", [100_000, 100_000], "[0]", "100000 is out of range; give 1 to 64"),
     ("stepper", "canvas", [64, 49], "[1]", "49 is out of range; give 1 to 48"),
     ("stepper", "steps", [0, -1], "[1]", "-1 is out of range; give 0 to 1000000"),
@@ -90,7 +87,7 @@ def test_every_number_among_the_options_has_a_bound():
 
 
 def test_every_list_among_the_options_has_a_length():
-    for kind in (Options, ProbeOptions):
+    for kind in (Options, OutsideOptions):
         for name, hint in get_type_hints(kind, include_extras=True).items():
             if Ellipsis in get_args(hint) or Ellipsis in get_args(get_args(hint)[:1] or None):
                 assert any(isinstance(m, AtMost) for m in hint.__metadata__), name
@@ -132,7 +129,6 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
         laboratory={"progress": 9.0, "phase": math.nan},
         stepper={"canvas": (16, 49)},
         marked=(-1, 3),
-        probe={"pins": tuple((k, k) for k in range(300))},
     )
     assert changed.images == replace(
         ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
@@ -141,7 +137,6 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
     assert changed.options.laboratory == LaboratoryOptions(progress=4.0)
     assert changed.options.stepper == StepperOptions(canvas=(16, 48))
     assert changed.marked == (0, 3)
-    assert changed.options.probe.pins == tuple((k, k) for k in range(44, 300))
 
 
 def test_what_is_within_bounds_is_the_same_value(state):

@@ -114,7 +114,7 @@ def test_options_keep_their_places_in_the_file(state):
     """Shared ones and the instruments' side by side: sessions of other versions are read."""
     options = json.loads(to_bytes(session_of(state, ARRANGEMENT)))["options"]
     names = "images preferences marked shadows mirrors one_based language bookmarks"
-    rooms = "compare outside probe stepper costs laboratory"
+    rooms = "compare outside stepper costs laboratory"
     assert set(options) >= {*names.split(), *rooms.split(), "presets_in_perspective"}
     assert options["stepper"]["canvas"] == [16, 12] and options["outside"]["bundle"] == [3, 4]
 
