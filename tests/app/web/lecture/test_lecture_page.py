@@ -443,14 +443,6 @@ def test_axe_finds_nothing(browser, written):
     assert found == set()
 
 
-def test_a_phone_scrolls_in_one_direction(opened):
-    opened.set_viewport_size({"width": 360, "height": 740})
-    for _ in opened.locator("section.step").all():
-        wide = opened.evaluate("document.documentElement.scrollWidth")
-        assert wide <= 360, place(opened)
-        opened.keyboard.press("ArrowRight")
-
-
 @pytest.mark.parametrize("answers", [True, False])
 def test_a_print_has_a_page_for_each_picture(written, answers):
     if shutil.which("chromium") is None:
