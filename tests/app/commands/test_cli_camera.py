@@ -138,7 +138,6 @@ class TestWriting:
         assert out == "a.toml: view, 1 camera\n"
         assert load_view("a.toml").camera.eye == pytest.approx((0, 1, 6))
 
-
     def test_a_folder_is_written_whole(self, capsys):
         for _ in range(2):  # and over itself
             out = told(capsys, "set.json", "--to", "colmap", "-o", "d.1")
