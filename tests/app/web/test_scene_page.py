@@ -26,7 +26,7 @@ from lucida.renderer.scene import (
     Texture,
 )
 from lucida.renderer.scene.model import View
-from tests.support.browser import Page, chromium, unexplained
+from tests.support.browser import Page, unexplained
 from tests.support.page_cameras import LENSES, random_cameras, ray_error
 from tests.support.textured import noise
 
@@ -52,12 +52,6 @@ def _painted() -> Scene:
         view=View(Camera.look_at((0.5, 0.6, 6), (0, 0, 0), fov_y_deg=40), fit=True),
         name="painted",
     )
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as found:
-        yield found
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from any_camera import cameras
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lucida import Camera, LucidaError
@@ -13,30 +14,7 @@ from lucida.renderer.camera.camera import check_camera
 from lucida.renderer.camera.checks import LARGEST, SMALLEST, volume
 from lucida.renderer.scene.model import View
 
-numbers = st.floats(-3, 3, allow_nan=False)
-vectors = st.tuples(numbers, numbers, numbers)
 sizes = st.tuples(st.integers(1, 40), st.integers(1, 40))
-projections = st.sampled_from(["perspective", "parallel"])
-
-
-@st.composite
-def cameras(draw):
-    """Any legal camera: skewed, scaled and left-handed bases, off-axis viewports."""
-    basis = np.array([draw(vectors) for _ in range(3)])
-    lengths = np.linalg.norm(basis, axis=1)
-    assume((lengths > 0.1).all())
-    assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
-    left, bottom = draw(numbers), draw(numbers)
-    width, height = draw(st.floats(0.05, 4)), draw(st.floats(0.05, 4))
-    return Camera(
-        eye=draw(vectors),
-        u=basis[0],
-        v=basis[1],
-        w=basis[2],
-        distance=draw(st.floats(0.1, 5)),
-        viewport=(left, left + width, bottom, bottom + height),
-        projection=draw(projections),
-    )
 
 
 @given(cameras(), sizes, st.floats(0.01, 100))
@@ -127,34 +105,6 @@ def test_look_at_names_what_is_wrong(arguments, field):
     assert error.value.field == field
 
 
-@pytest.mark.parametrize(
-    ("changes", "field", "value"),
-    [
-        ({"eye": (0, 0, math.nan)}, "eye", "nan"),
-        ({"eye": (0, 0, math.inf)}, "eye", "inf"),
-        ({"eye": (0, 0)}, "eye", "(0, 0)"),
-        ({"eye": "abc"}, "eye", "abc"),
-        ({"u": (1e200, 0, 0)}, "u", "1e+200"),
-        ({"w": (0, -1, 0)}, "w", "(0, -1, 0)"),
-        ({"distance": "far"}, "distance", "far"),
-        ({"viewport": (0, 1, 1, 1)}, "viewport", "(0, 1, 1, 1)"),
-        ({"viewport": (0, 1)}, "viewport", "(0, 1)"),
-        ({"projection": "fisheye"}, "projection", "fisheye"),
-        ({"near": 2, "far": 2}, "far", "2"),
-        ({"far": math.nan}, "far", "nan"),
-        ({"near": math.inf}, "near", "inf"),
-        ({"near": "close"}, "near", "close"),
-    ],
-)
-def test_an_illegal_camera_names_field_value_and_remedy(changes, field, value):
-    with pytest.raises(LucidaError) as error:
-        Camera(**changes)
-    assert error.value.field == field
-    assert value in error.value.problem
-    assert error.value.remedy
-    assert "\n" not in str(error.value)
-
-
 def test_denormal_numbers_are_legal():
     assert Camera(u=(1, 0, 5e-324), v=(0, 1, 0), w=(0, 0, 1)).determinant == 1
     assert abs(volume((0, 0, 1), (0, 1, 0), (5e-324, 0, 1))) < 1e-300
@@ -241,6 +191,12 @@ def test_the_smallest_and_the_largest_numbers_are_legal():
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
+        ({"eye": (0, 0, math.nan)}, "eye: nan is not finite; give"),
+        ({"eye": (0, 0)}, "eye: (0, 0) is not 3 numbers; give"),
+        ({"eye": "abc"}, "eye: 'abc' is not 3 numbers; give"),
+        ({"projection": "fisheye"}, "projection: 'fisheye' is unknown; give"),
+        ({"far": math.nan}, "far: nan is not finite; give"),
+        ({"distance": "far"}, "distance: 'far' is not a number; give"),
         ({"distance": 0}, "distance: 0 is not above 0; give"),
         ({"distance": SMALLEST / 2}, "distance: 5e-13 is not above 1e-12; give"),
         ({"distance": -3}, "distance: -3 is not above 0; give"),

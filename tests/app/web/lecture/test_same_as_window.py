@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from both_lectures import both_lectures
 
 from lucida.app.images.request import MIRROR_DEPTH
 from lucida.app.instruments.laboratory.looks import look_of
@@ -37,11 +36,6 @@ SEEN = (320, 180)  # an image's size where a build says none: app/web/lecture/de
 WITH_RAY = ("raster", "ray", "outside", "compare", "mistakes")
 RAY = re.compile(r"Pixel (\([^)]*\)) is marked: its ray has p = (\(.*?\)) and d = (\(.*?\)),")
 Said = dict[str, Any]
-
-
-@pytest.fixture(scope="module")
-def lecture() -> Lecture:
-    return both_lectures()
 
 
 @pytest.fixture(scope="module")
