@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from copied_views import cameras, vectors
+from any_camera import cameras, vectors
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from copied_views import cameras, vectors
+from any_camera import cameras, vectors
 from hypothesis import given
 from hypothesis import strategies as st
 
