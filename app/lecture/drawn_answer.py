@@ -39,5 +39,5 @@ class DrawnAnswer:
         outside.show(SOURCE, items)
 
     def hide(self, outside: OutsideView) -> None:
-        """Take the drawing away."""
+        """Remove the drawing."""
         outside.show(SOURCE)
