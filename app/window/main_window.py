@@ -70,6 +70,7 @@ class MainWindow(Edits):
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
         self.box: EntryBox | None = None
+        self.is_rearranging = True
         self._focus = Memo(scene_focus)
         self.motions = Motions(self, instant=not smooth)
         self.moves = smooth
@@ -105,9 +106,9 @@ class MainWindow(Edits):
             if failure is not None:
                 raise failure
 
-    def is_rearranging(self) -> bool:
-        """Return True if the frame that has been laid out is no picture yet. Call once a frame."""
-        return self.shell.stage.place() or self.lecture.is_entering
+    def end_layout(self) -> None:
+        """Note whether the frame that has been laid out is a picture. Call once a frame."""
+        self.is_rearranging = self.shell.stage.place() or self.lecture.is_entering
 
     @property
     def lecture(self) -> LectureView:

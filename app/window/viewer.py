@@ -250,7 +250,8 @@ class WindowRun:
             io = imgui.get_io()  # not the window: that may be of another size by now
             size, scale = io.display_size, io.display_framebuffer_scale
             pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
-            drawn = self._canvas.bind(pixels, self.window.is_rearranging())
+            self.window.end_layout()
+            drawn = self._canvas.bind(pixels, self.window.is_rearranging)
             drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
 
     def _before_swap(self) -> None:
