@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.remedies import helped, remedy_for
 from lucida.app.images.marking import Anchor, followed
-from lucida.app.images.pair.dark_note import DarkNote, note_button
+from lucida.app.images.pair.dark_note import dark_note
 from lucida.app.images.pair.image_mouse import ImageMouse
 from lucida.app.images.pair.marks import claim_keys, walked
 from lucida.app.images.pair.pane import Over, Pane, draw_pane
@@ -100,8 +100,6 @@ class ImageView(Instrument):
         start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         screen = Screen.here(both.placed(host.state.images, room_px))
         self._before_image(host, screen)
-        is_now = not (pane.error or pane.note)
-        dark = self._why_black(host, screen) if is_now else None
         clicks: list[tuple[Pixel, bool]] = []
         hovered = self._hovered(host, screen.placement)
         if shared.mouse.grab is None and guest is not None and guest.holds(self.name):
@@ -113,10 +111,12 @@ class ImageView(Instrument):
         if shared.mouse.grab is not None:
             hovered = None
         screen = Screen(both.placed(host.state.images, room_px), screen.corner, screen.scale)
-        over = Over(hovered, shared.pins(host.state), dark, self._on_pixels)
+        over = Over(hovered, shared.pins(host.state), self._on_pixels)
         draw_pane(host, pane, over, screen, (start, start + avail))
         imgui.set_cursor_screen_pos(start)
         self._over_image(host, screen)
+        if not (pane.error or pane.note):
+            self._why_black(host, screen)
         if guest is not None:
             self._with_guest(host, guest, screen, clicks, is_over)
 
@@ -190,24 +190,22 @@ class ImageView(Instrument):
     def _over_image(self, host: Host, screen: Screen) -> None:
         """Draw over the image."""
 
-    def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
+    def _why_black(self, host: Host, screen: Screen) -> None:
         """Draw the note on a black image, with its button if there is one that helps."""
-        both, state = host.renderers, host.state
+        both, state, guest = host.renderers, host.state, self.linked.guest
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
-            return None
-        guest = self.linked.guest
+            return
         offered = guest.remedy(state, reason.cause) if guest is not None else ""
-        note = DarkNote(reason.text, offered or remedy_for(reason))
-        if note_button(note, screen):
-            try:
-                if guest is not None and offered:
-                    host.change(guest.remedied(state, offered))
-                else:
-                    host.travel(helped(state, reason, verdict.darkness, host.focus))
-            except LucidaError as problem:
-                host.files.message = str(problem)
-        return note
+        if not dark_note(reason.text, offered or remedy_for(reason), screen):
+            return
+        try:
+            if guest is not None and offered:
+                host.change(guest.remedied(state, offered))
+            else:
+                host.travel(helped(state, reason, verdict.darkness, host.focus))
+        except LucidaError as problem:
+            host.files.message = str(problem)
 
     def _strip(self, host: Host) -> None:
         if host.has_tools and not host.state.preferences.presentation:

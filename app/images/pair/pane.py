@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.pair.dark_note import DarkNote, draw_dark_note
 from lucida.app.images.pair.marks import draw_hovered, draw_marked, draw_pin
 from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
 from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
@@ -48,12 +47,11 @@ class Over:
     """What is drawn over an image.
 
     hovered: the pixel under the mouse, to be framed here. pins: pixels to be marked with their
-    numbers. dark: why an image as it should be is black. on_pixels: draws below everything else.
+    numbers. on_pixels: draws below everything else.
     """
 
     hovered: Pixel | None
     pins: Sequence[Pixel]
-    dark: DarkNote | None
     on_pixels: Callable[[Host, Screen], None]
 
 
@@ -95,8 +93,6 @@ def draw_pane(host: Host, pane: Pane, over: Over, screen: Screen, room: Box) -> 
     if pane.error is not None or pane.note:
         text = describe(pane.error) if pane.error is not None else pane.note
         draw_note(draw, screen, text, pane.error is not None)
-    elif over.dark is not None:
-        draw_dark_note(draw, over.dark, screen)
     draw.pop_clip_rect()
 
 
