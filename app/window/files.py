@@ -84,7 +84,7 @@ class Files:
         self._began_s = 0.0
         self._is_first = False
         self.dialog = FileDialog()
-        self.recent = RecentFiles(folder, wake)
+        self.recent = RecentFiles(folder)
         self.message = ""
         self.question: WindowQuestion | None = None
         self._said: list[str] = []
@@ -278,7 +278,6 @@ class Files:
         self._rereading.close()
         self._saving.close(5.0)
         self.dialog.close()
-        self.recent.close()
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long

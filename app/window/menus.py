@@ -22,6 +22,7 @@ from lucida.app.window import bookmarks
 from lucida.app.window.action_table import ACTIONS, MENUS
 from lucida.app.window.actions import FORGET
 from lucida.renderer.files import SCENE_NAMES
+from lucida.renderer.system.errors import one_line
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
@@ -128,11 +129,10 @@ def _recent(window: Host) -> None:
         return
     if imgui.is_window_appearing():
         recent.look()
-    for number, entry in enumerate(entries):
-        note = "missing" if entry.missing else entry.folder
-        label = f"{entry.name}###recent{number}"
-        if imgui.menu_item(label, _short(note), False, not entry.missing)[0]:
-            window.files.open(entry.path)
+    for number, path in enumerate(entries):
+        label = f"{one_line(path.name)}###recent{number}"
+        if imgui.menu_item(label, _short(one_line(str(path.parent))), False)[0]:
+            window.files.open(str(path))
     imgui.separator()
     if imgui.menu_item("Clear the list", "", False)[0]:
         recent.clear()
