@@ -21,7 +21,7 @@ from lucida.app.ui.background import Background
 from lucida.app.ui.dialog import FileDialog, FileQuestion
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.watching import SceneWatch
-from lucida.app.window.code_files import CODE_ENDING, TASKS_ENDING
+from lucida.app.window.kinds import CODE_ENDING, TOML_ENDING
 from lucida.app.window.opening import (
     Opened,
     OpenedLecture,
@@ -39,7 +39,6 @@ from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
 from lucida.renderer.system.errors import describe, one_line
 
-LECTURE_ENDING = ".toml"
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 
 Paths = Callable[[list[str]], None]
@@ -174,13 +173,13 @@ class Files:
         def open_first(paths: list[str]) -> None:
             self.open_lecture(paths[0])
 
-        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first)
+        self.ask_open("Open a lecture", "Lectures", (TOML_ENDING,), open_first)
 
     def open_code_dialog(self) -> None:
         self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
 
     def open_tasks_dialog(self) -> None:
-        self.ask_open("Open a course's tasks", "Tasks", (TASKS_ENDING,), self.open_tasks)
+        self.ask_open("Open a course's tasks", "Tasks", (TOML_ENDING,), self.open_tasks)
 
     def open_tasks(self, paths: list[str]) -> None:
         """Load a file as tasks, whatever it looks like."""

@@ -36,9 +36,9 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 class Linked:
     """The state that the two images share.
 
-    photograph: laid over them. walked_frame: the last one in which a key has moved the mark. pins:
-    returns the pixels that are pinned in a state; set by their owner. guest: see app/ui/guest.py;
-    set by itself.
+    photograph: laid over them. walked_frame, begun_frame: the last one in which a key has moved the
+    mark, and in which a lecture has begun a step. pins: returns the pixels that are pinned in a
+    state; set by their owner. guest: see app/ui/guest.py; set by itself.
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
@@ -47,6 +47,7 @@ class Linked:
     gesture_number: int = 0
     gesture_s: float = 0.0
     walked_frame: int = -1
+    begun_frame: int = -1
     pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
     guest: Guest | None = None
 
@@ -77,6 +78,7 @@ class ImageView(Instrument):
     def begin_anew(self) -> None:
         """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
         self.linked.mouse, self.linked.anchor = ImageMouse(), None
+        self.linked.begun_frame = imgui.get_frame_count()
 
     def flown(self, host: Host) -> Camera | None:
         return host.state.camera
@@ -225,7 +227,8 @@ class ImageView(Instrument):
         """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
         marked_size = state.options.marked_size
-        if marked_size is None and shared.anchor is None and host.is_rearranging:
+        is_new = imgui.get_frame_count() <= shared.begun_frame + 1
+        if marked_size is None and shared.anchor is None and (host.is_rearranging or is_new):
             return  # a step's mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None
