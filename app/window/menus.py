@@ -1,7 +1,5 @@
-"""The menu bar. Made from the table of actions, and from what no table holds: scenes, recent
-files, bookmarks, views, the last steps.
-
-Owns its look. Knows nothing of what actions do.
+"""The menu bar: the table of actions, and what no table holds: scenes, recent files, bookmarks,
+views, the last steps.
 """
 
 from __future__ import annotations
@@ -32,7 +30,7 @@ ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 def menu_bar(
     window: Host, history: History, stage: Stage, status: Callable[[float], None] | None = None
 ) -> None:
-    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one.
+    """Draw all menus. Call in HelloImGui's show_menus. A bar that is too narrow for them has one.
 
     status: draws the status line into a room of this width; None if it has a bar of its own.
     """
@@ -85,7 +83,7 @@ def _menus(window: Host, history: History, stage: Stage) -> None:
 
 
 def _actions(menu: str, window: Host, history: History) -> None:
-    """Return the actions of a menu; those of a submenu where the first of them is."""
+    """Draw the actions of a menu; those of a submenu where the first of them is."""
     drawn: set[str] = set()
     for action in ACTIONS:
         if action.menu == menu:
@@ -140,7 +138,7 @@ def _recent(window: Host) -> None:
 
 
 def _file_views(window: Host) -> None:
-    """Return the cameras of the scene's file other than the initial view."""
+    """Draw the cameras of the scene's file other than the initial view."""
     views = window.state.scene.views
     if imgui.begin_menu("From the file", bool(views)):
         for number, named in enumerate(views):
@@ -155,7 +153,7 @@ def _short(text: str, most: int = 40) -> str:
 
 
 def _history(window: Host, history: History) -> None:
-    """The last steps, the newest on top; a click goes back, or forward, to after a step."""
+    """Draw the last steps, the newest on top; a click goes back, or forward, to after a step."""
     if not imgui.begin_menu("History", bool(history.past or history.future)):
         return
     states = [*history.past, history.present, *history.future]
@@ -200,7 +198,7 @@ def _views(stage: Stage) -> None:
 
 
 def _layouts(window: Host, name: str) -> None:
-    """The layout's name at the right end of the bar; a menu to choose another."""
+    """Draw the layout's name at the right end of the bar, as a menu to select another."""
     arrow, style = 0.5 * imgui.get_font_size(), imgui.get_style()
     corner = imgui.get_cursor_screen_pos()
     opened = imgui.begin_menu(f"{name}    ###layouts")
