@@ -236,7 +236,7 @@ class Files:
         return outcome.value
 
     def _poll_reread(self) -> Opened | None:
-        """Return a newer version of the shown scene; the last good one stays if there is a mistake."""
+        """Return a newer version of the shown scene. After a mistake, the last good one stays."""
         outcome = self._rereading.poll()
         if outcome is None or not self._watch.shows_version_of(self._reread):
             return None

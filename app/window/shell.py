@@ -231,8 +231,8 @@ class Shell:
         self._asked = asks
 
     def note_popups(self) -> None:
-        """Note whether a popup is open. Call at the end of a frame: ImGui closes a popup by Escape before
-        the next one begins.
+        """Note whether a popup is open. Call at the end of a frame: ImGui closes a popup by Escape
+        before the next one begins.
         """
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = bool(imgui.is_popup_open("", int(any_popup)))
