@@ -55,7 +55,7 @@ def interrupt_at_once() -> None:
 
 
 def interrupt_after_imports() -> None:
-    """Raises KeyboardInterrupt if Ctrl-C came during an import and still waits."""
+    """Raise KeyboardInterrupt if Ctrl-C came during an import and still waits."""
     global _waiting
     if _waiting is not None:
         _waiting.cancel()
