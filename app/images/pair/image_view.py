@@ -21,6 +21,7 @@ from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
+from lucida.app.ui import layout
 from lucida.app.ui.areas import mouse_area
 from lucida.app.ui.guest import Click, Guest, ShownIn
 from lucida.app.ui.host import Host
@@ -227,9 +228,10 @@ class ImageView(Instrument):
         """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
         marked_size = state.options.marked_size
-        is_new = imgui.get_frame_count() <= shared.begun_frame + 1
-        if marked_size is None and shared.anchor is None and (host.is_rearranging or is_new):
-            return  # a step's mark belongs to the size that comes when the layout is done
+        is_moving = host.is_rearranging or layout.is_to_be_made()
+        is_moving = is_moving or imgui.get_frame_count() <= shared.begun_frame + 1
+        if marked_size is None and shared.anchor is None and is_moving:
+            return  # the mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None
         if (marked, now_size) != (state.marked, marked_size):
