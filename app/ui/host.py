@@ -87,14 +87,12 @@ class Host(Protocol):
     files: opening and saving. shell: the parts around the views.
     moves: True if things may move by themselves; False while a picture of the window is taken.
     box: asks for an entry; None if nothing does.
-    is_rearranging: True until windows have reached their places in the layout.
     """
 
     fonts: Fonts
     renderers: Renderers
     moves: bool
     box: EntryBox | None
-    is_rearranging: bool
 
     @property
     def has_tools(self) -> bool:

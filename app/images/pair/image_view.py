@@ -21,7 +21,6 @@ from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui import layout
 from lucida.app.ui.areas import mouse_area
 from lucida.app.ui.guest import Click, Guest, ShownIn
 from lucida.app.ui.host import Host
@@ -30,6 +29,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
 
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
+STEADY = 6  # frames of one size, two panes each
 NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too
 
 
@@ -37,9 +37,10 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 class Linked:
     """The state that the two images share.
 
-    photograph: laid over them. walked_frame, begun_frame: the last one in which a key has moved the
-    mark, and in which a lecture has begun a step. pins: returns the pixels that are pinned in a
-    state; set by their owner. guest: see app/ui/guest.py; set by itself.
+    photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
+    steady_frames: of the images, and how often they were drawn at that size. pins: returns the
+    pixels that are pinned in a state; set by their owner. guest: see app/ui/guest.py; set by
+    itself.
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
@@ -48,7 +49,8 @@ class Linked:
     gesture_number: int = 0
     gesture_s: float = 0.0
     walked_frame: int = -1
-    begun_frame: int = -1
+    size: tuple[int, int] = (0, 0)
+    steady_frames: int = 0
     pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
     guest: Guest | None = None
 
@@ -79,7 +81,7 @@ class ImageView(Instrument):
     def begin_anew(self) -> None:
         """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
         self.linked.mouse, self.linked.anchor = ImageMouse(), None
-        self.linked.begun_frame = imgui.get_frame_count()
+        self.linked.steady_frames = 0
 
     def flown(self, host: Host) -> Camera | None:
         return host.state.camera
@@ -228,10 +230,10 @@ class ImageView(Instrument):
         """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
         marked_size = state.options.marked_size
-        is_moving = host.is_rearranging or layout.is_to_be_made()
-        is_moving = is_moving or imgui.get_frame_count() <= shared.begun_frame + 1
-        if marked_size is None and shared.anchor is None and is_moving:
-            return  # the mark belongs to the size that comes when the layout is done
+        shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
+        shared.size = size
+        if marked_size is None and shared.anchor is None and shared.steady_frames < STEADY:
+            return  # a step's mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None
         if (marked, now_size) != (state.marked, marked_size):
