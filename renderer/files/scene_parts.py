@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from lucida.renderer.files.models.models import ModelFile, load_model, read_model
-from lucida.renderer.files.models.repairs import repairs
 from lucida.renderer.files.schema import (
     BoxTable,
     ConeTable,
@@ -72,8 +71,7 @@ class SceneParts:
         if key not in self._models:
             found = self.model(file, None) if is_mapped else _model(self._folder / file)
             if is_mapped and _unmapped(found.objects):
-                with repairs():  # they have been reported
-                    found = _model(self._folder / file, is_mapped)
+                found = _model(self._folder / file, is_mapped)
             self._models[key] = found
         return self._models[key]
 

@@ -14,7 +14,6 @@ from lucida.renderer.files.models.apart import parts_apart
 from lucida.renderer.files.models.gltf import PlacedPart, read_gltf
 from lucida.renderer.files.models.gltf_cameras import camera_views
 from lucida.renderer.files.models.gltf_lights import scene_lights
-from lucida.renderer.files.models.model_kinds import check_kind
 from lucida.renderer.files.models.obj import read_obj
 from lucida.renderer.files.models.parts import Part, build_mesh
 from lucida.renderer.files.models.readers import read_off, read_ply, read_stl
@@ -79,7 +78,6 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
     damaged, holds no triangle, or too many.
     """
     ending = path.suffix.lower()
-    check_kind(path)
     if ending not in MODEL_ENDINGS:
         what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))

@@ -129,30 +129,6 @@ def test_faces_without_normals_are_flat_beside_those_that_have_some(tmp_path: Pa
     np.testing.assert_array_equal(found, [[0, 0, 1] * 3, [0] * 9, [0] * 9])
 
 
-# Kinds.
-
-
-@pytest.mark.parametrize("ending", ["fbx", "obj", "stl", "ply", "gltf"])
-@pytest.mark.parametrize(
-    ("content", "kind"),
-    [
-        (b"Kaydara FBX Binary  \0\x1a\0", "FBX"),
-        (b"; FBX 7.3.0 project file\n", "FBX"),
-        (b'\xef\xbb\xbf<?xml version="1.0"?>\n<COLLADA version="1.4.1">', "COLLADA"),
-        (b"#usda 1.0\n", "USD"),
-        (b"PK\x03\x04" + bytes(40), "a ZIP archive"),
-        (b"BLENDER-v300", "Blender's"),
-        (b"ISO-10303-21;\nHEADER;\n", "STEP"),
-        (b"MM\x20\0\0\0" + bytes(26), "3DS"),
-    ],
-)
-def test_other_programs_kinds_are_named_by_their_content(
-    content: bytes, kind: str, ending: str, tmp_path: Path
-) -> None:
-    with pytest.raises(LucidaError, match=f"t.{ending}: is {kind}.*, which is not read; export"):
-        loaded(tmp_path, f"t.{ending}", content)
-
-
 def test_a_text_that_is_no_obj_is_told_what_was_looked_for(tmp_path: Path) -> None:
     with pytest.raises(LucidaError, match="has no line that begins with v or f"):
         loaded(tmp_path, "t.obj", "hello\n")
