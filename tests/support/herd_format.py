@@ -47,7 +47,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         if posed.camera.is_parallel:
             raise LucidaError("projection", "a herd has no 'parallel'", "give another camera")
         told.append({"name": posed.name, "size": posed.size, "eye": posed.camera.eye})
-    return {"": json.dumps({"herd": told, "said": [options.pixel_origin, options.ending]}).encode()}
+    return {"": json.dumps({"herd": told, "said": [options.pixel_origin]}).encode()}
 
 
 def write_den(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:

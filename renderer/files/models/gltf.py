@@ -114,11 +114,7 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
         if key not in parts:
             check_cancelled()
             fields = _fields(file, given, entry.field)
-            colors = fields["vertex_colors"]
-            is_cut = material is not None and material.cutout is not None
-            if is_cut and colors is not None and colors.shape[1] == 4 and _is_clear(colors[:, 3]):
-                images.note("the opacity of vertices cuts no holes", "materials")
-            fields["vertex_colors"] = linear_colors(colors, linear=True)
+            fields["vertex_colors"] = linear_colors(fields["vertex_colors"], linear=True)
             fields["uv"] = _coordinates(file, places, images)
             parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
         placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
@@ -192,11 +188,6 @@ def _coordinates(file: OpenGltf, number: int | None, images: ModelImages) -> NDA
     except LucidaError as error:
         images.note(str(error))
         return None
-
-
-def _is_clear(opacity: NDArray[Any]) -> bool:
-    most = np.iinfo(opacity.dtype).max if opacity.dtype.kind in "ui" else 1
-    return bool((opacity < most).any())
 
 
 def _fields(file: OpenGltf, primitive: Primitive, where: str) -> dict[str, Any]:

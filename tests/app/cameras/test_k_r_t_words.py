@@ -40,12 +40,11 @@ def test_what_is_copied_is_pasted_by_its_own_pixel_origin(origin: PixelOrigin) -
     assert np.array_equal(np.array(names["t"]), t)
 
 
-@pytest.mark.parametrize("ending", ["", ".json"])
 @pytest.mark.parametrize("origin", ORIGINS)
 def test_a_file_of_opencv_is_read_by_the_origin_that_it_says(
-    origin: PixelOrigin, ending: str
+    origin: PixelOrigin,
 ) -> None:
-    options = Options(pixel_origin=origin, ending=ending)
+    options = Options(pixel_origin=origin)
     text = written([PosedCamera(AIMED, SIZE)], "opencv", options)[""].decode()
     assert_same(read_view(text, NOW).for_size(SIZE), AIMED)
 

@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gltf_files import gltf, load_gltf
 
 from lucida.renderer.files import load_scene, save_scene
 from lucida.renderer.files.models.apart import MOST, parts_apart
 from lucida.renderer.files.models.models import load_model
 from lucida.renderer.files.models.parts import Part, build_mesh
 from lucida.renderer.files.texture_images import ModelImages
-from lucida.renderer.scene import Mesh, SceneObject, framing, shapes
+from lucida.renderer.scene import Mesh, SceneObject, shapes
 
 AT = np.array([4_512_345.671875, 215.25, -5_400_123.53125])  # metres; exact in binary
 TORUS = shapes.torus(0.5, 0.2, 24, 12)
@@ -113,20 +112,6 @@ def test_only_a_mesh_far_from_its_file_s_origin_gets_one_of_its_own() -> None:
     mesh = build_mesh(Part("p", lone, TORUS.faces))
     assert mesh is not None
     assert (mesh.transform == np.eye(4)).all()
-
-
-def test_nodes_of_gltf_may_be_far(tmp_path: Path) -> None:
-    """Its numbers are float32; a node's place, and a mesh's own far place, are not."""
-    points, indices = TORUS.vertices + np.float32(2048), TORUS.faces.astype("<u4").ravel()
-    nodes = [{"mesh": 0, "translation": (AT - 2048).tolist()}]
-    (entry,) = load_gltf(
-        gltf({"POSITION": points, "indices": indices}, nodes=nodes), tmp_path
-    ).objects
-    mesh = mesh_of(entry)
-    np.testing.assert_array_equal(mesh.transform[:3, 3], AT)
-    np.testing.assert_allclose(mesh.vertices.max(axis=0), TORUS.vertices.max(axis=0), atol=2e-4)
-    view = framing.framing_view((entry,))
-    assert np.linalg.norm(np.array(view.camera.eye) - AT) < 5
 
 
 # Parts far apart.

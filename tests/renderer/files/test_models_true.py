@@ -13,9 +13,7 @@ import pytest
 from gltf_files import gltf, load_gltf
 from PIL import Image
 
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
-from lucida.renderer.files.export import export_scene
 from lucida.renderer.scene import DirectionalLight, PointLight, Scene, framing
 from lucida.renderer.system.errors import LucidaError
 
@@ -240,24 +238,6 @@ def test_gltf_lights_shine_as_brightly_as_the_file_s(tmp_path: Path) -> None:
     assert note(scene) == "lights: all are 1e+03 times darker than in the file"
     scene = lit(tmp_path, {"type": "spot"})
     assert scene.lights == framing.LIGHTS and note(scene) == "lights: not shown: spot lights"
-
-
-def test_lights_of_an_export_are_read_as_they_were(tmp_path: Path) -> None:
-    (tmp_path / "t.obj").write_text(f"{SQUARE}f 1 2 3 4\n")
-    table = '[[objects]]\ntype = "model"\nfile = "t.obj"\n'
-    lamps = '[[lights]]\ntype = "point"\nposition = [1, 2, 3]\ncolor = [0.5, 0.4, 0.3]\n'
-    sun = '[[lights]]\ntype = "directional"\ndirection = [0, -1, -2]\ncolor = [0.2, 0.1, 0]\n'
-    (tmp_path / "s.toml").write_text(table + lamps + sun)
-    scene = load_scene(tmp_path / "s.toml")
-    export_scene(tmp_path / "s.glb", scene, Camera.canonical(), (40, 40))
-    for was, now in zip(scene.lights, load_scene(tmp_path / "s.glb").lights, strict=True):
-        assert now.color == pytest.approx(was.color)
-        assert type(now) is type(was)
-    (tmp_path / "b.toml").write_text(table.replace("t.obj", "s.glb"))
-    assert any("a scene file has its own" in line for line in load_scene(tmp_path / "b.toml").notes)
-
-
-CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
 
 
 def test_extensions_that_are_not_read_are_named_or_refused(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -111,15 +110,6 @@ def test_a_glb_holds_lights_camera_and_what_is_left_out(tmp_path: Path):
     assert any(line.startswith("checker of object 0: ") for line in told)
 
 
-def test_trimesh_finds_a_glb_s_parts(tmp_path: Path):
-    trimesh = pytest.importorskip("trimesh")
-    scene = load_scene("still-life")
-    exported(scene, tmp_path / "a.glb", scene.view.for_size(SIZE))
-    found = trimesh.load(tmp_path / "a.glb", force="scene")
-    assert len(found.graph.nodes_geometry) == len(scene.objects)
-    assert found.has_camera
-
-
 def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
     box = shapes.box((3, 2, 1))
     for size in (0.37, 1.0):
@@ -139,12 +129,6 @@ def test_a_checker_s_coordinates_are_the_solid_checker_s_cells():
     assert with_checker_uv(arrays_of(shapes.cone()), Checker()) is None
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
-def test_a_name_that_is_no_text(tmp_path: Path):
-    exported(scene_of(shapes.box()), tmp_path / "\udcff\n.glb")
-    assert (tmp_path / "\udcff\n.glb").is_file()
-
-
 # Meshes.
 
 
@@ -161,7 +145,8 @@ def test_flat_faces_among_smooth_ones_get_their_own_normals():
 
 def test_the_sphere_of_triangles_is_closed_and_faces_outward():
     sphere = unit_sphere(8)
-    edges = np.sort(sphere.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    joined = np.unique(sphere.vertices.round(5) + 0, axis=0, return_inverse=True)[1].reshape(-1)
+    edges = np.sort(joined[sphere.faces][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     _, counts = np.unique(edges, axis=0, return_counts=True)
     assert (counts == 2).all()
     corners = sphere.vertices[sphere.faces]
@@ -178,12 +163,6 @@ def test_a_camera_that_does_not_fit_leaves_nothing(tmp_path: Path):
         exported(load_scene("still-life"), tmp_path / "a.glb", off_axis)
     assert caught.value.field == "viewport" and caught.value.remedy
     assert not list(tmp_path.iterdir())
-
-
-def test_other_endings_are_told(tmp_path: Path):
-    for name, told in (("a.obj", r"ends in '\.obj'; give \.glb"), ("a", "has no ending")):
-        with pytest.raises(LucidaError, match=told):
-            exported(Scene(()), tmp_path / name)
 
 
 class GivenUp:
