@@ -139,7 +139,7 @@ def _session(data: bytes) -> Session:
     if version > VERSION:
         raise NewerVersionError(
             "lucida_session",
-            f"the session is of version {version}, this program reads up to {VERSION}",
+            f"the session is of version {str(version)[:20]}, this program reads up to {VERSION}",
             "update Lucida to go on with it",
         )
     options = table.get("options")

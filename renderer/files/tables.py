@@ -53,7 +53,7 @@ def parse_toml(text: str) -> dict[str, Any]:
     if version > VERSION:
         raise LucidaError(
             "lucida",
-            f"the file is of version {version}, this program reads up to {VERSION}",
+            f"the file is of version {str(version)[:20]}, this program reads up to {VERSION}",
             "update Lucida, or save the file for the older version",
         )
     return tables
@@ -66,7 +66,7 @@ def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
     try:
         return msgspec.convert(value, kind)
     except msgspec.ValidationError as error:
-        raise explained(str(error), kind, prefix) from None
+        raise explained(str(error), _chosen(kind, value), prefix) from None
     except RecursionError:
         raise LucidaError(prefix, "is nested too deeply", "write it with fewer brackets") from None
 
@@ -127,6 +127,15 @@ def _types_at(kind: Any, path: str) -> list[Any]:
         fields = (field for struct in _structs(found) for field in msgspec.structs.fields(struct))
         found = [part for field in fields if field.name == name for part in _parts(field.type)]
     return found
+
+
+def _chosen(kind: Any, value: Any) -> Any:
+    """Return the structure of a tagged union that a table chooses; otherwise the same type."""
+    for struct in _structs(_parts(kind)):
+        config = struct.__struct_config__
+        if isinstance(value, dict) and config.tag and value.get(config.tag_field) == config.tag:
+            return struct
+    return kind
 
 
 def _parts(kind: Any) -> list[Any]:

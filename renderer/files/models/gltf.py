@@ -83,12 +83,8 @@ class GltfContent:
     nodes: list[PlacedNode]
 
 
-def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfContent:
-    """Return the content of a .gltf or .glb file. Raises LucidaError.
-
-    images: for its textures.
-    is_mapped: all parts with texture coordinates.
-    """
+def read_gltf(path: Path, images: ModelImages) -> GltfContent:
+    """Return the content of a .gltf or .glb file. images: for its textures. Raises LucidaError."""
     file = OpenGltf(path)
     tree = file.tree
     nodes = list(placed_nodes(tree))
@@ -107,7 +103,7 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
         given = entry.primitive
         material = None if given.material is None else materials[given.material]
         has_backs = material is not None and material.single_sided
-        places = _coordinates_of(tree, given, is_mapped)
+        places = _coordinates_of(tree, given)
         # A few bytes of JSON can show one buffer a thousand times: it is built once.
         numbers = given.indices, *map(given.attributes.get, TYPES), places
         key = given.mode, has_backs, *(_accessor(tree, number) for number in numbers)
@@ -168,12 +164,9 @@ def _triangles(tree: Gltf, primitive: Primitive) -> int:
     return count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
 
 
-def _coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
-    """Return the accessor of a primitive's texture coordinates, if its material has an image.
-
-    is_mapped: without an image, the accessor of its first coordinates.
-    """
-    name = "TEXCOORD_0" if is_mapped else ""
+def _coordinates_of(tree: Gltf, primitive: Primitive) -> int | None:
+    """Return the accessor of a primitive's texture coordinates: those of its material's image."""
+    name = "TEXCOORD_0"
     if primitive.material is not None:
         pbr = tree.materials[primitive.material].pbr_metallic_roughness
         if info := pbr.base_color_texture or pbr.metallic_roughness_texture:

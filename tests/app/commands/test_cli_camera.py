@@ -149,9 +149,9 @@ class TestWriting:
     def test_the_options_reach_the_format(self, capsys):
         words = ("corner.toml", "--to", "herd", "--size", "30x20")
         data = json.loads(told(capsys, *words, "--pixel-origin", "corner"))
-        assert (data["said"], data["herd"][0]["size"]) == (["corner", ""], [30, 20])
+        assert (data["said"], data["herd"][0]["size"]) == (["corner"], [30, 20])
         told(capsys, *words, "-o", "a.HERD")
-        assert json.loads(Path("a.HERD").read_text())["said"] == [None, ".herd"]
+        assert json.loads(Path("a.HERD").read_text())["said"] == [None]
 
     def test_a_size_of_another_shape_is_said(self, capsys):
         assert main(["camera", "herd.json#0", "--to", "herd", "--size", "100x100"]) == 0
