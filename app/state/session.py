@@ -18,6 +18,7 @@ from lucida.app.state.options import Options
 from lucida.app.state.paths import restored, stored
 from lucida.app.state.removed import without_removed
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.files.tables import check_integers
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.errors import LucidaError
 
@@ -133,13 +134,14 @@ def _session(data: bytes) -> Session:
         table = msgspec.json.decode(data)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError, ValueError) as error:
         raise LucidaError("", f"is no session: {error}", remedy) from None
+    check_integers(table, remedy)
     version = table.pop("lucida_session", None) if isinstance(table, dict) else None
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise LucidaError("lucida_session", "is missing: this is no session", remedy)
     if version > VERSION:
         raise NewerVersionError(
             "lucida_session",
-            f"the session is of version {str(version)[:20]}, this program reads up to {VERSION}",
+            f"the session is of version {version}, this program reads up to {VERSION}",
             "update Lucida to go on with it",
         )
     options = table.get("options")

@@ -47,16 +47,32 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
     except ValueError:  # Python's own limit on the digits of a number
         raise LucidaError("", "holds a number of too many digits", "shorten it") from None
+    check_integers(tables)
     version = tables.pop("lucida", VERSION)
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise LucidaError("lucida", f"{version!r} is no version", f"give lucida = {VERSION}")
     if version > VERSION:
         raise LucidaError(
             "lucida",
-            f"the file is of version {str(version)[:20]}, this program reads up to {VERSION}",
+            f"the file is of version {version}, this program reads up to {VERSION}",
             "update Lucida, or save the file for the older version",
         )
     return tables
+
+
+def check_integers(tables: Any, remedy: str = "give one of at most 18 digits") -> None:
+    """Raise LucidaError, with its field's path, for an integer of more than 64 bits in tables and
+    lists: TOML has none, and most numbers of this program cannot hold it."""
+    left: list[tuple[str, Any]] = [("", tables)]
+    while left:
+        path, value = left.pop()
+        if isinstance(value, dict):
+            left += [(f"{path}.{key}" if path else str(key), part) for key, part in value.items()]
+        elif isinstance(value, list):
+            left += [(f"{path}[{k}]", part) for k, part in enumerate(value)]
+        elif isinstance(value, int) and value.bit_length() > 63:
+            problem = f"is a whole number of {len(str(abs(value)))} digits"
+            raise LucidaError(path, problem, remedy)
 
 
 def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:

@@ -227,6 +227,7 @@ def test_mistakes_name_the_file_the_field_and_the_remedy(text: str) -> None:
         ("a" + ".a" * 500_000 + " = 1", "line 1: has a key of too many parts"),
         ("\n[" + '"a".' * 500_000 + "a]", "line 2: has a key of too many parts"),
         ("a = " + "1" * 10_000, "holds a number of too many digits"),
+        ("[[a]]\nb = [0, [" + "9" * 400 + "]]", "a[0].b[1][0]: is a whole number of 400 digits"),
         ("objects = [" + "{type = 'sphere'}," * 10_001 + "]", "objects: holds 10001 objects"),
         ("lights = [" + "{}," * 65 + "]\n" + BALL, "lights: holds 65 lights; give at most 64"),
         ("x" * 1_000_000, "line 1, column 1000001: "),
