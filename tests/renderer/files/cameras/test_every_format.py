@@ -42,7 +42,7 @@ HELD = {
     "view": (*LENSES,),
     "opencv": (*_BROWN, "thin prism", *_FISHEYES),
     "colmap": (*_BROWN, *_FISHEYES, "fov", "thin prism fisheye", "equirectangular"),
-    "nerf": (*_BROWN[:-1], "four radial", *_FISHEYES, "equirectangular"),
+    "nerf": (*_BROWN[:-1], "four radial", *_FISHEYES),
 }
 PERSPECTIVE_ONLY = ("opencv", "colmap", "nerf")
 SINGLE, UNSIZED = ("view", "opengl", "opencv"), ("view", "opengl", "gltf")
