@@ -29,7 +29,7 @@ from tools.conformance.measured import Checked, Job, Measured, measured
 
 KINDS = (
     *("simple radial", "radial", "opencv", "plumb bob", "four radial", "simple fisheye", "fisheye"),
-    *("equidistant"),
+    "equidistant",
 )
 
 
