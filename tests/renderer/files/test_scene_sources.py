@@ -11,7 +11,7 @@ from test_scene_files import BALL, TRIANGLE, scene
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
-from lucida.renderer.scene import Mesh, Sphere, View, flatten
+from lucida.renderer.scene import Mesh, View, flatten
 from lucida.renderer.system.errors import LucidaError
 
 # Built-in scenes.
@@ -47,24 +47,6 @@ def test_nothing_coincides_in_built_in_scenes(name: str) -> None:
 
 def _world(mesh: Mesh) -> np.ndarray:
     return mesh.vertices @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
-
-
-def test_the_default_scene_shows_near_far_and_hidden_things() -> None:
-    read = load_scene(BUILTIN_SCENES[0])
-    size = (640, 360)
-    camera = read.view.for_size(size)
-    centers = [
-        entry.shape.center if isinstance(entry.shape, Sphere) else _world(entry.shape).mean(0)
-        for entry in read.objects
-    ]
-    seen = camera.project(np.array(centers[1:]), size)  # the first one is the floor
-    assert ((seen.row > 0) & (seen.row < size[1])).all()
-    assert ((seen.column > 0) & (seen.column < size[0])).all()
-    assert seen.parameter.max() > 2 * seen.parameter.min()
-    kinds = {type(entry.shape) for entry in read.objects}
-    assert kinds == {Sphere, Mesh}
-    assert any(entry.material.checker for entry in read.objects)
-    assert any(max(entry.material.specular) > 0.3 for entry in read.objects)
 
 
 # Names and endings.
