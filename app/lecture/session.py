@@ -1,6 +1,6 @@
-"""An open lecture: its current step, its answers, and whether its file has changed.
+"""An open lecture: its current step, its answers, and changes of its file.
 
-Also what a session file keeps of it, and the reading of a changed file.
+This module also has its form in a session file, and reads a changed lecture again.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class LectureSession:
     path: its file.
     watch: of this file and the files that it names.
     error: the reason why a newer version cannot be read, for the user.
-    left: the sitting before, if it ended at another step, until one walks on.
+    left: the sitting before, if it ended at another step, until the user goes on.
     """
 
     def __init__(
@@ -130,7 +130,7 @@ class LectureSession:
 
     def take(self, lecture: Lecture) -> None:
         """Continue in a newer version, at the same step. Replies to questions that are no longer
-        the same, or count pixels in another way, are dropped; what was typed stays.
+        the same, or count pixels in another way, are dropped; typed texts stay.
         """
         before, after = (
             {step.title: step.exercise for step in one.builds} for one in (self.lecture, lecture)

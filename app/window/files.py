@@ -158,7 +158,7 @@ class Files:
     def open_dialog(self) -> None:
         endings = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
         words = "Scenes, models, views and cameras"
-        self.ask_open("Open a scene, a model or cameras", words, endings, self.open_all, True)
+        self.ask_open("Open a scene, a model or cameras", words, endings, self.open_all)
 
     def add_model_dialog(self) -> None:
         def add(paths: list[str]) -> None:
@@ -174,7 +174,7 @@ class Files:
         def open_first(paths: list[str]) -> None:
             self.open_lecture(paths[0])
 
-        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first, True)
+        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first)
 
     def open_code_dialog(self) -> None:
         self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
@@ -202,13 +202,6 @@ class Files:
         self._watch.know(saved.origin.files)
         self._watch.take_present()
         self.recent.add(saved.origin.source)
-
-    def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
-        """Ask where to save a picture."""
-        question = FileQuestion(
-            "Save the picture", True, (".png",), name, lambda paths: chosen(Path(paths[0]))
-        )
-        self._ask(question, "Pictures")
 
     def poll(self) -> Opened | None:
         """Return what has been loaded since the last call; errors become the message."""
@@ -346,17 +339,15 @@ class Files:
         question = FileQuestion(title, True, tuple(endings), name, chosen)
         self._ask(question, words)
 
-    def ask_open(
-        self, title: str, words: str, endings: tuple[str, ...], chosen: Paths, others: bool = False
-    ) -> None:
-        self._ask(FileQuestion(title, False, endings, "", chosen), words, others)
+    def ask_open(self, title: str, words: str, endings: tuple[str, ...], chosen: Paths) -> None:
+        self._ask(FileQuestion(title, False, endings, "", chosen), words)
 
-    def _ask(self, question: FileQuestion, words: str, others: bool = False) -> None:
-        """Ask for files. words: for those with the endings. others: offer all files, too."""
+    def _ask(self, question: FileQuestion, words: str) -> None:
+        """Ask for files. words: for those with the endings."""
         if self._asking is not None or self.dialog.is_open:
             return
-        filters = [words, " ".join(f"*{ending}" for ending in question.endings)]
-        filters += ["All files", "*"] if others else []
+        listed = " ".join(f"*{ending}" for ending in question.endings)
+        filters = [words, listed, "All files", "*"]
         if not (self.native and has_dialogs()):
             self.dialog.ask(question)
         elif question.saves:

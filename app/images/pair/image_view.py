@@ -17,7 +17,7 @@ from lucida.app.images.pair.marks import walked
 from lucida.app.images.pair.pane import Drawn, MouseState, Pane, image_pane
 from lucida.app.images.pair.pixelgrid import Values
 from lucida.app.images.pair.rulers import ruler_sizes
-from lucida.app.images.pair.toolbar import Strip, image_strip
+from lucida.app.images.pair.toolbar import image_strip
 from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
@@ -233,9 +233,7 @@ class ImageView(Instrument):
 
     def _strip(self, host: Host) -> None:
         if host.has_tools and not host.state.preferences.presentation:
-            size = self.linked.photograph.file_size
-            strip = Strip(self.name, host.ask_resolution, size)
-            host.apply(image_strip(strip, host.state))
+            image_strip(self.name, host, self.linked.photograph.file_size)
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """Return the pixel to frame: always in the other image, in this one only if it is small."""

@@ -14,7 +14,6 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.instruments.outside.growing import lit_in
 from lucida.app.instruments.probe.copying import (
-    as_julia,
     as_latex,
     as_python,
     as_text,
@@ -42,7 +41,6 @@ COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
     ("Text", as_text),
     ("LaTeX", as_latex),
     ("Python", as_python),
-    ("Julia", as_julia),
 )
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")

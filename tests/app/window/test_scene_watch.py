@@ -246,6 +246,13 @@ class Window:
         self.said: list[str] = []
         self.asked: list[str] = []
         self.renderers = SimpleNamespace(textures=None)
+        self.opened: Opened | None = None
+
+    def poll(self) -> Opened | None:
+        return self.opened
+
+    def animate(self) -> None:
+        pass
 
     @property
     def state(self) -> AppState:
@@ -287,13 +294,15 @@ def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path: Path
     newer = opening.reread(str(path), old, None)
     edited = set_scene_field(old, "name", "edited meanwhile")
     window.change(replace(window.state, scene=edited))
-    take_opened(window, newer)
+    window.opened = newer
+    take_opened(window)
     assert window.state.scene is edited
     assert len(window.asked) == 1 and "not saved" in window.asked[0]
     window.then()
     assert window.state.scene is found(newer, OpenedScene).scene
     window.change(replace(window.state, scene=load_scene("spheres")))
-    take_opened(window, newer)
+    window.opened = newer
+    take_opened(window)
     assert window.state.scene is not found(newer, OpenedScene).scene
     assert len(window.asked) == 1
 

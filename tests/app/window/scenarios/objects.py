@@ -105,23 +105,6 @@ def drive_rows_are_chosen_as_everywhere(d: Driver) -> None:
     d.press(int(Key.escape))
 
 
-def drive_a_name_is_typed_in_its_row(d: Driver) -> None:
-    enter(d)
-    key = item(d, "box")
-    d.ctx.item_double_click(in_list(d, "box"))
-    d.ctx.yield_(3)
-    d.ctx.key_chars_replace("crate")
-    d.press(int(Key.escape))
-    assert item(d, "box") == key
-    d.ctx.item_double_click(in_list(d, "box"))
-    d.ctx.yield_(3)
-    d.ctx.key_chars_replace_enter("crate")
-    d.ctx.yield_(3)
-    assert item(d, "crate") == key
-    d.window.undo()
-    assert item(d, "box") == key
-
-
 def drive_what_is_typed_edits_no_object(d: Driver) -> None:
     """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
     enter(d)
@@ -210,6 +193,10 @@ def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
     d.ctx.item_click(in_list(d, row.shown))
     d.ctx.yield_(3)
     d.picture()
+    d.ctx.item_click("//###Inspector/##name")
+    d.ctx.key_chars_replace("crate")
+    d.press(int(Key.tab))
+    assert item(d, "crate") == row.item
     d.ctx.item_double_click("//###Inspector/##shininess")
     d.ctx.key_chars_replace_enter("7")
     d.ctx.yield_(3)

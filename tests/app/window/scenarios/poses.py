@@ -200,7 +200,7 @@ def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
     poses = opened(d, transforms(d))
     steps = len(d.window.history.past)
     start = d.window.state
-    transition = d.window.transition
+    transition = d.window.motions.transition
     transition.instant, clock = False, transition.now_s
     time_s = 100.0
     transition.now_s = lambda: time_s
