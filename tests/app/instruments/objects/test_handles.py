@@ -11,7 +11,6 @@ from lucida.app.instruments.objects.handles import (
     frame_of,
     gizmo,
     handle_of,
-    motion,
     moved_by,
     operation_of,
     snap_step,
@@ -113,17 +112,6 @@ def test_what_no_file_can_say_is_told(items):
     frame = frame_of(scene, (found["sphere"],), CENTER)
     with pytest.raises(LucidaError, match="ellipsoid"):
         moved_by(scene, (found["sphere"],), frame, frame @ np.diag([1, 2, 3, 1]))
-
-
-def test_it_says_what_it_has_done():
-    frame = moved((1, 1, 1)) @ turned(20) @ np.diag([2, 2, 2, 1])
-    assert motion("move", frame, moved((0.25, 0, 0)) @ frame) == "Δx 0.25"
-    assert motion("move", frame, moved((0, -1.5, 2)) @ frame) == "Δy -1.5  Δz 2"
-    assert motion("move", frame, frame) == ""
-    assert motion("turn", frame, frame @ turned(35)) == "35.0°"
-    assert motion("turn", frame, frame) == "0.0°"
-    assert motion("scale", frame, frame @ np.diag([1.5, 1.5, 1.5, 1])) == "times 1.5"
-    assert motion("scale", frame, frame @ np.diag([1, 2, 1, 1])) == "times 1  2  1"
 
 
 def test_snapping_goes_in_round_steps_of_the_scene_s_size():
