@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from imgui_bundle import ImVec2, imgui
@@ -13,7 +12,7 @@ from lucida.app.images.marking import Anchor, followed
 from lucida.app.images.pair.dark_note import dark_note
 from lucida.app.images.pair.image_mouse import ImageMouse
 from lucida.app.images.pair.marks import claim_keys, walked
-from lucida.app.images.pair.pane import Over, Pane, draw_pane
+from lucida.app.images.pair.pane import Pane, draw_pane
 from lucida.app.images.pair.rulers import ruler_sizes
 from lucida.app.images.pair.toolbar import image_strip
 from lucida.app.images.photograph.layer import PhotographLayer
@@ -38,9 +37,8 @@ class Linked:
     """The state that the two images share.
 
     photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
-    steady_frames: of the images, and how often they were drawn at that size. pins: returns the
-    pixels that are pinned in a state; set by their owner. guest: see app/ui/guest.py; set by
-    itself.
+    steady_frames: of the images, and how often they were drawn at that size. guest: see
+    app/ui/guest.py; set by itself.
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
@@ -51,7 +49,6 @@ class Linked:
     walked_frame: int = -1
     size: tuple[int, int] = (0, 0)
     steady_frames: int = 0
-    pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
     guest: Guest | None = None
 
 
@@ -116,8 +113,7 @@ class ImageView(Instrument):
         if shared.mouse.grab is not None:
             hovered = None
         screen = Screen(both.placed(host.state.images, room_px), screen.corner, screen.scale)
-        over = Over(hovered, shared.pins(host.state), self._on_pixels)
-        draw_pane(host, pane, over, screen, (start, start + avail))
+        draw_pane(host, pane, screen, (start, start + avail), hovered, self._on_pixels)
         imgui.set_cursor_screen_pos(start)
         self._over_image(host, screen)
         if not (pane.error or pane.note):

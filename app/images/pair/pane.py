@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.pair.marks import draw_hovered, draw_marked, draw_pin
+from lucida.app.images.pair.marks import draw_hovered, draw_marked
 from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
 from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
 from lucida.app.images.pair.rulers import draw_rulers
@@ -42,21 +42,18 @@ class Pane:
     legend: bool = True
 
 
-@dataclass(frozen=True)
-class Over:
-    """What is drawn over an image.
+def draw_pane(
+    host: Host,
+    pane: Pane,
+    screen: Screen,
+    room: Box,
+    hovered: Pixel | None,
+    on_pixels: Callable[[Host, Screen], None],
+) -> None:
+    """Draw the image into a room of the current window.
 
-    hovered: the pixel under the mouse, to be framed here. pins: pixels to be marked with their
-    numbers. on_pixels: draws below everything else.
+    hovered: the pixel under the mouse, to be framed here. on_pixels: draws below everything else.
     """
-
-    hovered: Pixel | None
-    pins: Sequence[Pixel]
-    on_pixels: Callable[[Host, Screen], None]
-
-
-def draw_pane(host: Host, pane: Pane, over: Over, screen: Screen, room: Box) -> None:
-    """Draw the image into a room of the current window."""
     draw, state, fonts = imgui.get_window_draw_list(), host.state, host.fonts
     depths = host.renderers.depths() if state.images.channel == "depth" else None
     low, high = screen.visible
@@ -68,11 +65,7 @@ def draw_pane(host: Host, pane: Pane, over: Over, screen: Screen, room: Box) -> 
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if picture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
-        over.on_pixels(host, screen)
-    width, height = host.renderers.size
-    for number, pin in enumerate(over.pins, 1):
-        if pin[0] < height and pin[1] < width:
-            draw_pin(draw, screen, pin, number)
+        on_pixels(host, screen)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
     if picture is not None:
@@ -81,8 +74,8 @@ def draw_pane(host: Host, pane: Pane, over: Over, screen: Screen, room: Box) -> 
         draw.pop_clip_rect()
         draw_rulers(draw, screen, state, fonts, host.has_tools)
         draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
-    if over.hovered is not None:
-        draw_hovered(draw, screen, over.hovered)
+    if hovered is not None:
+        draw_hovered(draw, screen, hovered)
     if pane.progress < 1.0:
         end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
         draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
