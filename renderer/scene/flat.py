@@ -1,6 +1,7 @@
 """A scene as flat arrays: the one form that both renderers read.
 
-Defines the arrays' layout. The rasterizer uploads these arrays as textures, the tracer's kernel
+FlatScene defines the arrays' layout. The rasterizer uploads these arrays as textures, the tracer's
+kernel
 indexes them: neither sees a SceneObject.
 
 The world is float64, and float32 is only ever a distance from something near. A mesh's vertices are
