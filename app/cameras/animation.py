@@ -1,13 +1,9 @@
 """The transition from one camera to another, as a pure function of time (travel.py has the clock).
 
-Both cameras are described relative to the focus, a world point: the size at which they see the
-plane through it (the focus plane, parallel to u and v), which part of it, and from what distance.
-Each intermediate state is a true camera of one kind, whatever the basis. The visible part of the
-focus plane grows or shrinks geometrically about its one point that stays fixed in the picture. So
-does the eye's depth, between two perspectives: with the same field of view and the same basis, the
-eye moves straight. From perspective to parallel, the tangent of half the field of view goes
-linearly to 0: the eye recedes and the distance grows (a dolly zoom), until parallel rays make no
-visible difference.
+Both cameras are described relative to the focus, a world point: where it is in the camera's
+coordinates moves evenly, and so do the viewport and its distance. Each intermediate state is a true
+camera. From perspective to parallel, the tangent of half the field of view goes evenly to 0: the
+eye recedes and the distance grows (a dolly zoom), until parallel rays make no visible difference.
 
 The basis B = R S (polar decomposition): R turns uniformly about one axis (slerp; Shoemake 1985),
 and the stretch S = V exp(L) V^T is interpolated in its logarithm, so that no intermediate basis is
@@ -18,64 +14,49 @@ there is no transition, and the caller jumps (`possible`).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import TypeVar
+from dataclasses import replace
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import SMALLEST, Floats, Vector
+from lucida.renderer.camera.checks import SMALLEST, Floats, three
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.camera.navigation import depth_of
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
 Number = TypeVar("Number", float, Floats)
 
-INVISIBLE_PX = 0.2  # what parallel rays may move in the picture when they take over
+LEAST_SLOPE = 1e-4  # the height of the picture over its distance at which rays become parallel
 _PINHOLE = Lens("brown")  # the same as none
-LEAST_DEPTH = 1e-6  # of a focus in front of the eye, in distances to the image plane
 
 
-@dataclass(frozen=True)
-class Pose:
-    """A camera as seen from the focus. Lengths in units of u, v and w.
+class Pose(NamedTuple):
+    """A camera as seen from the focus, in units of u, v and w.
 
     turn, stretch: B = turn @ expm(stretch), (3, 3).
-    at: the focus, in the focus plane, from the foot of the eye.
-    center, half: of the visible part of the focus plane.
-    k: 1 / depth of the focus; 0 for parallel.
-    start: the distance from the focus to where rays begin, towards the eye.
-    end: the same for far, or None.
-    height: the viewport's own half height (as numbers).
+    at: the focus, from the eye: to the right, up, ahead (3,).
+    window: the part of the plane through the focus that is in the picture: left, right, bottom,
+    top.
+    slope: the window's height over its distance; 0 for parallel rays.
     """
 
     turn: Floats
     stretch: Floats
     at: Floats
-    half: Floats
-    center: Floats
-    k: float
-    start: float
-    end: float | None
-    depth: float
-    near: float | None
-    height: float
-    distance: float
+    window: Floats
+    slope: float
 
 
 class Passage:
     """The path from one view to another.
 
-    focus: the world point whose plane keeps its size, or changes it evenly.
-    bounds: world points (n, 3) around the scene.
+    focus: a world point that moves evenly in the cameras' coordinates.
     size: the images' (width, height).
     """
 
-    def __init__(
-        self, start: View, end: View, focus: Vector, bounds: ArrayLike, size: tuple[int, int]
-    ) -> None:
+    def __init__(self, start: View, end: View, focus: ArrayLike, size: tuple[int, int]) -> None:
         self.start, self.end = start, end
         # Views that differ in fitting pass as they are drawn.
         self._fit, self._given = start.fit and end.fit, end.given
@@ -83,12 +64,12 @@ class Passage:
         first, last = (v.camera if same else v.for_size(size) for v in (start, end))
         self._cameras, self._lenses = (first.pinhole, last.pinhole), (first.lens, last.lens)
         self.possible = first.determinant * last.determinant > 0
-        self._bounds = np.asarray(bounds, float).reshape(-1, 3)
-        self._focus = _common_focus(first, last, np.asarray(focus, float))
-        if self._focus is None or not self.possible:
-            return
+        self._focus = np.asarray(focus, float)
+        if first.is_parallel != last.is_parallel:  # the focus must be in front of the eye
+            camera = last if first.is_parallel else first
+            if not _pose(camera, self._focus).slope > 0:
+                self._focus = np.asarray(camera.eye) - camera.distance * np.asarray(camera.w)
         self._poses = _pose(first, self._focus), _pose(last, self._focus)
-        self._least_k = self._invisible_k(size)
 
     def at(self, part: float, eased: bool = True) -> View:
         """Return the view at 0 (start) to 1 (end) of the time.
@@ -102,7 +83,7 @@ class Passage:
             return self.end
         s = part * part * (3 - 2 * part) if eased else part
         try:
-            camera = self._plain(s) if self._focus is None else self._between(s)
+            camera = self._between(s)
             lens = None if camera.is_parallel else lens_between(*self._lenses, s)
             camera = replace(camera, lens=lens)
         except (LucidaError, OverflowError, FloatingPointError):  # beyond the legal range
@@ -110,97 +91,36 @@ class Passage:
         return View(camera, self._fit, None if self._fit else self._given)
 
     def _between(self, s: float) -> Camera:
-        assert self._focus is not None
-        one, two = self._poses
-        turn = _slerp(one.turn, two.turn, s)
-        basis = turn @ _expm(_lerp(one.stretch, two.stretch, s))
-        half = np.exp(_lerp(np.log(one.half), np.log(two.half), s))
-        way = np.array([_way(*ends, s) for ends in zip(one.half, two.half, strict=True)])
-        at, center = one.at + way * (two.at - one.at), one.center + way * (two.center - one.center)
-        if one.k and two.k:
-            parallel, along = False, _way(one.depth, two.depth, s)
-            depth = math.exp(_lerp(math.log(one.depth), math.log(two.depth), s))
-        else:
-            k = _lerp(one.k * one.half[1], two.k * two.half[1], s) / half[1]
-            parallel, along = k <= self._least_k, s
-            depth = _lerp(one.depth, two.depth, s) if parallel else 1.0 / k
-        start = _lerp(one.start, two.start, along)
-        near = depth - start
-        if not (parallel or (one.near and two.near)) and self._all_behind(basis, start):
-            near = 0.0  # a plane that cuts nothing off
-        far = None
-        if one.end is not None and two.end is not None:
-            far = depth - _lerp(one.end, two.end, along)
-        scale, distance = 1.0, math.exp(_lerp(math.log(one.distance), math.log(two.distance), s))
-        if not parallel:
-            scale = math.exp(_lerp(math.log(one.height), math.log(two.height), s)) / half[1]
-            distance = scale * depth
-        eye = self._focus - basis @ np.array([at[0], at[1], -depth])
-        (left, bottom), (right, top) = ((center + side * half) * scale for side in (-1, 1))
-        u, v, w = basis.T.tolist()
-        return Camera(
-            eye.tolist(),
-            u,
-            v,
-            w,
-            distance,
-            (left, right, bottom, top),
-            "parallel" if parallel else "perspective",
-            near if near > max(SMALLEST, 1e-6 * abs(depth)) else None,
-            far,
+        (one, two), (first, last) = self._poses, self._cameras
+        basis = _slerp(one.turn, two.turn, s) @ _expm(_lerp(one.stretch, two.stretch, s))
+        right, up, depth = _lerp(one.at, two.at, s).tolist()
+        parallel = first.is_parallel
+        viewports: Floats = np.array([first.viewport, last.viewport])
+        viewport, distance = (
+            _lerp(viewports[0], viewports[1], s),
+            _lerp(first.distance, last.distance, s),
         )
-
-    def _plain(self, s: float) -> Camera:
-        """Return the camera in between if no focus is in front of both eyes: the eye moves
-        straight.
-        """
-        one, two = self._cameras
-        first, last = _polar(one.basis), _polar(two.basis)
-        basis = _slerp(first[0], last[0], s) @ _expm(_lerp(first[1], last[1], s))
-        u, v, w = basis.T.tolist()
-        distance = math.exp(_lerp(math.log(one.distance), math.log(two.distance), s))
-        eye, viewport = (
-            _lerp(np.array(start), np.array(end), s).tolist()
-            for start, end in ((one.eye, two.eye), (one.viewport, two.viewport))
-        )
-        near, far = (
-            None if start is None or end is None else _lerp(start, end, s)
-            for start, end in ((one.near, two.near), (one.far, two.far))
-        )
-        return replace(
-            one,
-            eye=eye,
-            u=u,
-            v=v,
-            w=w,
-            distance=distance,
-            viewport=viewport,
-            near=near,
-            far=far,
-        )
-
-    def _all_behind(self, basis: Floats, start: float) -> bool:
-        """Return True if nothing of the scene is in front of the plane in which rays begin. No clip
-        plane is needed then.
-        """
-        heights = (self._bounds - self._focus) @ np.linalg.inv(basis).T[:, 2]
-        return float(heights.max(initial=-math.inf)) < start
-
-    def _invisible_k(self, size: tuple[int, int]) -> float:
-        """Below this k, parallel rays look the same.
-
-        A point h before the focus plane, seen r pixels from the foot of the eye, moves by r h k.
-        """
-        least = math.inf
-        for pose, camera in zip(self._poses, self._cameras, strict=True):
-            shown = camera.fitted(size) if self._fit else camera
-            left, right, bottom, top = shown.viewport
-            middle = (left + right) / (right - left), (bottom + top) / (top - bottom)
-            radius_px = float(np.linalg.norm((np.abs(middle) + 1.0) * size / 2))
-            heights = (self._bounds - self._focus) @ np.linalg.inv(camera.basis).T[:, 2]
-            height = float(np.abs(heights).max(initial=abs(pose.start)))
-            least = min(least, INVISIBLE_PX / (radius_px * height))
-        return least
+        is_mixed = parallel != last.is_parallel
+        if is_mixed:
+            viewport, slope = _lerp(one.window, two.window, s), _lerp(one.slope, two.slope, s)
+            parallel, height = slope < LEAST_SLOPE, viewport[3] - viewport[2]
+            if not parallel:
+                depth = height / slope
+                heights = viewports[:, 3] - viewports[:, 2]
+                scale = _lerp(heights[0], heights[1], s) / height
+                viewport, distance = scale * viewport, scale * depth
+        near = far = None
+        if is_mixed or (first.near is not None and last.near is not None):
+            # What is behind the other eye must not come into the picture.
+            begins = _lerp(one.at[2] - (first.near or 0.0), two.at[2] - (last.near or 0.0), s)
+            near = depth - begins if depth - begins > SMALLEST else None
+        if first.far is not None and last.far is not None:
+            far = depth - _lerp(one.at[2] - first.far, two.at[2] - last.far, s)
+        eye = self._focus - basis @ (right, up, -depth)
+        u, v, w = map(three, basis.T)
+        left, right, bottom, top = viewport.tolist()
+        kind = "parallel" if parallel else "perspective"
+        return Camera(three(eye), u, v, w, distance, (left, right, bottom, top), kind, near, far)
 
 
 def lens_between(start: Lens | None, end: Lens | None, s: float) -> Lens | None:
@@ -220,40 +140,13 @@ def lens_between(start: Lens | None, end: Lens | None, s: float) -> Lens | None:
     )
 
 
-def _common_focus(one: Camera, two: Camera, focus: Floats) -> Floats | None:
-    """Return a point in front of every perspective eye: the focus, or else the middle of one of the
-    image planes; None if there is none.
-    """
-    middle = [np.asarray(c.eye) - c.distance * np.asarray(c.w) for c in (one, two)]
-    for point in (focus, *middle):
-        depths = [depth_of(c, point) / c.distance for c in (one, two) if not c.is_parallel]
-        if all(depth > LEAST_DEPTH for depth in depths):
-            return point
-    return None
-
-
 def _pose(camera: Camera, focus: Floats) -> Pose:
     turn, stretch = _polar(camera.basis)
     x, y, z = (camera.camera_from_world @ [*focus, 1.0])[:3].tolist()
-    left, right, bottom, top = camera.viewport
-    scale = 1.0 if camera.is_parallel else -z / camera.distance
-    half = np.array([right - left, top - bottom]) / 2 * scale
-    center = np.array([left + right, bottom + top]) / 2 * scale
-    near, far = camera.near, camera.far
-    return Pose(
-        turn,
-        stretch,
-        np.array([x, y]),
-        half,
-        center,
-        0.0 if camera.is_parallel else -1.0 / z,
-        -z - (near or 0.0),
-        None if far is None else -z - far,
-        -z,
-        near,
-        (top - bottom) / 2,
-        camera.distance,
-    )
+    window = np.array(camera.viewport) * (1.0 if camera.is_parallel else -z / camera.distance)
+    height = 0.0 if camera.is_parallel else camera.viewport[3] - camera.viewport[2]
+    ahead = 1.0 if z < 0 else -1.0
+    return Pose(turn, stretch, np.array([x, y, -z]), window, ahead * height / camera.distance)
 
 
 def _polar(basis: Floats) -> tuple[Floats, Floats]:
@@ -289,12 +182,6 @@ def _slerp(start: Floats, end: Floats, s: float) -> Floats:
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     rotation = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
     return rotation @ start
-
-
-def _way(start: float, end: float, s: float) -> float:
-    """Return how far a length has come that changes geometrically."""
-    logarithm = math.log(end / start)
-    return math.expm1(s * logarithm) / math.expm1(logarithm) if logarithm else s
 
 
 def _lerp(start: Number, end: Number, s: float) -> Number:

@@ -122,7 +122,6 @@ class LensPreset:
     """
 
     name: str
-    note: str
     lens: Lens
     distance: float = 1.0
     panorama: bool = False
@@ -142,34 +141,28 @@ class LensPreset:
 LENS_PRESETS = (
     LensPreset(
         "Barrel",
-        "Lines bow outwards: less magnified towards the border, as by cheap wide-angle lenses.",
         Lens("brown", {"k1": -0.25, "k2": 0.06}),
     ),
     LensPreset(
         "Pincushion",
-        "Lines bow inwards: more magnified towards the border, as by many telephoto lenses.",
         Lens("brown", {"k1": 0.25}),
     ),
     LensPreset(
         "Phone",
-        "A phone's main camera: barrel that turns back towards the border.",
         Lens("brown", {"k1": 0.12, "k2": -0.28, "p1": 0.001, "p2": -0.001, "k3": 0.17}),
     ),
     LensPreset(
         "Action cam",
-        "About 150 degrees from corner to corner.",
         Lens("fisheye", {"k1": 0.04, "k2": 0.03, "k3": -0.05, "k4": 0.02}),
         0.72,
     ),
     LensPreset(
         "190 degrees",
-        "A fisheye that sees a little behind itself: a circle in the image; the rest is outside.",
         Lens("fisheye", {"k4": -0.00195}),
         0.325,
     ),
     LensPreset(
         "360 degrees",
-        "A panorama: everything around the eye. Across is longitude, upwards latitude.",
         Lens("equirectangular"),
         panorama=True,
     ),

@@ -33,14 +33,12 @@ class Preset:
     """A basis with a name.
 
     oblique: w is not perpendicular to u and v, which is meant for parallel rays only.
-    note: a description in one line.
     """
 
     name: str
     u: Vector
     v: Vector
     w: Vector
-    note: str
     oblique: bool = False
 
 
@@ -59,34 +57,30 @@ def _receding(factor: float) -> Vector:
 
 
 PRESETS = (
-    Preset("Front", (1, 0, 0), (0, 1, 0), (0, 0, 1), "From +z: x to the right, y up."),
-    Preset("Back", (-1, 0, 0), (0, 1, 0), (0, 0, -1), "From -z: -x to the right, y up."),
-    Preset("Left", (0, 0, 1), (0, 1, 0), (-1, 0, 0), "From -x: z to the right, y up."),
-    Preset("Right", (0, 0, -1), (0, 1, 0), (1, 0, 0), "From +x: -z to the right, y up."),
-    Preset("Top", (1, 0, 0), (0, 0, -1), (0, 1, 0), "From above, +y: x to the right, -z up."),
+    Preset("Front", (1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    Preset("Back", (-1, 0, 0), (0, 1, 0), (0, 0, -1)),
+    Preset("Left", (0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+    Preset("Right", (0, 0, -1), (0, 1, 0), (1, 0, 0)),
+    Preset("Top", (1, 0, 0), (0, 0, -1), (0, 1, 0)),
     Preset(
         "Bottom",
         (1, 0, 0),
         (0, 0, 1),
         (0, -1, 0),
-        "From below, -y: x to the right, z up. A floor hides the rest; near cuts it away.",
     ),
     Preset(
         "Isometric",
         *_looking_along((1.0, 1.0, 1.0)),
-        "From (1, 1, 1): x, y and z are foreshortened alike, at 120 degrees to one another.",
     ),
     Preset(
         "Dimetric",
         *_looking_along((1.0, 1.0, math.sqrt(7.0))),
-        "From (1, 1, sqrt 7): x at 7 degrees and y at full length, z at 42 degrees and half.",
     ),
     Preset(
         "Cavalier",
         AXES["x"],
         AXES["y"],
         _receding(1.0),
-        "Oblique: x and y as they are; z recedes at 45 degrees and full length.",
         oblique=True,
     ),
     Preset(
@@ -94,7 +88,6 @@ PRESETS = (
         AXES["x"],
         AXES["y"],
         _receding(0.5),
-        "Oblique: x and y as they are; z recedes at 45 degrees and half length.",
         oblique=True,
     ),
 )

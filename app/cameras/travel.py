@@ -89,7 +89,7 @@ class CameraTransition:
             or not min(size)
         ):
             return target
-        passage = Passage(start, end, focus.center, focus.bounds, size)
+        passage = Passage(start, end, focus.center, size)
         if not passage.possible:
             return target
         self._number += 1

@@ -36,13 +36,13 @@ class Call:
 
     function: its name.
     arguments: names, for messages, and values, in their order.
-    vectorised: lists are passed as NumPy arrays, and the answer consists of arrays.
+    as_arrays: lists are passed as NumPy arrays.
     notation: of the names in messages.
     """
 
     function: str
     arguments: tuple[tuple[str, Any], ...]
-    vectorised: bool = False
+    as_arrays: bool = False
     notation: Notation = "code"
 
 

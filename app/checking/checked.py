@@ -84,7 +84,7 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
     kind = KINDS[task.kind]
     cases = kind.cases(task)
     result = judged(task, cases, student.call(kind.calls(task, cases)))
-    if result.status == "wrong" and task.feedback == "diagnosis" and not task.vectorised:
+    if result.status == "wrong" and task.feedback == "diagnosis":
         return _asked_again(student, result)
     return result
 
@@ -148,9 +148,8 @@ def _diagnosis(
 ) -> Diagnosis | None:
     if task.feedback != "diagnosis":
         return None
-    from lucida.app.checking.diagnosed import (
-        diagnosis,  # loads the mistakes, so only if there are some
-    )
+    # Loads the mistakes, so only if there are some.
+    from lucida.app.checking.mistakes.diagnosis import diagnosis
 
     return diagnosis(task, cases, given, wrong)
 

@@ -7,19 +7,15 @@ import builtins
 import keyword
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
 from lucida.app.checking.conventions import CAMERA, PAIRS, Conventions
-from lucida.app.checking.mistakes.diagnosis import AS_IF
-from lucida.app.checking.mistakes.program import Program
-from lucida.app.checking.mistakes.rays import RayTask, ray_program
-from lucida.app.checking.mistakes.render import render_program
-from lucida.app.checking.mistakes.value_programs import value_program
+from lucida.app.checking.mistakes.programs import programs
+from lucida.app.checking.mistakes.rays import LETTERS
 from lucida.app.checking.mistakes.vectors import FUNCTIONS
-from lucida.app.checking.ray_words import LETTERS, ray_task
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.ui.explaining.symbols import arguments, program
 
+AS_IF = "As if it read"
 # The parts of a word's value, by their names in the programs.
 _PARTS: Mapping[str, Mapping[str, str]] = {
     **{pair: {part: f"[{k}]" for k, part in enumerate(parts)} for pair, parts in PAIRS.items()},
@@ -32,23 +28,6 @@ _PARTS: Mapping[str, Mapping[str, str]] = {
 _NAME = re.compile(r"(?<![\w.'])[A-Za-z_]\w*")
 _PIXEL = re.compile(r" ?\b([ij])\b")  # in the words of a hint
 _PYTHON = {*dir(builtins), *keyword.kwlist}
-
-
-def programs(task: CheckTask) -> list[Program]:
-    """Return the programs whose mistakes are looked for: one, or one for each projection."""
-    its = task.conventions
-    if task.kind in ("viewing-ray", "render"):
-        made = ray_program if task.kind == "viewing-ray" else render_program
-        rays = asked_rays(task)
-        return [made(replace(rays, projection=projection)) for projection in task.projections]
-    more = task.weights, task.inclusive, its.base, task.column_major, task.stride
-    return [value_program(task.kind, *more)]
-
-
-def asked_rays(task: CheckTask) -> RayTask:
-    """Return how rays are asked for. The loops of an image count from 0, whatever the base is."""
-    its = task.conventions
-    return ray_task(replace(its, base=0) if task.kind == "render" else its)
 
 
 def functions(task: CheckTask) -> set[str]:

@@ -21,10 +21,9 @@ from lucida.app.checking.conventions import (
     Named,
 )
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.basis import PARTS
 from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.task_schema import AxesTable, ConventionsTable, TaskFile, TaskTable
-from lucida.app.checking.tasks import CAMERA_KINDS, SEED, CheckTask
+from lucida.app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
+from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
@@ -35,8 +34,15 @@ from lucida.renderer.system.errors import LucidaError, under
 from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
-WITH_CAMERAS = ("viewing-ray", "render")
-VISION = "K, R and t: x right, y down, z forward"
+REMOVED = ("vectorised",)  # fields of older files; a function is called for each pixel
+PROJECTIONS = {
+    "perspective": ("perspective",),
+    "parallel": ("parallel",),
+    "both": ("perspective", "parallel"),
+}
+# Words that give the size of a parallel view.
+SIZED = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
+SIZED |= {"pixel00", "top_left", "bottom_left"}
 NAME = re.compile(r"[^\W\d]\w*")
 
 
@@ -76,169 +82,133 @@ def _read(path: Path, source: str) -> TaskSet:
 def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     if not 1 <= len(file.tasks) <= TASKS:
         raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
-    limits = Limits()
-    limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
-    shared = Conventions()
-    if file.conventions.camera is not None:
-        camera = tuple(_camera("conventions.camera", file.conventions.camera))
-        shared = replace(shared, camera=camera)
+    _check_words("conventions.camera", file.conventions.camera or {}, CAMERA_WORDS)
     tasks: list[CheckTask] = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"
-        entry: TaskTable = to_struct(table, TaskTable, field)
+        kept = {name: value for name, value in table.items() if name not in REMOVED}
+        entry: TaskTable = to_struct(kept, TaskTable, field)
         with under(field):
-            task = _task(entry, file, shared, folder)
+            task = _task(entry, file, folder)
             if any(task.name == other.name for other in tasks):
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
             tasks.append(task)
+    limits = Limits()
+    limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
     return TaskSet(file.title, tuple(tasks), limits, file.notation)
 
 
-def _task(entry: TaskTable, file: TaskFile, shared: Conventions, folder: Path) -> CheckTask:
-    if entry.kind not in KINDS:
-        raise LucidaError("kind", f"{entry.kind!r} is unknown", suggestion(entry.kind, KINDS))
+def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
+    check_known("kind", entry.kind, KINDS)
     kind = KINDS[entry.kind]
     base = next(task for task in builtin_tasks(file.notation) if task.kind == kind.name)
-    conventions = _conventions(entry, file.conventions, kind, shared.camera)
-    projections = base.projections
-    if entry.projection is not None:
-        projections = (
-            ("perspective", "parallel") if entry.projection == "both" else (entry.projection,)
-        )
-    _check_rigid_parallel(conventions, projections)
-    seed = next(s for s in (entry.seed, file.seed, SEED) if s is not None)
-    function = entry.function or kind.function
-    _check_name("function", function)
+    own: dict[str, Any] = {
+        "name": entry.name or kind.name,
+        "function": entry.function or kind.function,
+        "part": entry.part or None,
+        "text": entry.text or _text(entry, kind),
+        "count": entry.cases,
+        "size": entry.size,
+        "seed": file.seed if entry.seed is None else entry.seed,
+        "feedback": entry.feedback or file.feedback,
+        "weights": entry.weights,
+        "stride": entry.stride,
+        "projections": entry.projection and PROJECTIONS[entry.projection],
+    }
+    _check_name("function", own["function"])
     task = replace(
         base,
-        name=entry.name or entry.kind,
-        function=function,
-        part=entry.part or base.part,
-        text=entry.text or _text(entry, kind, base),
         points=entry.points,
-        conventions=conventions,
-        cameras=_cameras(entry, conventions, base),
-        projections=projections,
-        count=base.count if entry.cases is None else entry.cases,
+        conventions=_conventions(entry, file.conventions, kind),
         views=tuple(_views(entry.views, folder)),
-        size=entry.size,
-        seed=seed,
-        feedback=entry.feedback or file.feedback,
-        vectorised=_vectorised(entry, kind),
-        weights=base.weights if entry.weights is None else entry.weights,
         inclusive=entry.at_threshold != 0,
         column_major=entry.order == "column-major",
-        stride=base.stride if entry.stride is None else entry.stride,
+        **{name: value for name, value in own.items() if value is not None},
     )
-    _check(task)
+    if task.kind in WITH_CAMERAS:
+        return _with_cameras(task, entry.cameras)
+    for name in ("cameras", "views", "size"):
+        if getattr(entry, name):
+            raise LucidaError(name, f"{task.kind} has no cameras", "leave it out")
     return task
 
 
-def _text(entry: TaskTable, kind: CheckKind, base: CheckTask) -> str:
-    """Return the description. The built-in one only applies to the built-in conventions."""
+def _text(entry: TaskTable, kind: CheckKind) -> str | None:
+    """Return a description where the built-in one would be wrong."""
     others = (entry.arguments, entry.returns, entry.stride, entry.order, entry.weights)
     if all(other is None for other in (*others, entry.at_threshold)):
-        return base.text
+        return None
     answer = kind.answer if entry.returns is None else ", ".join(entry.returns)
     return f"See the course's own text. Give {answer}."
 
 
-def _conventions(
-    entry: TaskTable, shared: ConventionsTable, kind: CheckKind, camera: Named
-) -> Conventions:
-    def said(name: str, default: Any) -> Any:
-        values = (getattr(entry, name), getattr(shared, name))
-        return next((value for value in values if value is not None), default)
-
-    axes = said("axes", AxesTable())
-    signs = (
-        1 if axes.x == "right" else -1,
-        1 if axes.y == "up" else -1,
-        1 if axes.z == "back" else -1,
-    )
-    if entry.camera is not None:
-        camera = tuple(_camera("camera", entry.camera))
+def _conventions(entry: TaskTable, shared: ConventionsTable, kind: CheckKind) -> Conventions:
+    said = {
+        name: value
+        for table in (shared, entry)
+        for name in ConventionsTable.__struct_fields__
+        if (value := getattr(table, name)) is not None
+    }
     conventions = Conventions(
-        _arguments(entry, kind),
-        camera,
-        _returns(entry, kind),
-        said("pixels_from", 0),
-        said("rows", "top"),
-        signs,
-        said("vectors", "column") == "row",
-        said("space", "world"),
-        bool(said("unit", False)),
-        said("origin", "exact") == "on-ray",
-        said("pixel_origin", ""),
+        arguments=_arguments(entry.arguments, kind),
+        returns=_returns(entry.returns, kind),
+        base=said.get("pixels_from", 0),
+        rows=said.get("rows", "top"),
+        row_vectors=said.get("vectors") == "row",
+        space=said.get("space", "world"),
+        unit=said.get("unit", False),
+        any_origin=said.get("origin") == "on-ray",
+        pixel_origin=said.get("pixel_origin", ""),
     )
-    if not conventions.vision or kind.name not in WITH_CAMERAS:
-        return conventions
-    if said("axes", None) is None:
-        conventions = replace(conventions, axes=VISION_AXES)
-    if conventions.axes != VISION_AXES:
-        raise LucidaError("axes", f"are not those of {VISION}", "leave them out")
-    if conventions.rows == "bottom":
-        raise LucidaError("rows", f"begin at the top for {VISION}", "leave it out")
-    return conventions
+    if "camera" in said:
+        _check_words("camera", entry.camera or {}, CAMERA_WORDS)
+        conventions = replace(conventions, camera=tuple(said["camera"].items()))
+    is_vision = conventions.vision and kind.name in WITH_CAMERAS
+    axes = said["axes"].signs if "axes" in said else VISION_AXES if is_vision else (1, 1, 1)
+    if is_vision and (axes != VISION_AXES or conventions.rows == "bottom"):
+        field = "rows" if axes == VISION_AXES else "axes"
+        problem = "differs from K, R and t: x right, y down from the top, z forward"
+        raise LucidaError(field, problem, "leave it out")
+    return replace(conventions, axes=axes)
 
 
-def _arguments(entry: TaskTable, kind: CheckKind) -> Named:
-    given = entry.arguments
+def _arguments(given: list[str] | dict[str, str] | None, kind: CheckKind) -> Named:
     if given is None:
         return tuple((word, word) for word in kind.arguments)
-    if isinstance(given, dict):
-        named = list(given.items())
-        for name, word in named:
-            check_known(f"arguments.{name}", word, kind.words)
-            _check_name(f"arguments.{name}", name)
-    else:
-        named = [(word, word) for word in given]
-        for number, word in enumerate(given):
-            check_known(f"arguments[{number}]", word, kind.words)
-    if not named:
-        raise LucidaError("arguments", "is empty", f"give e.g. {list(kind.arguments)}")
-    words = [word for _, word in named]
-    if len(set(words)) < len(words):
-        raise LucidaError("arguments", "names a word twice", "give each once")
-    if kind.name == "viewing-ray" and not {*PIXEL_WORDS, *PAIRS} & set(words):
+    _check_words("arguments", given, kind.words)
+    named = tuple(given.items() if isinstance(given, dict) else zip(given, given, strict=True))
+    if kind.name == "viewing-ray" and {*PIXEL_WORDS, *PAIRS}.isdisjoint(word for _, word in named):
         raise LucidaError("arguments", "has no word for the pixel", 'give e.g. "i", "j" or "xy01"')
-    return tuple(named)
+    return named
 
 
-def _camera(field: str, fields: dict[str, str]) -> Iterator[tuple[str, str]]:
-    for name, word in fields.items():
-        _check_name(f"{field}.{name}", name)
-        check_known(f"{field}.{name}", word, CAMERA_WORDS)
-        yield name, word
-
-
-def _returns(entry: TaskTable, kind: CheckKind) -> tuple[str, ...]:
-    if entry.returns is None:
+def _returns(given: list[str] | None, kind: CheckKind) -> tuple[str, ...]:
+    if given is None:
         return kind.returns
     if not kind.returns:
         raise LucidaError("returns", f"{kind.name} gives {kind.answer}", "leave it out")
-    for number, word in enumerate(entry.returns):
-        check_known(f"returns[{number}]", word, kind.return_words)
-    same = [PARTS[word][0] if kind.name == "basis" else word for word in entry.returns]
-    if not same or len(set(same)) < len(same):
-        raise LucidaError(
-            "returns", "names nothing, or one thing twice", f"give e.g. {list(kind.returns)}"
-        )
-    if kind.name == "closest-hit" and len(same) < 2:
-        raise LucidaError("returns", "names one thing", 'give "object" and "t"')
-    return tuple(entry.returns)
+    _check_words("returns", given, kind.return_words)
+    if kind.name not in ("viewing-ray", "basis") and set(given) != set(kind.returns):
+        raise LucidaError("returns", "leaves something out", f"give {list(kind.returns)}")
+    return tuple(given)
 
 
-def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tuple[str, ...]:
-    possible = camera_kinds(conventions)
-    if entry.kind not in WITH_CAMERAS:
-        if entry.cameras is not None:
-            raise LucidaError("cameras", f"{entry.kind} has no cameras", "leave it out")
-        return base.cameras
-    if entry.cameras is None:
-        return tuple(kind for kind in base.cameras if kind in possible)
-    for number, kind in enumerate(entry.cameras):
+def _check_words(field: str, given: list[str] | dict[str, str], known: Iterable[str]) -> None:
+    """Raise LucidaError if a word is unknown, or if the program's name for one is no name."""
+    if isinstance(given, dict):
+        for name, word in given.items():
+            _check_name(f"{field}.{name}", name)
+            check_known(f"{field}.{name}", word, known)
+    else:
+        for number, word in enumerate(given):
+            check_known(f"{field}[{number}]", word, known)
+
+
+def _with_cameras(task: CheckTask, given: list[str] | None) -> CheckTask:
+    """Return the task with the kinds of cameras that its words can describe."""
+    possible = camera_kinds(task.conventions)
+    for number, kind in enumerate(given or ()):
         check_known(f"cameras[{number}]", kind, CAMERA_KINDS)
         if kind not in possible:
             raise LucidaError(
@@ -246,24 +216,18 @@ def _cameras(entry: TaskTable, conventions: Conventions, base: CheckTask) -> tup
                 f"{kind!r} cannot be told in the words of the arguments",
                 f"give {', '.join(possible)}; or u, v, w and viewport for angles and targets",
             )
-    if not entry.cameras:
-        raise LucidaError("cameras", "is empty", "name one, or set cases = 0 and give views")
-    return tuple(entry.cameras)
-
-
-def _check_rigid_parallel(conventions: Conventions, projections: Iterable[str]) -> None:
-    """Raise LucidaError if parallel cameras are described by angles or focal lengths."""
-    angles = sorted(
-        word for word in conventions.words if word.startswith("fov") or word in FOCAL_WORDS
-    )
-    sized = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
-    sized |= {"pixel00", "top_left", "bottom_left"}
-    if "parallel" in projections and angles and not sized & conventions.words:
-        raise LucidaError(
-            "projection",
-            f"a parallel view has no {angles[0]}",
-            "give viewport_height, or perspective alone",
-        )
+    words = task.conventions.words
+    angles = sorted(word for word in words if word.startswith("fov") or word in FOCAL_WORDS)
+    if "parallel" in task.projections and angles and words.isdisjoint(SIZED):
+        remedy = "give viewport_height, or perspective alone"
+        raise LucidaError("projection", f"a parallel view has no {angles[0]}", remedy)
+    cameras = given or [kind for kind in task.cameras if kind in possible]
+    task = replace(task, cameras=tuple(cameras))
+    if not task.count and not task.views:
+        raise LucidaError("cases", "is 0, and there are no views", "give one of them")
+    check_size(task, "size")
+    check_views(task)
+    return task
 
 
 def _check_name(field: str, name: str) -> None:
@@ -297,26 +261,6 @@ def camera_view(table: dict[str, Any]) -> View:
     except LucidaError as error:
         field = error.field.removeprefix("camera").lstrip(".")
         raise LucidaError(field, error.problem, error.remedy) from None
-
-
-def _vectorised(entry: TaskTable, kind: CheckKind) -> bool:
-    if entry.vectorised and kind.name != "viewing-ray":
-        raise LucidaError(
-            "vectorised", f"{kind.name} has no pixels to be called for", "leave it out"
-        )
-    return entry.vectorised
-
-
-def _check(task: CheckTask) -> None:
-    """Check conditions that involve several fields."""
-    if task.kind in WITH_CAMERAS:
-        if not task.count and not task.views:
-            raise LucidaError("cases", "is 0, and there are no views", "give one of them")
-        check_size(task, "size")
-        check_views(task)
-    elif task.views or task.size:
-        which = "views" if task.views else "size"
-        raise LucidaError(which, f"{task.kind} has no cameras", "leave it out")
 
 
 def check_known(field: str, name: str, names: Iterable[str]) -> None:

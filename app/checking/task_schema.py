@@ -24,6 +24,15 @@ class AxesTable(StrictTable):
     y: Literal["up", "down"] = "up"
     z: Literal["back", "forward"] = "back"
 
+    @property
+    def signs(self) -> tuple[int, int, int]:
+        """1 for x right, y up and z back; -1 for the opposite direction."""
+        return (
+            1 if self.x == "right" else -1,
+            1 if self.y == "up" else -1,
+            1 if self.z == "back" else -1,
+        )
+
 
 class ConventionsTable(StrictTable):
     """[conventions], for all tasks of the file; each task may override it. None: the contract's.
@@ -62,10 +71,9 @@ class TaskTable(ConventionsTable, kw_only=True):
     part: str = ""
     points: Annotated[float, Meta(ge=0, le=1e6)] = 1.0
     arguments: list[str] | dict[str, str] | None = None
-    returns: list[str] | None = None
-    vectorised: bool = False
+    returns: Annotated[list[str], Meta(min_length=1)] | None = None
     projection: Literal["perspective", "parallel", "both"] | None = None
-    cameras: list[str] | None = None
+    cameras: Annotated[list[str], Meta(min_length=1)] | None = None
     views: list[dict[str, Any] | str] = field(default_factory=list)
     size: tuple[Side, Side] | None = None
     cases: Annotated[int, Meta(ge=0, le=1000)] | None = None
@@ -93,4 +101,4 @@ class TaskFile(StrictTable, kw_only=True):
     network: bool = False
     notation: Notation = "book"
     conventions: ConventionsTable = field(default_factory=ConventionsTable)
-    tasks: list[Any]
+    tasks: list[dict[str, Any]]

@@ -23,6 +23,7 @@ FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosi
 
 # Kinds of generated cameras, from the simplest; see cases.py.
 CAMERA_KINDS = ("canonical", "moved", "turned", "off-axis", "skewed")
+WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks
 RIGID_KINDS = ("canonical", "moved", "turned")
 SEED = 20
 MOST_CALLS = 500_000  # per task, limited by memory and patience
@@ -39,7 +40,6 @@ class CheckTask:
     cameras: the kinds of generated cameras; count of them in total, from the seed.
     views: further cameras, given by the task.
     size: of the image; None for a small one for each camera.
-    vectorised: one call for all pixels of an image.
     weights: of to_gray.
     inclusive: whether the threshold itself is white.
     column_major, stride: of memory_offset.
@@ -60,7 +60,6 @@ class CheckTask:
     size: Size | None = None
     seed: int = SEED
     feedback: Feedback = "diagnosis"
-    vectorised: bool = False
     weights: Vector = LUMINANCE
     inclusive: bool = True
     column_major: bool = False
@@ -73,7 +72,7 @@ class CheckCase:
     """One call of a task's function.
 
     arguments: names and values, in the order of the call.
-    right, tolerance: the correct answer in the kind's own form, and the largest difference from it
+    right, tolerance: the correct answer as an array, and the largest difference from it
     that is still correct, as the kind defines it.
     values: the values from which it follows, by the task's words.
     camera, size: for a viewing ray or an image.

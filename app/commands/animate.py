@@ -25,8 +25,8 @@ NAME = "animate"
 DESCRIPTION = "Draw a film: a scene, seen by a camera that moves."
 
 EPILOG = """\
-OUT: .mp4 (H.264), .gif, .webp, or a name without an ending, or with a slash after it: a folder of
-PNGs. Run the same command again after a break: it goes on where it stopped.
+OUT is a film (.mp4 with H.264, .gif or .webp), or a folder of PNGs if it has no ending or ends with
+a slash. Run the same command again after a break: it continues where it stopped.
 
 examples:
   lucida animate still-life --orbit -o orbit.mp4
@@ -49,7 +49,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     path.add_argument("--orbit", action="store_true", help="once around the scene")
     path.add_argument(
-        "--dolly-zoom", action="store_true", help="back and longer: the subject keeps its size"
+        "--dolly-zoom",
+        action="store_true",
+        help="back, and longer: the subject keeps its size",
     )
     path.add_argument("--to-parallel", action="store_true", help="from perspective to parallel")
     path.add_argument(

@@ -36,8 +36,8 @@ SCENE_HELP = """\
 a scene file (.toml), a model (.obj .ply .stl .off .glb .gltf), or the name
 of a built-in scene (`lucida scenes` lists them)"""
 SIZE_HELP = f"""\
-width and height in pixels (default: those of the image that the file of
---view is for, if it says; else {DEFAULT_SIZE[0]}x{DEFAULT_SIZE[1]})"""
+width and height in pixels (default: the size that the file of --view
+states for its image; otherwise {DEFAULT_SIZE[0]}x{DEFAULT_SIZE[1]})"""
 BACKEND_HELP = "the rasterizer's GL platform; auto: EGL, then OSMesa (default: auto)"
 
 
@@ -86,7 +86,7 @@ def samples(text: str) -> int:
 
 
 def whole(least: int, most: int, complaint: str) -> Callable[[str], int]:
-    """Return a parser of whole numbers from `least` to `most`. complaint: what others are."""
+    """Return a parser of whole numbers from `least` to `most`. complaint: on other numbers."""
 
     def parse(text: str) -> int:
         if not (_is_whole(text) and least <= int(text) <= most):
@@ -97,7 +97,7 @@ def whole(least: int, most: int, complaint: str) -> Callable[[str], int]:
 
 
 def real(is_allowed: Callable[[float], bool], complaint: str) -> Callable[[str], float]:
-    """Return a parser of the numbers that are allowed. complaint: what others are."""
+    """Return a parser of the numbers that are allowed. complaint: on other numbers."""
 
     def parse(text: str) -> float:
         with contextlib.suppress(ValueError):
@@ -143,7 +143,7 @@ def add_drawing_options(parser: argparse.ArgumentParser) -> None:
         "--threads",
         type=whole(1, 1024, "is not a number of threads; give 1 to 1024"),
         metavar="N",
-        help="the ray tracer's threads (default: one a core)",
+        help="the ray tracer's threads (default: one per core)",
     )
     parser.add_argument(
         "--shadows", action="store_true", help="with --renderer ray: objects shade one another"

@@ -33,16 +33,16 @@ if TYPE_CHECKING:
 NAME = "camera"
 
 DESCRIPTION = """\
-Say what a camera of any format is: eye, basis, viewport, d, fields of view, focal lengths and
-principal point, and which conventions it was taken by. With --to or -o: write it in another one."""
+Describe a camera of any format: eye, basis, viewport, d, fields of view, focal lengths, principal
+point, and the conventions of its file. With --to or -o, write it in another format."""
 
 EPILOG = """\
 formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr), colmap, nerf,
 gltf (for Blender, three.js and engines), opengl. docs/cameras.md says what each holds, and has the
 formulas.
 
-A file of several cameras: --frame or --image chooses one, or INPUT#12, INPUT#IMG_7.jpg. Without,
-all are written where the format holds several. Nothing is written where one cannot be held.
+If a file has several cameras, --frame or --image selects one, or INPUT#12, INPUT#IMG_7.jpg.
+Otherwise all are written, if the format holds several, and none if it cannot hold one of them.
 exit status: 0 done, 2 a mistake or a failure (one line says which), 130 interrupted
 
 examples:
@@ -79,16 +79,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=common.size,
         metavar="WxH",
-        help="of the image, where INPUT has none; or another one: the viewport stands",
+        help="the image's, if INPUT has none, or another one: the viewport stays",
     )
     parser.add_argument(
         "--pixel-origin",
         choices=("center", "corner"),
-        help="where whole numbers stand, in INPUT and in OUT: at pixels' centres\n"
-        "(OpenCV), or corners, with centres at .5 (default: each format's own)",
+        help="the place of whole numbers in INPUT and OUT: pixels' centres (OpenCV)\n"
+        "or corners, with centres at .5 (default: each format's own)",
     )
     add_distortion_option(parser)
-    parser.add_argument("--json", action="store_true", help="print what it is as one JSON object")
+    parser.add_argument("--json", action="store_true", help="describe it as one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -158,7 +158,7 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     if arguments.to is None and output is None:
         return None
     if arguments.json:
-        raise not_together("--json", "--to or -o", "it says what INPUT is")
+        raise not_together("--json", "--to or -o", "it describes INPUT")
     if arguments.to is None:
         ending = Path(output).suffix.lower()
         names = [entry.name for entry in FORMATS if ending in entry.endings]

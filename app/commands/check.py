@@ -33,12 +33,12 @@ PYTHON = (".py", ".pyw", "")
 NOT_ENDED = "The check did not come to its end: nothing has been graded."
 
 DESCRIPTION = """\
-Check what a student wrote, a Python file or any program, and say what it does instead.
-`lucida tasks` lists what can be asked; docs/checking.md has it all."""
+Check a student's code, a Python file or any program, and report what it does instead of its task.
+`lucida tasks` lists the tasks; docs/checking.md has the details."""
 
 EPILOG = """\
 The code runs in a process of its own, with limits on time and memory. Without --as, a dishonest
-program could read the right answers, change its results, end the check, or leave a daemon behind
+program could read the correct answers, change its results, end the check, or leave a daemon behind
 that it has started by two forks.
 exit status: 0 all correct, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
@@ -80,7 +80,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=common.size,
         metavar="WxH",
         help=f"of the images that are tried (with --view: {SIZE[0]}x{SIZE[1]}, or as much of it\n"
-        "as the shape of the camera's own image takes)",
+        "as the camera's own aspect ratio allows)",
     )
     parser.add_argument(
         "--seed",
@@ -118,8 +118,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--python", metavar="PATH", help="run a Python file by this interpreter (default: Lucida's)"
     )
-    parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; all: of all")
-    parser.add_argument("-o", dest="output", metavar="FILE", help="where to write that")
+    parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; or `all`")
+    parser.add_argument("-o", dest="output", metavar="FILE", help="the file of --starter")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -14,15 +14,15 @@ NAME = "compare"
 
 DESCRIPTION = """\
 Draw a scene with both renderers and compare object, depth, normal and colour at every pixel.
-A difference is explained where the pixel's centre lies within 1/128 pixel of a line at which
+A difference is explained if the pixel's centre lies within 1/128 pixel of a line at which
 the exact image jumps: a rasterizer snaps vertices to a grid that fine. Through a lens, it may
 also lie within half a texel of such a line in the image that was looked up."""
 
 EPILOG = """\
 The picture shows the raster image dark, with the differing pixels in their causes' colours:
 edge light blue, pattern olive, clip purple, lookup light green; unexplained vermilion, or pink
-where only the colour differs. Or the difference as false colours: absolute, black (none) to
-white; signed, blue (raster larger) over white (none) to orange (ray larger).
+where only the colour differs. Or it shows the difference in false colours: absolute, black (none)
+to white; signed, blue (raster larger) over white (none) to orange (ray larger).
 exit status: 0 no unexplained pixels, 1 some, or nothing is hit in either image, so that nothing
 was compared; 2 a mistake or a failure, 130 interrupted
 
@@ -52,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--channel",
         choices=("color", "depth", "normal", "id"),
         default="color",
-        help="whose difference absolute and signed show (default: color)",
+        help="the channel of absolute and signed (default: color)",
     )
     parser.add_argument(
         "--gain",
@@ -61,7 +61,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         ),
         default=1.0,
         metavar="G",
-        help="what the difference is multiplied with there (default: 1)",
+        help="the factor of the difference in these (default: 1)",
     )
     parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP

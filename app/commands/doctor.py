@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 NAME = "doctor"
 
 DESCRIPTION = """\
-Say which parts of Lucida work on this machine, and of the rest, why not and what to install:
+Report which parts of Lucida work on this machine, and why others do not and what to install:
 OpenGL, display, ray tracer, the packages of films and notebooks, the command and the imports."""
 
 EPILOG = """\

@@ -25,7 +25,7 @@ STANDARD_INPUT = "-"
 VIEW_HELP = """\
 take the camera from this file: a view file (.toml), or any other
 of `lucida camera`; of several: transforms.json#12, sparse/0#IMG_7.jpg"""
-IGNORE_HELP = "take a camera with a lens as a pinhole; say what that changes"
+IGNORE_HELP = "ignore a camera's lens; report what that changes"
 
 
 def add_view_option(parser: argparse.ArgumentParser, help: str = VIEW_HELP) -> None:
@@ -41,7 +41,7 @@ def add_distortion_option(parser: argparse.ArgumentParser) -> None:
 def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     """Return the one camera of --view; None without it. Raises LucidaError.
 
-    Report in a line each what the file does not state or Lucida does not use.
+    Report, in a line each, values that the file does not state or Lucida does not use.
     """
     if arguments.view is None:
         return None
@@ -55,7 +55,7 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
 
 
 def say_notes(found: CameraSet, file: str) -> None:
-    """Report on standard error what a file does not state, and what of it is not used."""
+    """Report on standard error values that a file does not state, and those that are not used."""
     for note in found.notes:
         print(f"lucida: {one_line(file)}: {one_line(note)}", file=sys.stderr)
 

@@ -28,7 +28,7 @@ It starts in presentation mode, for a hall: capitals are 1/50 of the window's he
 
 EPILOG = """\
 in the lecture:
-  Page Down, Right    on; ends a movement   Page Up, Left       back
+  Page Down, Right    next; ends a movement Page Up, Left       back
   R                   play the present build again
   End                 continue at the step where it was left last time, until you change steps
   Backspace           back to the step's own scene, camera and views
@@ -71,7 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="a page for any browser (.html), its print (.pdf), or a folder of PNGs",
     )
     either.add_argument(
-        "--answers", metavar="FILE", help="keep what is answered in FILE, a line each; no names"
+        "--answers", metavar="FILE", help="record answers in FILE, one per line, without names"
     )
     either.add_argument(
         "--results",
@@ -95,7 +95,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--outside",
         action="store_true",
-        help="agree that the lecture reads files outside of its folder",
+        help="allow the lecture to read files outside its folder",
     )
     parser.add_argument(
         "--size",
@@ -110,7 +110,7 @@ def _place(text: str) -> tuple[int, int]:
     """Return step and build from 0 of a text such as 3 or 3.2."""
     numbers = re.fullmatch(r"([1-9]\d{0,3})(?:\.([1-9]\d?))?", text)
     if numbers is None:
-        raise argparse.ArgumentTypeError(f"{text!r} is no step; give 3, or 3.2 for a build of it")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a step; give 3, or 3.2 for a build")
     return int(numbers[1]) - 1, int(numbers[2] or 1) - 1
 
 
@@ -137,7 +137,7 @@ def run(arguments: argparse.Namespace) -> int:
         from lucida.app.window.lecturing import ask_lecture
 
         return ask_lecture(path, error, arguments.size)
-    for note in lecture.notes:
+    for note in lecture.notes if arguments.check else lecture.summary:
         print(f"lucida: {one_line(note)}", file=sys.stderr)
     if arguments.check:
         return _check(lecture, path, arguments.file or lecture.title)
@@ -193,7 +193,7 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
-    """Write a page about what a class answered."""
+    """Write a page about a class's answers."""
     from lucida.app.checking.results.model import class_results
     from lucida.app.checking.results.page import page
     from lucida.app.checking.results.reading import read_answers

@@ -25,7 +25,7 @@ def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
         metavar="N",
         help=f"processes that draw {what}\nside by side (default: 1)",
     )
-    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
+    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="of Dask, for a cluster")
 
 
 def look_of(arguments: argparse.Namespace) -> Look:
@@ -53,6 +53,6 @@ def make_film(film: Film, arguments: argparse.Namespace, what: str) -> None:
     if done:
         there = "all" if done == len(film.shots) else f"{done} of"
         where = f"lucida: {one_line(str(film.folder))}"
-        print(f"{where}: {there} {len(film.shots)} {what} are there; delete them to draw them anew")
+        print(f"{where}: {there} {len(film.shots)} {what} are there; delete them to redraw")
     with common.progress_bar(what) as progress:
         make(film, arguments.workers, arguments.scheduler, progress)

@@ -13,7 +13,7 @@ NAME = "page"
 
 DESCRIPTION = """\
 Write a scene as one HTML page: both images, the outside view and a pixel's ray, live, in any
-browser, from a disk or a web site. The page holds all that it needs and asks for nothing."""
+browser, from a disk or a web site. The page is complete: it loads nothing else."""
 
 EPILOG = """\
 The raster image needs WebGL 2; the ray image does not. docs/page.md says how to put a page into a
@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the page, .html")
-    parser.set_defaults(size=None)  # a page's images follow the room that there is
+    parser.set_defaults(size=None)  # a page's images fit the available space
     add_view_option(parser)
     add_camera_options(parser)
 

@@ -1,4 +1,4 @@
-"""`lucida pick`: what one pixel of an image sees, in numbers: those of the image from `render`."""
+"""`lucida pick`: print what one pixel of an image sees, with the numbers of `render`."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 NAME = "pick"
 
 DESCRIPTION = """\
-Say what one pixel of an image sees: the object, the ray parameter t, point, normal and colour.
-Rows are counted from the top, columns from the left; from 0, or with --from 1 from 1."""
+Print what one pixel of an image sees: the object, the ray parameter t, point, normal and colour.
+Rows are counted from the top, columns from the left, from 0 or, with --from 1, from 1."""
 
 EPILOG = """\
-t counts as in `lucida render --channel depth`: 1 on the image plane in perspective. The normal is
-of unit length and faces the viewer; the colour is linear light, and sRGB as in a picture.
+t is measured as in `lucida render --channel depth`: 1 on the image plane in perspective. The normal
+is of unit length and faces the viewer; the colour is linear light, and sRGB as in a picture.
 exit status: 0 done (also if the pixel sees the background), 2 a mistake or a failure,
 130 interrupted
 

@@ -25,7 +25,7 @@ DESCRIPTION = "Draw a scene with one of the two renderers and write one channel 
 EPILOG = """\
 formats, by OUT's ending:
   .png .ppm   picture: 8-bit sRGB colours
-  .pgm .pbm   picture: its gray (luminance), or that cut at half, one bit per pixel
+  .pgm .pbm   picture: its gray (luminance), or that thresholded at half, one bit per pixel
   .pfm        numbers: float32, linear light, one or three a pixel
   .exr        numbers: float32 R G B, Z (depth), N.X N.Y N.Z (normal); uint32 id,
               4294967295 where nothing is hit
@@ -49,10 +49,10 @@ examples:
   lucida render still-life -o large.png --renderer ray --size 16384x16384 --workers 4
   lucida render scene.toml -o depths --view transforms.json --all --channel depth --format .exr
 
-An image of more than 67 million pixels is drawn in parts, up to 16384 a side, as .png or .exr. It,
-and --all, go on where they stopped after a break.
+An image of more than 67 million pixels is drawn in parts, up to 16384 a side, as .png or .exr.
+After a break, it continues where it stopped, and so does --all.
 
-exit status: 0 written (a line says so where nothing is hit), 2 a mistake or a failure,
+exit status: 0 written (a line says so if nothing is hit), 2 a mistake or a failure,
 130 interrupted"""
 
 

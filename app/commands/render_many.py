@@ -25,9 +25,9 @@ from lucida.renderer.scene.precision import check_precision
 from lucida.renderer.system.atomic import file_stem
 from lucida.renderer.system.errors import LucidaError, one_line
 
-JOINED = (".png", ".exr")  # what is written of an image in parts
+JOINED = (".png", ".exr")  # formats of an image in parts
 PART_PIXELS = 1 << 21
-BLOCK = 32  # rows: parts that begin at their multiples have the bits of the whole image
+BLOCK = 32  # rows: parts that begin at its multiples equal the whole image, bit for bit
 
 
 def parts_of(size: Size) -> list[tuple[int, int]]:

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 NAME = "scene"
 
 DESCRIPTION = """\
-Say what is in a scene: its objects with their types, triangles, bounds and materials, its lights
-and its camera; what of its materials is not shown; what is odd about it: meshes that are open or
-turned inside out, faces without an area or there twice, what was mended in a model; which model
-files it reads (and reports those outside its folder), and which cameras its models have."""
+List what is in a scene: its objects with their types, triangles, bounds and materials, its lights
+and its camera; properties of its materials that are not shown; oddities, such as meshes that are
+open or turned inside out, faces without an area or there twice, and repairs of a model; the model
+files that it reads, marking those outside its folder; and its models' cameras."""
 
 EPILOG = """\
 exit status: 0 done (also if something is odd: all of it can be drawn), 2 a mistake or a failure
@@ -225,7 +225,7 @@ def _color(material: dict[str, Any]) -> str:
 
 
 def _surface(material: dict[str, Any]) -> str:
-    """Return what else is to be known of where a surface is seen."""
+    """Return a surface's cutout, and that its backs are not seen, as text."""
     cutout = f", holes below opacity {material['cutout']:.4g}" if "cutout" in material else ""
     return cutout + ", single-sided" * material.get("single_sided", False)
 

@@ -17,8 +17,8 @@ NAME = "tasks"
 WIDTH = 96
 
 DESCRIPTION = """\
-List the tasks that `lucida check` tries: the function, what it is given and returns, its points.
-With a task's name: what is asked, and what each word means."""
+List the tasks of `lucida check`: the functions, their arguments and results, and their points.
+With a task's name, print its text and the meaning of each word."""
 
 EPILOG = """\
 examples:

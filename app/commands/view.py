@@ -28,14 +28,14 @@ commands:
   lucida camera FILE             describe a camera of any format, or convert it
   lucida export SCENE -o OUT     scene and camera as glTF, for other programs
   lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
-  lucida check FILE.py           what a student wrote, next to the correct answers
-  lucida tasks                   what can be asked of it
+  lucida check FILE.py           a student's code, next to the correct answers
+  lucida tasks                   the tasks for such code
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scene SCENE             its objects, bounds, triangles and lights, and what is odd in it
   lucida scenes                  the built-in scenes
   lucida doctor                  what works here, and what to install
   lucida completion SHELL        completion of commands and options in bash, zsh, fish or tcsh
-`lucida COMMAND --help` says more. A scene file named like a command: ./render"""
+`lucida COMMAND --help` says more. Open a scene file named like a command as ./render."""
 
 EPILOG = """\
 examples:
@@ -62,9 +62,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--size", type=window_size, metavar="WxH", help="the window's size in pixels"
     )
-    parser.add_argument(
-        "--fresh", action="store_true", help="begin without what was open last time"
-    )
+    parser.add_argument("--fresh", action="store_true", help="begin without the last session")
     add_camera_options(parser)
     parser.add_argument("--version", action="version", version=f"lucida {__version__}")
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import get_args
 
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Channel, Component, ImageOptions, Transfer
+from lucida.app.state.options.shared import Channel, ImageOptions
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
 
@@ -19,19 +19,6 @@ CHANNELS: dict[Channel, tuple[str, str]] = {
     "depth": ("Depth", "the ray parameter t of the hit: the nearest is white"),
     "normal": ("Normal", "the surface's normal n, world space: (n + 1) / 2 as red, green, blue"),
     "id": ("Object", "which object is seen: a colour for each"),
-}
-COMPONENTS: dict[Component, tuple[str, str]] = {
-    "rgb": ("RGB", "red, green and blue, all three channels of a colour"),
-    "red": ("Red", "the red channel only, as gray"),
-    "green": ("Green", "the green channel only, as gray"),
-    "blue": ("Blue", "the blue channel only, as gray"),
-}
-TRANSFERS: dict[Transfer, tuple[str, str]] = {
-    "srgb": (
-        "sRGB",
-        "linear light through the standard's curve, about light^(1/2.2), as screens expect it",
-    ),
-    "linear": ("linear", "linear light as it is, without sRGB's curve: too dark"),
 }
 _SIZE = re.compile(r"\s*(\d{1,6})\s*[x*,; \N{MULTIPLICATION SIGN}]\s*(\d{1,6})\s*", re.IGNORECASE)
 
@@ -49,13 +36,6 @@ def parsed_size(text: str) -> tuple[int, int]:
     if match is None:
         raise LucidaError("resolution", f"{text!r} is not a size", "type e.g. 1280 x 720")
     return check_size((int(match.group(1)), int(match.group(2))))
-
-
-def with_component(state: AppState, component: Component) -> AppState:
-    """Show only that component of the colour; if it is shown already, all of them."""
-    if state.images.component == component:
-        component = "rgb"
-    return state.with_options(replace(state.options.images, component=component))
 
 
 def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:
@@ -78,11 +58,6 @@ def with_magnification(state: AppState, magnification: float | None) -> AppState
             replace(state.options.images, magnification=None, center=(0.5, 0.5))
         )
     return state.with_options(replace(state.options.images, magnification=float(magnification)))
-
-
-def samples_text(samples: int) -> str:
-    """Return the name of a number of samples per pixel, for the strip and the menu."""
-    return "Ray: 1 sample per pixel" if samples == 1 else f"Ray: mean of {samples} samples"
 
 
 def resolution_text(options: ImageOptions) -> str:

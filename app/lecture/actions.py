@@ -1,4 +1,4 @@
-"""The actions of the guided lecture: their names and keys. What they do is the view's."""
+"""The actions of the guided lecture: their names and keys. The view carries them out."""
 
 from __future__ import annotations
 

@@ -80,7 +80,7 @@ class AnswerLog:
         self.keep(lecture, step, verdict, given, answers.solved)
 
     def hidden(self, lecture: Lecture, step: Step, said: Judgement, solved: bool) -> None:
-        """Keep the right answer to a hiding exercise, once. Each move there has a reply."""
+        """Keep the correct answer to a hiding exercise, once: each move there has a reply."""
         if said.right and step.title not in self._hidden:
             self._hidden.add(step.title)
             self.keep(lecture, step, said, "", solved)
@@ -93,7 +93,7 @@ class AnswerLog:
         given: str,
         after_solution: bool = False,
     ) -> None:
-        """Append an answer. A failure is kept in `problem`: a lecture goes on."""
+        """Append an answer. A failure is kept in `problem`: the lecture continues."""
         line = KeptAnswer(
             datetime.now(UTC).replace(microsecond=0),
             self._sitting,

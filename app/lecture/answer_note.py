@@ -11,7 +11,7 @@ from lucida.app.ui.rows import button_width
 
 
 def note(log: AnswerLog, is_asked: bool) -> bool:
-    """Draw the note; in a step with an exercise, with the name. Return True to keep no more."""
+    """Draw the note; in a step with an exercise, with the name. Return True to stop."""
     text = log.problem or f"Answers are kept in {log.path.name}: {log.count} so far"
     wrapped(text, theme.legible(theme.ERROR if log.problem else theme.MARK))
     imgui.set_item_tooltip(str(log.path.absolute()))

@@ -44,8 +44,8 @@ class Column:
         self._slides = Slides(host.fonts)
         self._to_top = False  # a step's text is read from its beginning
         self._seek = False  # the text is scrolled to what was just added
-        self._added_s: float | None = None  # when that was, while it fades in
-        self._fitted: tuple[object, ...] = ()  # what the size of the text follows from
+        self._added_s: float | None = None  # when a text was added, while it fades in
+        self._fitted: tuple[object, ...] = ()  # the key of the text's size
 
     @property
     def busy(self) -> bool:
@@ -62,7 +62,7 @@ class Column:
         self._added_s = time.monotonic() if fades else None
 
     def draw(self, host: Host, session: LectureSession) -> None:
-        """Draw the text, which is scrolled if it is longer than the column."""
+        """Draw the text. The user can scroll it if it is longer than the column."""
         imgui.text_colored(theme.DIM, session.step.part or session.lecture.title)
         with lettering(host.fonts.bold, TITLE):
             wrapped(session.step.title)
@@ -153,7 +153,7 @@ def _solve(host: Host, task: Exercise) -> None:
 
 
 def _show_chosen(host: Host, step: Step, answers: Answers) -> None:
-    """Move the camera as the chosen answer says."""
+    """Move the camera to that of the selected answer."""
     assert isinstance(step.exercise, ChoiceExercise) and answers.chosen is not None
     changes = step.exercise.options[answers.chosen].camera
     if changes is not None:

@@ -10,7 +10,7 @@ from lucida.app.lecture.foot import foot
 from lucida.app.lecture.session import LectureSession
 from lucida.app.ui.host import Host
 
-CONTROLS_S = 2.0  # until controls go after the mouse rests
+CONTROLS_S = 2.0  # until controls disappear after the mouse stops
 DIGITS = 3  # of a step's number
 
 
@@ -47,7 +47,7 @@ class Controls:
         return number
 
     def draw(self, host: Host, session: LectureSession) -> int | str | None:
-        """Draw the foot. Return what was asked for, see foot()."""
+        """Draw the foot. Return the user's request, see foot()."""
         is_shown = not host.state.preferences.presentation or self.shown
         imgui.push_style_var(imgui.StyleVar_.alpha, float(is_shown))
         asked = foot(session, self._typed)

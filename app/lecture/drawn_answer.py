@@ -36,8 +36,8 @@ class DrawnAnswer:
         if items and asked != self._drawn:
             host.show(outside.name)
         self._drawn = asked
-        outside.show(SOURCE, items, answer=asked)
+        outside.show(SOURCE, items)
 
     def hide(self, outside: OutsideView) -> None:
-        """Take the drawing away."""
+        """Remove the drawing."""
         outside.show(SOURCE)

@@ -69,7 +69,7 @@ class RayExercise:
         return self._one_part(given, wrong_origin)
 
     def solution(self) -> str:
-        """Return the right ray, step by step, as a lecture's text.
+        """Return the correct ray, step by step, as a lecture's text.
 
         Source: the lecture, "any camera".
         """
@@ -159,7 +159,7 @@ class WrongVector(StrictTable):
 
 class Wanted(StrictTable):
     """A vector that is asked for. scaled: any positive multiple counts. draw: how a wrong one is
-    shown in the outside view; None: as its name says.
+    shown in the outside view; None to choose by its name.
     """
 
     name: str
@@ -223,7 +223,7 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
 
 
 class Option(StrictTable):
-    """One answer to choose. feedback: the reply to it. camera: the fields of the step's camera that
+    """One answer to select. feedback: the reply to it. camera: the fields of the step's camera that
     change when it is chosen.
     """
 
@@ -234,7 +234,7 @@ class Option(StrictTable):
 
 
 class ChoiceExercise(StrictTable, tag_field="kind", tag="choice"):
-    """Choose one of several answers; exactly one is right."""
+    """Select one of several answers; exactly one is correct."""
 
     question: str
     options: list[Option]
@@ -256,7 +256,7 @@ AskedExercise = TypedExercise | ChoiceExercise
 
 
 def vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:
-    """Return the answers as vectors, or the reply to the first that is none."""
+    """Return the answers as vectors, or the reply to the first that is not one."""
     given = {}
     for name in names:
         try:

@@ -25,15 +25,15 @@ from lucida.app.lecture.text import (
 )
 from lucida.app.ui.explaining.breaking import breakable, broken, narrowed
 
-# In parts of the text's size.
+# Relative to the text's size.
 LEADING = 1.18  # from line to line
 CODE_LEADING = 1.1
 PARAGRAPH = 0.5  # between blocks
 ITEM = 0.2  # between a list's items
 INDENT = 1.25  # of a list, at least
 HEADING_SIZE = 1.25
-ASIDE = 0.8  # beside a question's text
-WHOLE_CODE = 16  # letters of code in a sentence, at most, that are not broken
+ASIDE = 0.8  # at the left of a question's text
+WHOLE_CODE = 16  # the most letters of code in a sentence that are not broken
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class Backdrop:
-    """The ground of a block, "code" or "question": left, top, right, bottom."""
+    """The background of a block, "code" or "question": left, top, right, bottom."""
 
     kind: str
     left: float
@@ -179,7 +179,7 @@ class _Column:
         return self._measure(Piece(latex, "math", self._size, display=True)).width
 
     def _code(self, text: str) -> None:
-        """Lay out lines as they are. If one is too long, it goes on in the next row, and all are
+        """Lay out lines as they are. If one is too long, it continues in the next row, and all are
         indented less.
         """
         size, inset = self._size, 0.5 * self._size

@@ -25,7 +25,7 @@ def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
 
 def first_wrong_answer(lecture: Lecture) -> LucidaError | None:
     """Return an error for the first exercise whose answer is wrong, or which is solved before
-    anything is moved; None if all are sound.
+    anything is moved; None if all are correct.
     """
     for build in lecture.builds:
         if isinstance(build.exercise, HideExercise):

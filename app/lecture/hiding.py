@@ -28,7 +28,7 @@ from lucida.renderer.system.errors import LucidaError
 Ids = NDArray[np.int32]
 
 ROUNDED = 1e-3  # of a size: handles compute in float32
-PLACE = ("center", "translate", "rotate_deg")  # what may change of the object that is moved
+PLACE = ("center", "translate", "rotate_deg")  # fields of the moved object that may change
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +129,7 @@ class HideExercise:
         return transform(scene, [item], shift)
 
     def solution(self) -> str:
-        """Return where it may go, as a lecture's text."""
+        """Return a place for the object, as a lecture's text."""
         x, y, z = self.answer
         return (
             f"On the way from the eye to the {escaped(self.hidden)}, and near enough to be large:"
@@ -141,7 +141,7 @@ class HideExercise:
 
     @cached_property
     def told(self) -> dict[str, str]:
-        """The replies, by what was done."""
+        """The replies, by the result of a move."""
         moved, hidden = escaped(self.moved), escaped(self.hidden)
         return {
             "camera": "The camera has moved. Its first place counts: Ctrl+Z takes that back.",
@@ -164,7 +164,7 @@ class HideExercise:
         """Return the reply for a change of anything but the object's place; "" for none."""
         mine, theirs = _tables(self.scene), _tables(scene)
         (before,), now = mine.pop(self.moved), theirs.pop(self.moved, [])
-        # One that was added under a name that is there already is one too many, too.
+        # An added object whose name exists already is a change, too.
         if len(now) != 1 or _sorted(mine) != _sorted(theirs):
             return "changed"
         (after,) = now

@@ -1,4 +1,6 @@
-"""The table of a step at each of its builds: what a build leaves out is as in the build before."""
+"""The table of a step at each of its builds: fields that a build leaves out are those of the build
+before.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way into a lecture."""
+"""The invitation to a lecture, when none is open."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lucida.app.ui.messages import wrapped
 
 
 def invitation(host: Host) -> Path | None:
-    """Draw what a lecture is, and how to begin one. Return the built-in one to begin."""
+    """Draw a description of lectures and the built-in ones. Return the one to begin."""
     wrapped("A guided lecture: steps of text, each with its own scene, camera and views.")
     asked = None
     for title, path in BUILTINS.items():

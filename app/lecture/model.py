@@ -31,7 +31,7 @@ class Step:
     pixel: the marked one, (row, column), 0-based.
     exercise: of the step's last build; otherwise None.
     move_s: how long the movement from the build before takes; 0 for a cut.
-    loop: the movement begins again until the next key.
+    loop: the movement repeats until the next key.
     line: where it begins in the file.
     """
 
@@ -75,7 +75,7 @@ class Lecture:
     formulas: all of them, in the file's order.
     outside: files outside its folder that the user has agreed to.
     files: all files that it was read from, with their stamps.
-    notes: a line for each option or view in the file that has left.
+    notes: a line for each removed option or view in the file.
     """
 
     title: str
@@ -87,13 +87,23 @@ class Lecture:
     files: Noted = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
+    @property
+    def summary(self) -> tuple[str, ...]:
+        """Return the notes in at most one line: many would cover the slide."""
+        if len(self.notes) < 2:
+            return self.notes
+        others = f"{len(self.notes) - 1} more: lucida lecture {Path(self.source).name} --check"
+        return (f"{self.notes[0]} (and {others})",)
+
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """The steps, each at its first build."""
         return tuple(one for one in self.builds if one.build == 0)
 
     def place(self, number: int, build: int = 0) -> int:
-        """Return the place of a step's build among all builds; the nearest one if it has left."""
+        """Return the place of a step's build among all builds; the nearest one if it no longer
+        exists.
+        """
         wanted = min(max(number, 0), self.builds[-1].number), build
         later = (place for place, one in enumerate(self.builds) if (one.number, one.build) > wanted)
         return max(0, next(later, len(self.builds)) - 1)

@@ -68,7 +68,7 @@ class Movement:
         passage = self._passages.get((start, end))
         if passage is None:
             focus = _shared_frame(start.camera, end.camera) or self._focus.center
-            passage = Passage(start, end, focus, self._focus.bounds, self._size)
+            passage = Passage(start, end, focus, self._size)
             self._passages[start, end] = passage
         return passage.at(s, eased=False)
 

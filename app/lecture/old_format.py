@@ -21,7 +21,7 @@ REMEDY = (
 
 
 def fields_of(table: StepTable) -> list[str]:
-    """Return the fields of a step that have left."""
+    """Return the removed fields in a step."""
     return [name for name in FIELDS if getattr(table, name)]
 
 

@@ -61,7 +61,7 @@ def is_lecture(path: str | Path) -> bool:
     """Return True if a file is meant as a lecture: a .toml that has steps, and no objects of its
     own.
 
-    A broken one is recognised by a line that begins a step. An unreadable file is none.
+    A broken one is recognised by a line that begins a step. An unreadable file is not a lecture.
     """
     if Path(path).suffix.lower() != ".toml":
         return False
@@ -285,7 +285,7 @@ class _LectureReader:
         )
 
     def _present(self, table: Table) -> Table:
-        """Return a table without options and views that have left."""
+        """Return a table without removed options and views."""
         options, lines = without_removed(table.options)
         self._note("options", lines)
         views = table.views
@@ -314,7 +314,7 @@ class _LectureReader:
             raise LucidaError(
                 "one_based",
                 f"differs from pixels_from = {self._indexing.value}",
-                "leave it out; pixels_from, beside the title, holds for the whole lecture",
+                "leave it out; pixels_from, next to the title, is for the whole lecture",
             )
         return changes
 

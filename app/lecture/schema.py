@@ -56,7 +56,7 @@ class BuildTable(StrictTable):
     text: added below the text so far. instead: takes the place of that text.
     camera, options: the fields that change.
     move_s: how long the window shows states between the last build and this one.
-    loop: the movement begins again until the next key.
+    loop: the movement repeats until the next key.
     """
 
     text: str = ""
@@ -102,7 +102,7 @@ AnyExercise = RayTable | VectorExercise | ChoiceExercise | HideTable
 
 
 class LectureFile(StrictTable, kw_only=True):
-    """A lecture file. pixels_from: what its first row and column are called, in the file and in the
+    """A lecture file. pixels_from: the number of the first row and column, in the file and in the
     window. notation: the window's during its steps; None for the one that the user has chosen.
     scenes: scenes as scene files hold them, by name, for the steps below.
     """

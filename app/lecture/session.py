@@ -1,6 +1,6 @@
-"""An open lecture: its current step, its answers, and whether its file has changed.
+"""An open lecture: its current step, its answers, and changes of its file.
 
-Also what a session file keeps of it, and the reading of a changed file.
+This module also has its form in a session file, and reads a changed lecture again.
 """
 
 from __future__ import annotations
@@ -15,8 +15,6 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.kept_lecture import Answers, KeptLecture
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui.watching import FilesWatch, fingerprint
-from lucida.renderer.files.models.models import read_by
-from lucida.renderer.files.models.subprocess_reader import ModelReader
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.file_dependencies import stamp
 
@@ -27,7 +25,7 @@ class LectureSession:
     path: its file.
     watch: of this file and the files that it names.
     error: the reason why a newer version cannot be read, for the user.
-    left: the sitting before, if it ended at another step, until one walks on.
+    left: the sitting before, if it ended at another step, until the user goes on.
     """
 
     def __init__(
@@ -132,7 +130,7 @@ class LectureSession:
 
     def take(self, lecture: Lecture) -> None:
         """Continue in a newer version, at the same step. Replies to questions that are no longer
-        the same, or count pixels in another way, are dropped; what was typed stays.
+        the same, or count pixels in another way, are dropped; typed texts stay.
         """
         before, after = (
             {step.title: step.exercise for step in one.builds} for one in (self.lecture, lecture)
@@ -169,8 +167,7 @@ def reread(session: LectureSession) -> LectureReread:
     """Read a lecture's file again, on a thread. Another lecture may have begun before this ends."""
     agreed = frozenset(session.lecture.outside)
     try:
-        # A large model of its scenes is read in a separate process.
-        with session.watch.reading(), read_by(ModelReader().read):
+        with session.watch.reading():
             lecture = load_lecture(session.path, agreed)
     except Exception as error:  # shown below the text, which stays
         return LectureReread(session, None, describe(error))

@@ -19,14 +19,14 @@ from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 
 ASCENT = 0.78  # of the line's height, in all our fonts
-# In parts of the window's type size: a step's title, and its text, as large as fits.
+# Relative to the window's type size: a step's title, and its text, as large as fits.
 TITLE, LARGER = 1.5, (1.4, 1.3, 1.2, 1.1)
 
 
 class Slides:
     """Draws texts, in a notation. Keeps the last layouts, because they take long to find.
 
-    larger: the size of the texts' type, in parts of the window's.
+    larger: the size of the texts' type, relative to the window's.
     """
 
     def __init__(self, fonts: Fonts) -> None:

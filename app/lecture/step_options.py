@@ -25,17 +25,17 @@ from lucida.renderer.files.reading import suggestion
 from lucida.renderer.files.tables import to_struct
 from lucida.renderer.system.errors import LucidaError, under
 
-_types = lru_cache(get_type_hints)  # which takes long
+_types = lru_cache(get_type_hints)  # it is slow
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
 CHOSEN = ("language", "notation")  # by the user, until a step changes them
-ELSEWHERE = (*OWN, "marked", "marked_size")  # what has a field of its own in a step
+ELSEWHERE = (*OWN, "marked", "marked_size")  # options that have fields of their own in a step
 
 NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
 
 
 def own(options: Options) -> Options:
-    """Return the options with the user's own, the rest as on the first day."""
+    """Return the default options, except for the user's own."""
     return replace(Options(), **{name: getattr(options, name) for name in (*OWN, *CHOSEN)})
 
 

@@ -91,7 +91,7 @@ class TextError(LucidaError):
 
 
 _ITEM = re.compile(r"(?:[-*]|(\d+)\.)\s+(.*)")
-_BEGINS = re.compile(r"\s*(?:```|\$\$|#|>|(?:[-*]|\d+\.)\s+\S|$)")  # what no paragraph goes on with
+_BEGINS = re.compile(r"\s*(?:```|\$\$|#|>|(?:[-*]|\d+\.)\s+\S|$)")  # lines that end a paragraph
 _SIGN = re.compile(r"[\\$*`[]")  # without one, a line is only words
 _MARKS = (
     r"\\(?P<sign>[\\$*`>#[-])"  # a sign that means itself
@@ -102,7 +102,7 @@ _MARKS = (
 )
 _STRONG = r"|\*\*(?P<strong>.+?)\*\*(?!\*)"
 _SLANTED = r"|\*(?![\s*])(?P<slanted>.+?)(?<!\s)\*|(?P<open>\*(?![\s*]))"
-# By whether bold and italic text can begin: not inside itself.
+# By (may bold begin, may italic begin): neither may inside itself.
 _SPANS = {
     (strong, slanted): re.compile(_MARKS + _STRONG * strong + _SLANTED * slanted)
     for strong in (False, True)
@@ -243,7 +243,7 @@ def _line(text: str, number: int) -> Line:
 
 def _spans(text: str, number: int, bold: bool = False, italic: bool = False) -> Iterator[Span]:
     pattern = _SPANS[not bold, not italic]
-    at = start = 0  # of what is not yet given, and of what is not yet looked at
+    at = start = 0  # the beginnings of text not yet yielded, and not yet searched
     while match := pattern.search(text, start):
         kind, start = match.lastgroup, match.end()
         if kind == "open":  # nothing closes it, nor any later one: they are not looked for again

@@ -1,7 +1,7 @@
 """Check whether formulas can be typeset: find commands that MicroTeX does not know, and its errors.
 
-Works without a window, on any thread. MicroTeX throws if a formula makes no sense to it. A command
-that it does not know it draws as it is written, in red.
+This works without a window, on any thread. MicroTeX raises an error for an invalid formula, and
+draws an unknown command as it is written, in red.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _COLORED = re.compile(
     r"\\(?:textcolor|color|fgcolor|bgcolor|colorbox|fcolorbox)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}"
 )
-_IN_PAIRS = (r"\left", r"\right", r"\begin", r"\end")  # which are unknown when they stand alone
+_IN_PAIRS = (r"\left", r"\right", r"\begin", r"\end")  # unknown when they are alone
 
 
 def first_mistake(formulas: Iterable[Written]) -> LucidaError | None:
@@ -51,7 +51,7 @@ def mistake(latex: str) -> tuple[int, str] | None:
         reason = one_line(str(error)).split("caused by:")[-1].strip().rstrip("!.")
         return 0, f"{_short(latex)} cannot be set: {reason}"
     commands = list(_COMMAND.finditer(latex))
-    commands.sort(key=lambda command: command[0] in _IN_PAIRS)  # those last
+    commands.sort(key=lambda command: command[0] in _IN_PAIRS)  # pairs last
     for command in commands:
         if _is_unknown(command[0]):
             if command[0] in _IN_PAIRS:
@@ -66,7 +66,7 @@ def mistake(latex: str) -> tuple[int, str] | None:
 def _is_unknown(command: str) -> bool:
     try:
         return _has_red(command)
-    except RuntimeError:  # it wants something to stand on
+    except RuntimeError:  # it needs an argument
         return False
 
 

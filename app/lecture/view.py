@@ -34,7 +34,7 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 
 LECTURE = "Lecture"
-# Of a text over a picture: its part of the window's width, and the opacity of its ground.
+# For a text over a picture: its width relative to the window's, and its background's opacity.
 OVER, GROUND = 0.68, 0.85
 STACKED = 1.5  # the window's width in its heights, below which two pictures are stacked
 UPRIGHT = {"stepper"}  # views that need their height
@@ -81,7 +81,7 @@ class LectureView(Instrument):
     def _others(self) -> list[Instrument]:
         return [view for view in self._views if view is not self]
 
-    # What actions and buttons ask for.
+    # Requests of actions and buttons.
 
     def give(
         self,
@@ -242,14 +242,14 @@ class LectureView(Instrument):
             self._column.hidden_watch.close()
 
     def follow(self, host: Host) -> None:
-        """Take steps and newer files. Call once a frame, also while the view is hidden."""
+        """Handle new steps and newer files. Call once a frame, also while the view is hidden."""
         if self.session is None:
             return
         division = self._is_over(host), _is_stacked(self.session.step.views)
         if division != (self._lies_over, self._is_stacked):
             self._lies_over, self._is_stacked = division
             self._arrange()
-        if not self._entered:  # to be seen from the last row, whichever way it was begun
+        if not self._entered:  # visible from the last row, however it began
             if host.state.step is None:  # otherwise one lecture follows another
                 self._before, self._layout = host.state, layout.current().name
             self.restore(host, presentation=True)
@@ -265,7 +265,7 @@ class LectureView(Instrument):
             layout.arrange(self._others, dict(zip(names, spaces, strict=False)))
             self.arrangements += 1
             self._arranged = True
-            imgui.set_nav_cursor_visible(False)  # with its tooltip it was on what has gone
+            imgui.set_nav_cursor_visible(False)  # it was on an item that has gone
             host.animate()
         self._follow_file(host, self.session)
 
@@ -291,7 +291,7 @@ class LectureView(Instrument):
             self.restore(host)
         session.error = outcome.value.mistake
 
-    # What is drawn.
+    # Drawing.
 
     def draw(self, host: Host) -> None:
         session = self.session
@@ -340,7 +340,7 @@ class LectureView(Instrument):
         self._drawn_answer.hide(view_of(self._views, OutsideView))
 
     def _do(self, host: Host, asked: int | str | None) -> None:
-        """Do what was asked for in the foot."""
+        """Handle a request of the foot."""
         if asked == END:
             self.leave(host)
         elif asked in (BACK, NEXT):

@@ -15,7 +15,7 @@ from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
 
-Counted = tuple[HideExercise, Camera, tuple[int, int]]  # for which image pixels were counted
+Counted = tuple[HideExercise, Camera, tuple[int, int]]  # the image whose pixels were counted
 
 
 class HiddenWatch:
@@ -62,7 +62,7 @@ class HiddenWatch:
         return self.said[1]
 
     def _without(self, task: HideExercise, camera: Camera, size: tuple[int, int]) -> int | None:
-        """Return how many pixels show the hidden object without the other; None while that is
+        """Return the number of pixels that show the hidden object without the other; None until
         counted.
         """
         wanted = task, camera, size
@@ -72,7 +72,7 @@ class HiddenWatch:
     def _take_count(self) -> None:
         outcome = self._counting.poll()
         if outcome is not None:
-            self._alone = outcome.value  # None where that failed: so does the image, which tells it
+            self._alone = outcome.value  # None if that failed: the image fails, too, and reports it
 
 
 def _counted(wanted: Counted) -> tuple[Counted, int]:

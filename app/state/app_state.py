@@ -59,14 +59,14 @@ class AppState:
 
     @property
     def has_effects(self) -> bool:
-        """True if the ray image shows what only rays find."""
+        """True if the ray image has shadows or mirrors."""
         return self.options.shadows or self.options.mirrors
 
     def with_options(self, *parts: Options | OptionPart) -> AppState:
         """Return the state with other parts of its options, each within its bounds.
 
         A part comes from replace(), as in with_options(replace(state.images, exposure_ev=1.0)).
-        Another mark belongs to no image's size yet.
+        A new mark has no image size yet.
         """
         options = self.options.with_parts(*parts)
         if options.marked != self.marked and options.marked_size == self.options.marked_size:
@@ -74,36 +74,36 @@ class AppState:
         return replace(self, options=clamped(options))
 
     def with_camera(self, camera: Camera) -> AppState:
-        """The state with another camera; itself where nothing changes."""
+        """Return the state with another camera; the same object if nothing changes."""
         if camera == self.camera:
             return self
         return replace(self, view=replace(self.view, camera=camera))
 
     def with_view(self, view: View) -> AppState:
-        """The state with another view. A basis that is not orthonormal turns the switch off."""
+        """Return the state with another view. A skewed basis turns keep_orthonormal off."""
         keep = self.keep_orthonormal and is_orthonormal(view.camera)
         return replace(self, view=view, keep_orthonormal=keep)
 
     def with_scene(self, scene: Scene, view: View | None = None) -> AppState:
-        """The state with another scene, seen by its own view or by `view`."""
+        """Return the state with another scene, seen by its own view or by `view`."""
         state = replace(self, scene=scene, keep_orthonormal=True)
         return state.with_view(scene.view if view is None else view)
 
     def looking_as(self, other: AppState) -> AppState:
-        """The state with the looks of the window, and the display of the images, of another one."""
+        """Return the state with the window's looks and the images' display of another one."""
         images = self.images.displayed_as(other.images)
         return replace(
             self, options=replace(self.options, preferences=other.preferences, images=images)
         )
 
     def with_fit(self, fit: bool) -> AppState:
-        """The state with that switch; off, a camera no longer keeps the shape of its own image."""
+        """Return the state with this switch. Off, the camera's own image size is forgotten."""
         return replace(
             self, view=replace(self.view, fit=fit, given=self.view.given if fit else None)
         )
 
     def with_keep_orthonormal(self, keep: bool) -> AppState:
-        """The switch; turning it on makes the basis orthonormal at once."""
+        """Return the state with this switch. Turning it on makes the basis orthonormal at once."""
         state = replace(self, keep_orthonormal=keep)
         if keep and not is_orthonormal(self.camera):
             return state.with_camera(self.camera.orthonormalized())
@@ -115,7 +115,7 @@ class History:
     """A present state with the ones before and after it.
 
     Undo leaves the window's looks and the images' display as they are; a change of only these is no
-    step. gesture: what the last change belonged to; changes of one gesture (a drag) are one step.
+    step. gesture: a key of the last change's drag; changes of one gesture are one step.
     """
 
     present: AppState
@@ -138,13 +138,15 @@ class History:
         return History(state, past, (), gesture)
 
     def amended(self, state: AppState) -> History:
-        """The history with another present, and no step: what follows from a change of the window
-        and is nothing that the user has done."""
+        """Return the history with another present and no new step, for a change that the user has
+        not made.
+        """
         return self if state == self.present else replace(self, present=state)
 
     def unclicked(self, press: Hashable) -> History:
-        """The history without the last step, where that came of a press (its gesture) and is
-        nothing but a pixel marked, or a mark taken away: the click was the first of two."""
+        """Return the history without the last step if that has the gesture of this press and only
+        sets or clears the mark: the click was the first of two.
+        """
         if not self.past or self.gesture != press:
             return self
         before = self.past[-1]
@@ -155,13 +157,13 @@ class History:
         return History(again, self.past[:-1]) if same else self
 
     def undo(self) -> History:
-        """One step back; itself at the beginning."""
+        """Return the history one step back; the same object at the beginning."""
         if not self.past:
             return self
         return History(self._again(self.past[-1]), self.past[:-1], (self.present, *self.future))
 
     def redo(self) -> History:
-        """One step forward; itself at the end."""
+        """Return the history one step forward; the same object at the end."""
         if not self.future:
             return self
         return History(self._again(self.future[0]), (*self.past, self.present), self.future[1:])

@@ -1,8 +1,8 @@
 """Bounds of options, as marks on their fields: `exposure_ev: Annotated[float, Range(-8, 8)]`.
 
 Values from sessions and lectures are checked; values from the window's keys and fields are clamped.
-All have the types of their fields already: msgspec checks these, and ignores the marks. Its own
-Meta has no list of values, no check by a function, and other messages.
+msgspec has already checked their types, and ignores the marks. Its own Meta supports neither lists
+of values nor check functions, and has other messages.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class OptionPart:
 
 
 # A mark has problem(value): what is wrong and the remedy, or None; and clamped(value, default): the
-# nearest good value, or the default where none is near.
+# nearest valid value, or the default if none is near.
 
 
 @dataclass(frozen=True)
@@ -34,12 +34,12 @@ class Range:
     most: float
 
     def problem(self, value: float) -> tuple[str, str] | None:
-        if self.least <= value <= self.most:  # which is false for what is not a number
+        if self.least <= value <= self.most:  # false for NaN
             return None
         return f"{_text(value)} is out of range", f"give {_text(self.least)} to {_text(self.most)}"
 
     def clamped(self, value: float, default: Any) -> Any:
-        if value != value:  # not a number; math.isnan() takes no large integer
+        if value != value:  # NaN; math.isnan() does not accept large integers
             return self.least if default is None else default
         return type(value)(min(max(value, self.least), self.most))
 
@@ -61,7 +61,7 @@ class OneOf:
 
 @dataclass(frozen=True)
 class AtMost:
-    """Lists of at most so many entries; of a longer one the last, newest ones are kept."""
+    """A list of at most `count` entries; clamping keeps the last, newest ones."""
 
     count: int
 
@@ -109,7 +109,7 @@ class Accepted:
 
 
 def check(kind: type, values: Any) -> None:
-    """Raises LucidaError for the first value that is out of bounds, with its field's path.
+    """Raise LucidaError for the first value that is out of bounds, with its field's path.
 
     kind: a dataclass. values: one of that kind, or a dict with some of its fields, whose parts may
     be dicts again.
@@ -121,25 +121,25 @@ def check(kind: type, values: Any) -> None:
 
 
 def clamped(options: T) -> T:
-    """The dataclass with every value within its bounds; itself where all are."""
+    """Return the dataclass with every value within its bounds; the same object if all are."""
     kept: T = _bounded(type(options), options, None, "", [])
     return kept
 
 
 def range_of(kind: type, field: str) -> tuple[float, float]:
-    """(least, most) of a number's field, for a slider; of a list's field those of its entries."""
+    """Return (least, most) of a number's field, for a slider; of a list's field, its entries'."""
     found = [mark for mark in _marks_inside(_hints(kind)[field]) if isinstance(mark, Range)]
     return float(found[0].least), float(found[0].most)
 
 
 def whole_range_of(kind: type, field: str) -> tuple[int, int]:
-    """range_of() for whole numbers."""
+    """Return range_of() for whole numbers."""
     least, most = range_of(kind, field)
     return int(least), int(most)
 
 
 def files_of(kind: type) -> tuple[str, ...]:
-    """The fields that hold a file's path."""
+    """Return the fields that hold a file's path."""
     return tuple(
         name
         for name, hint in _hints(kind).items()
@@ -158,7 +158,7 @@ def _hints(kind: type) -> dict[str, Any]:
 
 
 def _marks_inside(hint: Any) -> Iterator[Any]:
-    """The marks of a hint, then those of what it is made of."""
+    """Yield the marks of a hint, then those of its arguments."""
     if get_origin(hint) is Annotated:
         yield from hint.__metadata__
     for part in get_args(hint):
@@ -168,7 +168,7 @@ def _marks_inside(hint: Any) -> Iterator[Any]:
 def _bounded(hint: Any, value: Any, default: Any, path: str, problems: list[LucidaError]) -> Any:
     """Return the value with everything in it within bounds; itself if it is already.
 
-    Append what was not to problems.
+    Append a LucidaError to problems for each value that was not.
     """
     parts = get_args(hint)
     if value is None:

@@ -31,15 +31,15 @@ def change(before: AppState, after: AppState) -> str:
     if before.keep_orthonormal != after.keep_orthonormal and not parts:
         parts.append("keep orthonormal")
     parts += _changed(before.options, after.looking_as(before).options)
-    return ", ".join(parts[:3]) or "nothing to be seen"
+    return ", ".join(parts[:3]) or "nothing visible"
 
 
 def _changed(before: Any, after: Any) -> list[str]:
-    """The names of the fields that differ, those of parts in their place."""
+    """Return the names of the fields that differ; for a part, those of its fields."""
     names: list[str] = []
     for field in fields(before):
         old, new = getattr(before, field.name), getattr(after, field.name)
-        if old == new or field.name == "marked_size":  # which goes with the mark
+        if old == new or field.name == "marked_size":  # it changes with the mark
             continue
         if is_dataclass(old) and type(old) is type(new):
             names += _changed(old, new)

@@ -1,6 +1,6 @@
-"""Options and views that an earlier version had. Old sessions and lectures that name them are read.
+"""Options and views of earlier versions. Sessions and lectures that name them can still be read.
 
-A removed option is ignored, a removed value is replaced, and one line tells the user so.
+A removed option is ignored, a removed value is replaced, and one line reports it to the user.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Removed:
-    """An option that left.
+    """A removed option.
 
     instead: what to use now, as the end of a sentence.
     default: its default value, which every old session holds. Ellipsis: a session never mentions
@@ -25,7 +25,7 @@ class Removed:
 
 @dataclass(frozen=True)
 class Replaced:
-    """A value of an option that left.
+    """A removed value of an option.
 
     value: what takes its place.
     was_default: True if every old session holds the old value; a session's is not reported.
@@ -58,8 +58,7 @@ REMOVED: dict[str, Removed] = {
     "compare.pair": Removed(
         "both renderers are compared, and a photograph is laid over them", "raster-ray"
     ),
-    "probe.section": Removed("the probe's parts are folded by their headings", "all"),
-    "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
+    "probe": Removed("rays of several pixels are outside.bundle's", {"pins": []}),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
     "detective": Removed(
@@ -103,7 +102,7 @@ REMOVED_VIEWS: dict[str, str] = {
 def without_removed(
     options: dict[str, Any], is_session: bool = False
 ) -> tuple[dict[str, Any], list[str]]:
-    """Return the options without what left, and one line for each option or value that did.
+    """Return the options that remain, and one line for each removed option or value.
 
     options: a table as in a lecture or a session, one table inside it for each instrument.
     is_session: leave out the lines of options that have their default values.
@@ -114,7 +113,7 @@ def without_removed(
 
 
 def without_removed_views(names: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Return the names of views that still exist, and one line for each that left."""
+    """Return the names of views that still exist, and one line for each removed one."""
     names = list(names)
     lines = [
         f"{name!r} is ignored: {REMOVED_VIEWS[name]}" for name in names if name in REMOVED_VIEWS

@@ -26,7 +26,7 @@ VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
 
 
-# Layouts that left, and the nearest of those that stay.
+# Removed layouts, and the nearest remaining ones.
 NEAREST = {
     **dict.fromkeys(("Presentation", "Images", "Detective"), "Side by side"),
     **dict.fromkeys(("Your code", "Laboratory", "Mistakes"), "Loops"),
@@ -63,8 +63,8 @@ class Session:
     """A session file.
 
     scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
-    edited: the scene, if it is not what load_scene returns. notes: a line for each option in use
-    that has left; not written to the file. The rest as in AppState.
+    edited: the scene, if it is not what load_scene returns. notes: a line for each removed option
+    in use; not written to the file. The other fields are those of AppState.
     """
 
     scene: str
@@ -160,5 +160,5 @@ def _session(data: bytes) -> Session:
 
 
 def _renamed(found: Arrangement) -> Arrangement:
-    """Return an arrangement without layouts that left: their docks' shares are ignored."""
+    """Return an arrangement without removed layouts; their docks' shares are ignored."""
     return replace(found, layout=NEAREST.get(found.layout, found.layout))

@@ -15,15 +15,15 @@ from pathlib import Path
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
-SMALLEST_PX, LARGEST_PX = 64, 16384  # sides of a window that somebody could have left
+SMALLEST_PX, LARGEST_PX = 64, 16384  # plausible sides of a window
 LARGEST_BYTES = 1 << 20
 
 
 def settings_file(fresh: bool = False) -> Path | None:
     """Return the file for the layout, in the user's settings folder, which is created if necessary.
 
-    None if it cannot be kept, or if something that is no file has its place. A file that no window
-    can have written is moved aside; with `fresh` any is.
+    Return None if the layout cannot be kept, or if the path is not a file. A file that no window
+    can have written is moved aside; with `fresh`, any file is.
     """
     import platformdirs
 
@@ -45,8 +45,9 @@ def settings_file(fresh: bool = False) -> Path | None:
 
 @contextlib.contextmanager
 def kept_whole(path: Path | None) -> Iterator[None]:
-    """Put a settings file back if the window, which does not look whether the disk is full, leaves
-    an unusable one behind."""
+    """Restore a settings file if the window leaves an unusable one behind: it does not check that
+    the disk has room.
+    """
     before = path.read_bytes() if path is not None and path.is_file() else None
     try:
         yield

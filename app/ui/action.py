@@ -1,14 +1,16 @@
-"""Actions: what a menu, a key or the command palette does."""
+"""Actions: what a menu, a strip above an image, a key or the command palette does."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from imgui_bundle import imgui
 
 from lucida.app.state.app_state import AppState
+from lucida.app.state.options import Options
 from lucida.app.ui.host import Host
 
 Key = imgui.Key
@@ -36,6 +38,7 @@ class Action:
     is_on: for switches, the state.
     can: True if it is possible now.
     separated: draw a line above it.
+    tip: the tooltip of its entry in a menu.
     """
 
     menu: str
@@ -47,6 +50,7 @@ class Action:
     is_on: Callable[[AppState], bool] | None = None
     can: Callable[[Host], bool] | None = None
     separated: bool = False
+    tip: str = ""
 
     @property
     def chords(self) -> tuple[int, ...]:
@@ -73,3 +77,45 @@ def _name(name: str) -> str:
 def changing(change: Callable[[AppState], AppState]) -> Callable[[Host], None]:
     """Return a function that applies a change to the state, as a separate undo step."""
     return lambda window: window.change(change(window.state))
+
+
+def choosing(
+    menu: str,
+    name: str,
+    option: str,
+    value: object,
+    keys: str = "",
+    off: object = None,
+    **more: Any,
+) -> Action:
+    """Return the action that gives an option a value.
+
+    option: such as "shadows" or "images.channel". off: the value that it gives if the option has
+    the first one; None: that stays. more: further fields of the action.
+    """
+    part, _, field = option.rpartition(".")
+
+    def current(options: Options) -> object:
+        return getattr(getattr(options, part) if part else options, field)
+
+    def is_on(state: AppState) -> bool:
+        return current(state.options) == value
+
+    def change(state: AppState) -> AppState:
+        new = {field: off if off is not None and is_on(state) else value}
+        return state.with_options(state.options.with_changes({part: new} if part else new))
+
+    current(Options())  # a wrong name is an error at the start, not when somebody uses it
+    return Action(menu, name, changing(change), keys, is_on=is_on, **more)
+
+
+def draw_entry(action: Action, host: Host, first: bool = False) -> None:
+    """Draw an action as an entry of the current menu. first: without a line above it."""
+    if action.separated and not first:
+        imgui.separator()
+    on = action.is_on(host.state) if action.is_on else False
+    can = action.can(host) if action.can else True
+    if imgui.menu_item(action.name, action.keys, on, can)[0]:
+        action.run(host)
+    if action.tip:
+        imgui.set_item_tooltip(action.tip)

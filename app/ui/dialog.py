@@ -1,23 +1,21 @@
-"""The window's own file dialog, for systems without one: to open files, or to name one to save.
+"""The window's own file dialog, for systems without one: to open a file, or to name one to save.
 
-It can be used without a mouse: type a name or a path, or select with the arrow keys; Enter opens,
-Backspace goes up, Escape cancels. app/ui/folders.py reads the folders. The bundle's own dialog
-is not used, because it ends the process if there is no icon theme.
+The user types a name or a path, or selects one of the listed names by mouse or by arrow keys. Enter
+opens it, Escape cancels. The bundle's own dialog is not used, because it ends the process if there
+is no icon theme.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from imgui_bundle import imgui
 
-from lucida.app.ui import folders, theme
+from lucida.app.ui import theme
 from lucida.app.ui.background import Background
-from lucida.app.ui.checks import checkbox
-from lucida.app.ui.folders import FolderContent, starting_points
 from lucida.app.ui.messages import box_width
 from lucida.renderer.system.errors import one_line
 
@@ -44,19 +42,44 @@ class FileQuestion:
     chosen: Chosen
 
 
+@dataclass(frozen=True)
+class FolderContent:
+    """A folder's content by name. error: the reason if it cannot be read."""
+
+    folder: Path
+    folders: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+    error: str = ""
+
+
+def read_folder(folder: Path, endings: tuple[str, ...]) -> FolderContent:
+    """Read a folder, without hidden files. endings: of the files to list."""
+    folders, files = [], []
+    try:
+        with os.scandir(folder) as entries:
+            for entry in entries:
+                if entry.name.startswith("."):
+                    continue
+                if entry.is_dir():
+                    folders.append(entry.name)
+                elif entry.name.lower().endswith(endings):
+                    files.append(entry.name)
+    except (OSError, ValueError) as error:
+        return FolderContent(folder, error=one_line(str(error)))
+    return FolderContent(
+        folder, tuple(sorted(folders, key=str.lower)), tuple(sorted(files, key=str.lower))
+    )
+
+
 class FileDialog:
-    """The file dialog."""
+    """The file dialog. listing: of the present folder, as far as it has been read."""
 
     def __init__(self) -> None:
         self._reader: Background[FolderContent] = Background("lucida-folder")
         self.question: FileQuestion | None = None
         self.listing = FolderContent(Path.cwd())
-        self._places: list[tuple[str, Path]] = []
         self._name = ""
-        self._marked: set[str] = set()
-        self._all_files = False
         self._replace = ""  # an existing file that the user may replace
-        self._appearing = False
         self._typing = False  # whether the name is to have the keyboard
 
     @property
@@ -69,12 +92,8 @@ class FileDialog:
 
     def ask(self, question: FileQuestion) -> None:
         path = Path(question.name)
-        if path.is_absolute():
-            question = replace(question, name=path.name)
-            self.go(path.parent)
-        self.question, self._name, self._replace = question, question.name, ""
-        self._appearing, self._places = True, starting_points()
-        self.go(self.listing.folder)
+        self.question = question
+        self.go(path.parent if path.is_absolute() else self.folder)
 
     def cancel(self) -> None:
         self.question = None
@@ -82,85 +101,63 @@ class FileDialog:
     def close(self) -> None:
         self._reader.close(0.2)
 
+    def go(self, folder: Path) -> None:
+        """Go to another folder at once: typed names refer to it. Its list follows when it has been
+        read.
+        """
+        self.listing, self._replace, self._typing = FolderContent(folder), "", True
+        if (question := self.question) is not None:
+            self._name = Path(question.name).name
+            self._reader.submit(lambda: read_folder(folder, question.endings))
+
     def draw(self) -> None:
         """Draw the dialog if it is open."""
         question = self.question
         if question is None:
             return
         read = self._reader.poll()
-        listing = read.value if read is not None else None
-        if listing is not None and listing.folder == self.folder:
-            self.listing, self._marked = listing, set()
-        viewport = imgui.get_main_viewport()
-        em = imgui.get_font_size()
+        if read is not None and read.value is not None and read.value.folder == self.folder:
+            self.listing = read.value
+        viewport, em = imgui.get_main_viewport(), imgui.get_font_size()
         size = box_width(46, 0.92), min(30 * em, 0.86 * viewport.work_size.y)
         imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.appearing, (0.5, 0.5))
         imgui.set_next_window_size(size, imgui.Cond_.appearing)
-        flags, child = imgui.WindowFlags_, imgui.ChildFlags_
-        if self._appearing:
+        if self._typing:
             imgui.set_next_window_focus()
+        flags, child = imgui.WindowFlags_, imgui.ChildFlags_
         _, still_open = imgui.begin(
             f"{question.title}{TITLE}",
             True,
             flags.no_docking | flags.no_collapse | flags.no_saved_settings,
         )
-        self._path_line()
+        imgui.text_wrapped(one_line(str(self.folder)))
         footer = 2 * imgui.get_frame_height_with_spacing() + imgui.get_style().item_spacing.y
-        imgui.begin_child("##places", (8 * em, -footer), child.nav_flattened)
-        for name, folder in self._places:
-            if imgui.selectable(name, folder == self.listing.folder)[0]:
-                self.go(folder)
-        imgui.end_child()
-        imgui.same_line()
         imgui.begin_child("##entries", (0, -footer), child.borders | child.nav_flattened)
         self._entries(question)
         imgui.end_child()
         self._name_line(question)
         imgui.end()
-        self._appearing = False
         # A text that is being typed would keep Escape for itself.
-        if not still_open or (self.is_open and imgui.is_key_pressed(imgui.Key.escape, False)):
+        if not still_open or imgui.is_key_pressed(imgui.Key.escape, False):
             self.cancel()
-
-    def _path_line(self) -> None:
-        """Draw the parent folders, each as a button."""
-        parts = [*reversed(self.listing.folder.parents), self.listing.folder]
-        for index, folder in enumerate(parts[-6:]):
-            if index:
-                imgui.same_line(0, 2)
-            if imgui.small_button(f"{one_line(folder.name or str(folder))}##up{index}"):
-                self.go(folder)
 
     def _entries(self, question: FileQuestion) -> None:
         listing = self.listing
         if listing.error:
-            error = one_line(listing.error)
-            imgui.text_colored(theme.ERROR, f"this folder cannot be read: {error}")
-        at_home = imgui.is_window_focused() and not imgui.is_any_item_active()
-        if at_home and imgui.is_key_pressed(imgui.Key.backspace):
-            self.go(listing.folder.parent)
-        for name in listing.folders:
+            imgui.text_colored(theme.ERROR, listing.error)
+        for name in ("..", *listing.folders):
             if imgui.selectable(f"{one_line(name)}/", False)[0]:
-                self.go(listing.folder / name)
+                self.go(self.folder.parent if name == ".." else self.folder / name)
         double = imgui.SelectableFlags_.allow_double_click
-        for name in listing.files:
-            if not imgui.selectable(one_line(name), name in self._marked, double)[0]:
-                continue
-            if imgui.get_io().key_ctrl and not question.saves:
-                self._marked ^= {name}
-            else:
-                self._marked = {name}
-            self._name = one_line(name)
-            by_key = imgui.is_key_pressed(imgui.Key.enter)
-            if imgui.is_mouse_double_clicked(imgui.MouseButton_.left) or by_key:
-                self._finish(question)
-        if not (listing.folders or listing.files or listing.error or self._reader.busy):
-            imgui.text_colored(theme.DIM, "nothing here that could be opened")
-        if listing.cut:
-            imgui.text_colored(theme.DIM, "... and more: type the name")
+        for name in map(one_line, listing.files):
+            if imgui.selectable(name, name == self._name, double)[0]:
+                self._name, self._replace = name, ""
+                by_key = imgui.is_key_pressed(imgui.Key.enter)
+                if by_key or imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                    self._finish(question)
 
     def _name_line(self, question: FileQuestion) -> None:
-        if self._appearing or self._typing:
+        if self._typing:
             imgui.set_keyboard_focus_here()
             self._typing = False
         imgui.set_next_item_width(-1)
@@ -171,59 +168,37 @@ class FileDialog:
             imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all,
         )
         if imgui.is_item_edited():
-            self._marked, self._replace = set(), ""
+            self._replace = ""
         word = "Save" if question.saves else "Open"
         if self._replace:
-            imgui.text_colored(
-                theme.ERROR, f"{one_line(Path(self._replace).name)} is there already."
-            )
+            name = one_line(Path(self._replace).name)
+            imgui.text_colored(theme.ERROR, f"{name} is there already.")
             imgui.same_line()
             word = "Replace"
-        if imgui.button(f"{word}###answer", (7 * imgui.get_font_size(), 0)) or entered:
+        width = 7 * imgui.get_font_size()
+        if imgui.button(f"{word}###answer", (width, 0)) or entered:
             self._finish(question)
         imgui.same_line()
-        if imgui.button("Cancel", (7 * imgui.get_font_size(), 0)):
+        if imgui.button("Cancel", (width, 0)):
             self.cancel()
-        if not question.saves:
-            imgui.same_line()
-            changed, self._all_files = checkbox("all files", self._all_files)
-            if changed:
-                self.go(self.listing.folder)
-
-    def go(self, folder: Path) -> None:
-        """Go to another folder at once: typed names refer to it. Its list follows when it has been
-        read.
-        """
-        if folder != self.folder:
-            self.listing, self._marked = FolderContent(folder), set()
-        endings = self.question.endings if self.question is not None else ()
-        wanted = () if self._all_files else endings
-        self._reader.submit(lambda: folders.read_folder(folder, wanted))
-
-    def _meant(self) -> str:
-        """Return the file whose name is shown; some names cannot be shown unchanged."""
-        typed = self._name.strip()
-        listed = (*self._marked, *self.listing.files)
-        return next((name for name in listed if one_line(name) == typed), typed)
 
     def _finish(self, question: FileQuestion) -> None:
-        """Enter a folder that was typed or selected, or answer with a file."""
-        names = sorted(self._marked) if len(self._marked) > 1 else [self._meant()]
-        if names == [""]:
+        """Enter a folder that was typed, or answer with a file."""
+        typed = self._name.strip()
+        if not typed:
             return
-        paths = [self.listing.folder / os.path.expanduser(name) for name in names]
-        path = paths[0]
-        is_answer = question.endings == FOLDER and not names[0].endswith(("/", os.sep))
-        if os.path.isdir(path) and not is_answer:
-            self._name, self._typing = question.name, True
+        # Some names cannot be shown unchanged.
+        name = next((name for name in self.listing.files if one_line(name) == typed), typed)
+        path = self.folder / os.path.expanduser(name)
+        is_answer = question.endings == FOLDER and not name.endswith(("/", os.sep))
+        if path.is_dir() and not is_answer:
             self.go(path)
             return
         if question.saves:
-            if question.endings and not str(path).lower().endswith(question.endings):
+            if not str(path).lower().endswith(question.endings):
                 path = Path(f"{path}{question.endings[0]}")
-            paths = [path]
             if path.exists() and not is_answer and self._replace != str(path):
                 self._replace = str(path)
                 return
         self.question = None
-        question.chosen([str(path) for path in paths])
+        question.chosen([str(path)])

@@ -63,17 +63,10 @@ class FailedViews:
 def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
     """End what a failed view had begun in ImGui, without reporting that as an error."""
     io = imgui.get_io()
-    told = (
-        io.config_error_recovery_enable_assert,
-        io.config_error_recovery_enable_debug_log,
-        io.config_error_recovery_enable_tooltip,
-    )
-    io.config_error_recovery_enable_assert = False
-    io.config_error_recovery_enable_debug_log = False
-    io.config_error_recovery_enable_tooltip = False
+    reports = [f"config_error_recovery_enable_{one}" for one in ("assert", "debug_log", "tooltip")]
+    before = {report: getattr(io, report) for report in reports}
+    for report in reports:
+        setattr(io, report, False)
     imgui.internal.error_recovery_try_to_recover_state(stacks)
-    (
-        io.config_error_recovery_enable_assert,
-        io.config_error_recovery_enable_debug_log,
-        io.config_error_recovery_enable_tooltip,
-    ) = told
+    for report, is_on in before.items():
+        setattr(io, report, is_on)

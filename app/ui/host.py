@@ -10,6 +10,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import OptionPart
 from lucida.app.state.options import Options
 from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.entry_box import EntryBox
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
@@ -74,7 +75,7 @@ class Around(Protocol):
     def toggle_palette(self) -> None: ...
     def toggle_help(self) -> None: ...
     def toggle_full_screen(self) -> None: ...
-    def picture(self, view: bool = False, copy: bool = False) -> None: ...
+    def picture(self, view: bool = False) -> None: ...
     def picture_as(self, view: bool = False) -> None: ...
     def export_as(self, host: Host) -> None: ...
 
@@ -85,11 +86,13 @@ class Host(Protocol):
     renderers: both images of the current state.
     files: opening and saving. shell: the parts around the views.
     moves: True if things may move by themselves; False while a picture of the window is taken.
+    box: asks for an entry; None if nothing does.
     """
 
     fonts: Fonts
     renderers: Renderers
     moves: bool
+    box: EntryBox | None
 
     @property
     def has_tools(self) -> bool:
@@ -151,11 +154,6 @@ class Host(Protocol):
     def unclick(self) -> None:
         """Undo the previous click if it marked a pixel: it was the first of a double click."""
 
-    def ask_resolution(self) -> None:
-        """Open the box that asks for the images' resolution."""
-
-    def ask_pixel(self) -> None: ...
-    def close_boxes(self) -> bool: ...
     def focus_object(self) -> None: ...
     def undo(self) -> None: ...
     def redo(self) -> None: ...

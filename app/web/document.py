@@ -1,6 +1,6 @@
 """An HTML page of one file: no other file, no address, and a policy that allows none.
 
-The modules, the styles and the data stand in the file. Its content security policy names the one
+The modules, the styles and the data are in the file. Its content security policy names the one
 script and the one style by their hashes. All texts are escaped; data is JSON without `<`.
 """
 
@@ -47,7 +47,7 @@ def document(title: str, entry: str, body: str, data: Mapping[str, Any], style: 
 
 
 def embedded(value: Any) -> str:
-    """Return a value as JSON that stands in a <script> element."""
+    """Return a value as JSON for a <script> element."""
     return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 

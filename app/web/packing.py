@@ -20,8 +20,13 @@ from lucida.renderer.system.errors import LucidaError
 MOST_TRIANGLES = 200_000
 MOST_TEXELS = 8_000_000
 TYPES = {"f4": "Float32Array", "f8": "Float64Array", "i4": "Int32Array", "u1": "Uint8Array"}
-DERIVED = ("face_object", "sphere_object", "object_sphere", "texels")  # modules/scene.js has them
-# What the renderers have of a vertex that says nothing.
+DERIVED = (
+    "face_object",
+    "sphere_object",
+    "object_sphere",
+    "texels",
+)  # by modules/scene.js
+# The values of a vertex that has none of its own.
 EMPTY = {"normals": 0.0, "colors": 1.0, "uv": 0.0}
 
 
@@ -87,7 +92,7 @@ def _opacity(texels: NDArray[np.int32]) -> tuple[NDArray[np.uint8], list[int]]:
 
 
 def _colors(texels: NDArray[np.int32]) -> tuple[NDArray[np.uint8], list[int]]:
-    """Return a picture in sRGB, (height, width, 3), and what its 256 values are in FlatScene."""
+    """Return a picture in sRGB, (height, width, 3), and its 256 values in FlatScene."""
     gray = np.arange(256, dtype=np.uint8)[None, :, None].repeat(3, axis=2)
     most = (1 << TEXEL_BITS) - 1
     values = packed_texels(gray)[0] & most

@@ -22,7 +22,7 @@ SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
 
 
 def packed_scene(scene: Scene) -> dict[str, Any]:
-    """Return a scene as figures take it, a JSON value: arrays, shaders and name.
+    """Return a scene for figures, a JSON value: arrays, shaders and name.
 
     Raises LucidaError if it has too many triangles or texels.
     """

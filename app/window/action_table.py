@@ -6,100 +6,39 @@ from the window's own and the instruments'; knows nothing of how menus are drawn
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-
 from imgui_bundle import imgui
 
 from lucida.app.lecture.instrument import LectureInstrument
-from lucida.app.ui.action import Action, changing, chords_of
+from lucida.app.ui.action import chords_of
 from lucida.app.ui.host import Host
-from lucida.app.window.actions import BOOKMARKS, FILE, HELP, LOOK, QUIT
+from lucida.app.window.actions import BOOKMARKS, EFFECTS, FILE, HELP, LOOK, QUIT, UNDO
 from lucida.app.window.instruments import INSTRUMENTS
 
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 
-UNDO = (
-    Action(
-        "Edit",
-        "Undo",
-        lambda w: w.undo(),
-        "Ctrl+Z",
-        can=lambda w: w.can_undo(),
-    ),
-    Action(
-        "Edit",
-        "Redo",
-        lambda w: w.redo(),
-        "Ctrl+Shift+Z",
-        "Ctrl+Y",
-        can=lambda w: w.can_redo(),
-    ),
-)
-
-EFFECTS = (
-    Action(
-        "View",
-        "Shadows (ray image only)",
-        changing(
-            lambda state: state.with_options(
-                replace(state.options, shadows=not state.options.shadows)
-            )
+# The window's own and the instruments' actions in the order of the menus. Within a menu, they keep
+# the order in which they are named here.
+ACTIONS = tuple(
+    sorted(
+        (
+            *FILE,
+            *UNDO,
+            *LOOK,
+            *LectureInstrument.actions,
+            *(
+                action
+                for instrument in INSTRUMENTS
+                if instrument is not LectureInstrument
+                for action in instrument.actions
+            ),
+            *BOOKMARKS,
+            *EFFECTS,
+            *HELP,
+            *QUIT,
         ),
-        is_on=lambda state: state.options.shadows,
-        separated=True,
-    ),
-    Action(
-        "View",
-        "Mirrors (ray image only)",
-        changing(
-            lambda state: state.with_options(
-                replace(state.options, mirrors=not state.options.mirrors)
-            )
-        ),
-        is_on=lambda state: state.options.mirrors,
-    ),
+        key=lambda action: MENUS.index(action.menu.partition("/")[0]),
+    )
 )
-
-_left = [action for one in INSTRUMENTS for action in one.actions]
-
-
-def _take(menu: str, actions: Sequence[Action] = ()) -> list[Action]:
-    """Return the instruments' actions in a menu and its submenus, or those among `actions` alone.
-    Each is returned once.
-    """
-    found = [
-        action
-        for action in _left
-        if f"{action.menu}/".startswith(f"{menu}/") and (not actions or action in actions)
-    ]
-    _left[:] = [action for action in _left if action not in found]
-    return found
-
-
-# In the order of the menus, and within them; what an instrument adds to a menu comes last in it,
-# but before Quit.
-ACTIONS = (
-    *FILE,
-    *_take("File"),
-    *QUIT,
-    *UNDO,
-    *_take("Edit"),
-    *_take("Scene"),
-    *_take("Camera"),
-    *BOOKMARKS,
-    *LOOK,
-    *_take("Image"),
-    *_take("View/Outside view"),
-    *EFFECTS,
-    *_take("View"),
-    *_take("Lecture", LectureInstrument.actions),
-    *_take("Lecture/Loop stepper"),
-    *_take("Lecture"),
-    *HELP,
-    *_take("Help"),
-)
-assert not _left, f"there is no menu {_left[0].menu!r}; the menus: {', '.join(MENUS)}"
 
 MOUSE = (
     *(row for instrument in INSTRUMENTS for row in instrument.mouse),

@@ -11,9 +11,8 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.shared import Notation, Preferences, Theme
 from lucida.app.ui import layout
-from lucida.app.ui.action import Action, changing
+from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.explaining import symbols
-from lucida.app.ui.host import Host
 from lucida.app.window import bookmarks
 from lucida.app.window.camera_files import CAMERA_FILES
 
@@ -22,26 +21,11 @@ FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCAL
 
 
 def _theme(name: Theme, title: str) -> Action:
-    return Action(
-        "View/Theme",
-        title,
-        changing(lambda state: state.with_options(replace(state.options.preferences, theme=name))),
-        is_on=lambda state: state.preferences.theme == name,
-    )
+    return choosing("View/Theme", title, "preferences.theme", name)
 
 
 def _notation(name: Notation) -> Action:
-    return Action(
-        "View/Notation",
-        f"Notation of {symbols.NAMES[name]}",
-        changing(lambda state: state.with_options(replace(state.options, notation=name))),
-        is_on=lambda state: state.options.notation == name,
-    )
-
-
-def _presentation(state: AppState) -> AppState:
-    on = not state.preferences.presentation
-    return state.with_options(replace(state.options.preferences, presentation=on))
+    return choosing("View/Notation", f"Notation of {symbols.NAMES[name]}", "notation", name)
 
 
 def scaled(state: AppState, step: int) -> AppState:
@@ -62,6 +46,8 @@ def _layout(number: int, one: layout.Layout) -> Action:
         one.name,
         lambda window: layout.switch(one.name),
         f"Ctrl+F{number + 1}",
+        is_on=lambda state: layout.current() is one,
+        tip=one.use,
     )
 
 
@@ -77,27 +63,7 @@ def _bookmark(number: int, stores: bool) -> Action:
     )
 
 
-# Words, view, copy, keys.
-PICTURES = (
-    ("Save a picture of the window", False, False, "F12"),
-    ("Save a picture of the view in use", True, False, "Shift+F12"),
-    ("Save a picture of the window as...", False, None, ""),
-    ("Save a picture of the view in use as...", True, None, ""),
-    ("Copy a picture of the window", False, True, "Ctrl+F12"),
-    ("Copy a picture of the view in use", True, True, "Ctrl+Shift+F12"),
-)
-
-
-def _picture(name: str, view: bool, copy: bool | None, keys: str) -> Action:
-    """Return the action. copy: to the clipboard; None: into a file that the user names."""
-
-    def run(window: Host) -> None:
-        if copy is None:
-            window.shell.picture_as(view)
-        else:
-            window.shell.picture(view, copy)
-
-    return Action("File/Picture", name, run, keys, separated=keys == "Ctrl+F12")
+PICTURES = "File/Picture"
 
 
 FILE = (
@@ -132,20 +98,40 @@ FILE = (
     ),
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E"),
-    *(_picture(*entry) for entry in PICTURES),
+    Action(PICTURES, "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
+    Action(
+        PICTURES,
+        "Save a picture of the view in use",
+        lambda w: w.shell.picture(view=True),
+        "Shift+F12",
+    ),
+    Action(PICTURES, "Save a picture of the window as...", lambda w: w.shell.picture_as()),
+    Action(
+        PICTURES,
+        "Save a picture of the view in use as...",
+        lambda w: w.shell.picture_as(view=True),
+    ),
 )
 
 QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", separated=True),)
 
+UNDO = (
+    Action("Edit", "Undo", lambda w: w.undo(), "Ctrl+Z", can=lambda w: w.can_undo()),
+    Action(
+        "Edit", "Redo", lambda w: w.redo(), "Ctrl+Shift+Z", "Ctrl+Y", can=lambda w: w.can_redo()
+    ),
+)
+
+FORGET = Action(
+    "Camera/Bookmarks",
+    "Forget all bookmarks",
+    changing(lambda state: state.with_options(replace(state.options, bookmarks=()))),
+    can=lambda w: bool(w.state.options.bookmarks),
+    separated=True,
+)
 BOOKMARKS = (
     *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
-    Action(
-        "Camera/Bookmarks",
-        "Forget all bookmarks",
-        changing(lambda state: state.with_options(replace(state.options, bookmarks=()))),
-        can=lambda w: bool(w.state.options.bookmarks),
-        separated=True,
-    ),
+    FORGET,
 )
 
 LOOK = (
@@ -156,13 +142,7 @@ LOOK = (
         "Ctrl+M",
     ),
     Action("View", "Full screen", lambda w: w.shell.toggle_full_screen(), "F11"),
-    Action(
-        "View",
-        "Presentation",
-        changing(_presentation),
-        "F9",
-        is_on=lambda state: state.preferences.presentation,
-    ),
+    choosing("View", "Presentation", "preferences.presentation", True, "F9", off=False),
     _theme("dark", "Dark theme"),
     _theme("light", "Light theme"),
     _theme("contrast", "High-contrast theme"),
@@ -202,6 +182,11 @@ LOOK = (
         lambda w: w.shell.focus_next(-1),
         "Shift+F3",
     ),
+)
+
+EFFECTS = (
+    choosing("View", "Shadows (ray image only)", "shadows", True, off=False, separated=True),
+    choosing("View", "Mirrors (ray image only)", "mirrors", True, off=False),
 )
 
 HELP = (

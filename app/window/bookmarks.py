@@ -36,21 +36,6 @@ def with_bookmark(state: AppState, number: int) -> AppState:
     )
 
 
-def without(state: AppState, number: int) -> AppState:
-    """The state without a bookmark."""
-    kept = tuple(mark for mark in state.options.bookmarks if mark.number != number)
-    return state.with_options(replace(state.options, bookmarks=kept))
-
-
-def renamed(state: AppState, number: int, name: str) -> AppState:
-    """The state in which a bookmark has another name."""
-    marks = (
-        Bookmark(mark.number, name, mark.view) if mark.number == number else mark
-        for mark in state.options.bookmarks
-    )
-    return state.with_options(replace(state.options, bookmarks=tuple(marks)))
-
-
 def store(window: Host, number: int) -> None:
     """Keeps the view of now, and says so."""
     window.change(with_bookmark(window.state, number))

@@ -1,9 +1,8 @@
-"""Pictures of the window or of one view, into a file or the clipboard, encoded on a thread."""
+"""Pictures of the window or of one view, encoded and saved on a thread."""
 
 from __future__ import annotations
 
 import datetime
-import io
 import os
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
@@ -13,7 +12,6 @@ import numpy as np
 
 from lucida.app.ui.background import Background
 from lucida.app.ui.surface import Target
-from lucida.app.window.clipboard import copy_png
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
@@ -25,17 +23,17 @@ class CaptureRequest:
     """A request for a picture.
 
     rect: the part to cut out, in framebuffer pixels; None for the whole window.
-    path: the file; None for the clipboard.
+    path: the file.
     """
 
     rect: Rect | None
-    path: Path | None
+    path: Path
 
 
 class Captures:
     """Takes pictures while the window is open.
 
-    wake: called on a thread when a picture has been saved or copied.
+    wake: called on a thread when a picture has been saved.
     folder: for pictures without a given path; None for the user's folder of pictures.
     """
 
@@ -49,7 +47,7 @@ class Captures:
     def busy(self) -> bool:
         return self._asked is not None or self._work.busy
 
-    def ask(self, rect: Rect | None, path: Path | None) -> None:
+    def ask(self, rect: Rect | None, path: Path) -> None:
         """Ask for a picture of the next frame."""
         self._asked = CaptureRequest(rect, path)
 
@@ -125,12 +123,6 @@ def _finish(pixels: np.ndarray, asked: CaptureRequest) -> str:
     from PIL import Image
 
     picture = np.ascontiguousarray(cut(pixels, asked.rect))
-    buffer = io.BytesIO()
-    Image.fromarray(picture).save(buffer, format="PNG")
-    size = f"{picture.shape[1]} x {picture.shape[0]}"
-    if asked.path is None:
-        copy_png(buffer.getvalue())
-        return f"Copied to the clipboard: a picture of {size} pixels."
     with atomic_write(asked.path) as file:
-        file.write(buffer.getvalue())
-    return f"Saved {asked.path} ({size})."
+        Image.fromarray(picture).save(file, format="PNG")
+    return f"Saved {asked.path} ({picture.shape[1]} x {picture.shape[0]})."

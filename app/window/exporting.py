@@ -6,7 +6,6 @@ Lists what could not be exported.
 
 from __future__ import annotations
 
-import threading
 import time
 from pathlib import Path
 
@@ -16,9 +15,8 @@ from lucida.app.web import ENDINGS as PAGES
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.export import export_scene
-from lucida.renderer.files.models.subprocess_reader import CancelledError
 from lucida.renderer.scene.model import Scene, View
-from lucida.renderer.system.cancelling import cancelled_by
+from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
 from lucida.renderer.system.errors import describe, one_line
 
 Lines = tuple[str, ...]
@@ -30,7 +28,7 @@ class Exports:
 
     def __init__(self) -> None:
         self._work: Background[Lines] = Background("lucida-export")
-        self._given_up = threading.Event()
+        self._cancellation = Cancellation()
         self._path = Path()
         self._began_s = 0.0
         self.listing: TextListing | None = None
@@ -52,12 +50,9 @@ class Exports:
     def begin(self, path: str, scene: Scene, camera: Camera, size: Size) -> None:
         """Writes a file, whose ending says for whom. size: (width, height) of the image. Call while
         none is being written."""
-        self._given_up = given_up = threading.Event()
+        self._cancellation = Cancellation()
+        check = self._cancellation.check
         self._path, self._began_s, self.listing = Path(path), time.monotonic(), None
-
-        def check() -> None:
-            if given_up.is_set():
-                raise CancelledError
 
         def write() -> Lines:
             with cancelled_by(check):
@@ -72,7 +67,7 @@ class Exports:
 
     def cancel(self) -> None:
         """Between two of its parts the writing ends; what was made of it is taken away."""
-        self._given_up.set()
+        self._cancellation.cancel()
 
     def poll(self) -> tuple[str, bool] | None:
         """Return the message since the last call, and whether it is good news."""

@@ -33,12 +33,10 @@ from lucida.app.window.opening import (
     reread,
 )
 from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
-from lucida.renderer.files.models.models import read_by
-from lucida.renderer.files.models.subprocess_reader import CancelledError, ModelReader
 from lucida.renderer.files.outside import LISTED, OutsideError
 from lucida.renderer.files.reading import MODEL_ENDINGS
 from lucida.renderer.scene import Scene, View
-from lucida.renderer.system.cancelling import cancelled_by
+from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
 from lucida.renderer.system.errors import describe, one_line
 
 LECTURE_ENDING = ".toml"
@@ -72,7 +70,7 @@ class Files:
     ) -> None:
         self._wake = wake
         self._loading: Background[Opened] = Background("lucida-load", wake)
-        self.models = ModelReader()
+        self._cancellation = Cancellation()
         self._rereading: Background[Opened] = Background("lucida-reread", wake)
         self._watch = SceneWatch()
         self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
@@ -149,19 +147,18 @@ class Files:
         return self._watch.waiting
 
     def cancel(self) -> None:
-        """Ends the loading. A large model is in a process of its own, which is killed; what is not
-        is left between two of its parts."""
+        """End the loading: its thread stops between two parts of its work."""
         if self._loading.busy:
-            self.models.cancel()
+            self._cancellation.cancel()
             self._loading.close(0.0)
-            self.models = ModelReader()
+            self._cancellation = Cancellation()
             self._loading = Background("lucida-load", self._wake)
             self._said.append(f"Loading {self._source} was cancelled.")
 
     def open_dialog(self) -> None:
         endings = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
         words = "Scenes, models, views and cameras"
-        self.ask_open("Open a scene, a model or cameras", words, endings, self.open_all, True)
+        self.ask_open("Open a scene, a model or cameras", words, endings, self.open_all)
 
     def add_model_dialog(self) -> None:
         def add(paths: list[str]) -> None:
@@ -177,7 +174,7 @@ class Files:
         def open_first(paths: list[str]) -> None:
             self.open_lecture(paths[0])
 
-        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first, True)
+        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first)
 
     def open_code_dialog(self) -> None:
         self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
@@ -205,13 +202,6 @@ class Files:
         self._watch.know(saved.origin.files)
         self._watch.take_present()
         self.recent.add(saved.origin.source)
-
-    def save_picture_dialog(self, name: str, chosen: Callable[[Path], None]) -> None:
-        """Ask where to save a picture."""
-        question = FileQuestion(
-            "Save the picture", True, (".png",), name, lambda paths: chosen(Path(paths[0]))
-        )
-        self._ask(question, "Pictures")
 
     def poll(self) -> Opened | None:
         """Return what has been loaded since the last call; errors become the message."""
@@ -283,7 +273,7 @@ class Files:
         self._wake()
 
     def close(self) -> None:
-        self.models.cancel()
+        self._cancellation.cancel()
         self._loading.close()
         self._rereading.close()
         self._saving.close(5.0)
@@ -296,10 +286,10 @@ class Files:
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()
-        models = self.models
+        check = self._cancellation.check
 
         def loaded() -> Opened:
-            with read_by(models.read), cancelled_by(models.check):
+            with cancelled_by(check):
                 return load(agreed)
 
         self._loading.submit(loaded)
@@ -349,17 +339,15 @@ class Files:
         question = FileQuestion(title, True, tuple(endings), name, chosen)
         self._ask(question, words)
 
-    def ask_open(
-        self, title: str, words: str, endings: tuple[str, ...], chosen: Paths, others: bool = False
-    ) -> None:
-        self._ask(FileQuestion(title, False, endings, "", chosen), words, others)
+    def ask_open(self, title: str, words: str, endings: tuple[str, ...], chosen: Paths) -> None:
+        self._ask(FileQuestion(title, False, endings, "", chosen), words)
 
-    def _ask(self, question: FileQuestion, words: str, others: bool = False) -> None:
-        """Ask for files. words: for those with the endings. others: offer all files, too."""
+    def _ask(self, question: FileQuestion, words: str) -> None:
+        """Ask for files. words: for those with the endings."""
         if self._asking is not None or self.dialog.is_open:
             return
-        filters = [words, " ".join(f"*{ending}" for ending in question.endings)]
-        filters += ["All files", "*"] if others else []
+        listed = " ".join(f"*{ending}" for ending in question.endings)
+        filters = [words, listed, "All files", "*"]
         if not (self.native and has_dialogs()):
             self.dialog.ask(question)
         elif question.saves:

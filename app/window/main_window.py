@@ -8,50 +8,41 @@ this module keeps it and hands it to the renderers. viewer.py makes the window.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Hashable
-from dataclasses import replace
+from collections.abc import Callable
 from pathlib import Path
 
 import moderngl
 from imgui_bundle import hello_imgui, imgui
 
-from lucida.app.cameras.presets import framed
-from lucida.app.cameras.travel import CameraTransition
 from lucida.app.checking.your_code.view import YourCodeView
-from lucida.app.images.pair.boxes import asking_pixel, asking_size
 from lucida.app.images.pair.view import RASTER
 from lucida.app.images.renderers import Renderers
-from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.lecture.movement import Movement
 from lucida.app.lecture.view import LECTURE, LectureView
-from lucida.app.state.app_state import AppState, History
-from lucida.app.state.bounds import OptionPart
-from lucida.app.state.options import Options
+from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.background import Background
-from lucida.app.ui.fly import Fly
+from lucida.app.ui.entry_box import EntryBox
 from lucida.app.ui.host import T
 from lucida.app.ui.instrument import Instrument
 from lucida.app.window.action_table import run_shortcuts
-from lucida.app.window.entry_boxes import EntryBoxes
+from lucida.app.window.edits import Edits
 from lucida.app.window.files import Files
 from lucida.app.window.instruments import make_views
 from lucida.app.window.menu_keys import MenuKeys
 from lucida.app.window.menus import menu_bar, menu_button
+from lucida.app.window.motions import Motions
 from lucida.app.window.platform import keep_open, on_drop, set_title
-from lucida.app.window.playing import Playing
 from lucida.app.window.scene_saving import SceneSaving, is_marked, title
 from lucida.app.window.session_store import Keeper
 from lucida.app.window.shell import Shell
 from lucida.app.window.status import Status, is_good_news, status_line, told
 from lucida.app.window.taking import take_opened
-from lucida.renderer.scene.focus import Focus, object_corners, scene_focus
-from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.scene.focus import Focus, scene_focus
 from lucida.renderer.system.memo import Memo
 
 
-class MainWindow:
+class MainWindow(Edits):
     """Everything behind the window; the Host of its views. Methods are called in its thread, in
     its context.
 
@@ -66,7 +57,7 @@ class MainWindow:
         keeper: Keeper | None = None,
         folder: Path | None = None,
     ) -> None:
-        self.history = History(state)
+        super().__init__(state)
         self.fonts = theme.Fonts()
         self.news = threading.Event()  # set when a thread has something for the coming frame
         Background.wake_window = self._wake
@@ -78,16 +69,11 @@ class MainWindow:
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
-        self._gesture = 0
-        self._was_active = False
-        self.boxes = EntryBoxes()
+        self.box: EntryBox | None = None
         self._focus = Memo(scene_focus)
-        self.transition = CameraTransition()
-        self.transition.instant = not smooth
-        self._playing = Playing()
+        self.motions = Motions(self, instant=not smooth)
         self.moves = smooth
         self.for_print = False
-        self._fly = Fly()
         self.menu_keys = MenuKeys()
         self._over: Instrument | None = None
         self.saving = SceneSaving(self.files, self._quit)
@@ -97,19 +83,6 @@ class MainWindow:
 
     def view(self, kind: type[T]) -> T:
         return next(view for view in self.views.values() if isinstance(view, kind))
-
-    @property
-    def state(self) -> AppState:
-        """The present state, or the one that a movement shows on its way there."""
-        return self._playing.shown or self.history.present
-
-    @property
-    def options(self) -> Options:
-        return self.state.options
-
-    @property
-    def present(self) -> AppState:
-        return self.history.present
 
     @property
     def focus(self) -> Focus:
@@ -123,7 +96,7 @@ class MainWindow:
     def settled(self) -> bool:
         """True if nothing will change by itself: both images are complete and compared."""
         views = self.shell.stage.settled
-        moving = self.files.busy or self.transition.under_way or self._playing.under_way
+        moving = self.files.busy or self.motions.under_way
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
@@ -152,47 +125,6 @@ class MainWindow:
     def hover(self, view: str, pixel: Pixel) -> None:
         self._next_hovered = (view, pixel)
 
-    def apply(self, state: AppState, gesture: Hashable = None) -> None:
-        if state == self.state or self._was_moving():
-            return
-        if gesture is None and (self._was_active or imgui.is_any_item_active()):
-            gesture = ("drag", self._gesture if self._was_active else self._gesture + 1)
-        self.history = self.history.change(state, gesture)
-
-    def edit(self, part: Options | OptionPart) -> None:
-        self.apply(self.state.with_options(part))
-
-    def change(self, state: AppState) -> None:
-        if state != self.state and not self._was_moving():
-            self.history = self.history.change(state)
-
-    def amend(self, state: AppState) -> None:
-        if not self._playing.under_way:  # otherwise asked for again after the movement
-            self.history = self.history.amended(state)
-
-    def move(
-        self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
-    ) -> None:
-        start = start or self.state
-        self._playing.end()
-        self.change(state)
-        if not move_s or not self.moves or state.preferences.reduced_motion:
-            return
-        movement = Movement(start, state, self._focus(state.scene), self.renderers.size)
-        self._playing.begin(movement, move_s, loop)
-        self.animate()
-
-    def end_movement(self) -> bool:
-        return self._playing.end()
-
-    def _was_moving(self) -> bool:
-        """End a movement, which a change would come from a state of. Return True if there was
-        one.
-        """
-        was_moving = self._playing.under_way
-        self._playing.end()
-        return was_moving
-
     def show(self, view: str) -> None:
         if view not in self.shell.stage.rects:
             self.shell.stage.show(view)
@@ -203,54 +135,15 @@ class MainWindow:
     def is_visible(self, view: str) -> bool:
         return view in self.shell.stage.rects
 
-    def unclick(self) -> None:
-        self.history = self.history.unclicked(("drag", self._gesture))
-
-    def ask_resolution(self) -> None:
-        """Opens the box to type the images' resolution into."""
-        self.boxes.size = asking_size(self.state, self.renderers.size)
-
-    def ask_pixel(self) -> None:
-        """Opens the box to type a pixel's row and column into."""
-        if min(self.renderers.size):
-            self.boxes.pixel = asking_pixel(self.state, self.renderers.size)
-
-    def close_boxes(self) -> bool:
-        return self.boxes.close()
-
     def travel(self, state: AppState) -> None:
-        ends = self.view(OutsideView).ends(self, state)
-        shown = self.transition.begin(self.state, state, self.focus, self.renderers.size, ends)
-        if shown is state:
-            self.change(state)
-        elif ends is None and state.options != self.state.options:
-            # The camera alone passes: the rest is there at once, in the same step.
-            there = replace(self.state, options=state.options)
-            self.history = self.history.change(there, self.transition.gesture)
-        self.animate()
+        self.motions.travel(self, state)
 
     @property
     def travelling(self) -> bool:
-        return self.transition.under_way
+        return self.motions.transition.under_way
 
     def focus_object(self) -> None:
-        """Frames the object under the mouse, in the view that the mouse is over; all of the
-        scene where there is none."""
-        view = self._over or self.views[RASTER]
-        camera, number = view.flown(self), view.object_under(self)
-        if camera is None:
-            return
-        points = self.focus.framed
-        if number is not None:
-            points = object_corners(self.state.scene.objects[number])
-        try:
-            camera = framed(camera, points, self.focus.bounds)
-        except LucidaError:  # too large for numbers
-            return
-        self.travel(view.with_flown(self.state, camera))
-
-    def animate(self) -> None:
-        hello_imgui.request_refresh()
+        self.motions.focus_object(self, self._over or self.views[RASTER])
 
     def undo(self) -> None:
         """One step back; what was entered last and is not legal is the last step."""
@@ -261,14 +154,12 @@ class MainWindow:
             self.animate()
             return
         self._cancel_drags()
-        self.transition.stop()
-        self.end_movement()
+        self.motions.stop()
         self.history = self.history.undo()
 
     def redo(self) -> None:
         self._cancel_drags()
-        self.transition.stop()
-        self.end_movement()
+        self.motions.stop()
         self.history = self.history.redo()
 
     def can_undo(self) -> bool:
@@ -344,10 +235,7 @@ class MainWindow:
 
     def frame(self) -> None:
         """The beginning of each frame: what has come from the threads, and the keys."""
-        active = imgui.is_any_item_active()
-        if active and not self._was_active:
-            self._gesture += 1
-        self._was_active = active
+        active = self.note_gesture()
         self._hovered, self._next_hovered = self._next_hovered, None
         self._follow_closing()
         self.saving.poll(self)
@@ -357,18 +245,13 @@ class MainWindow:
             self._titled = titled
             set_title(title(scene, is_a_steps))
         self._over = self.shell.stage.take_hovered()
-        if self._playing.under_way:
-            self._playing.frame(any(imgui.is_mouse_clicked(button) for button in range(3)))
-            self.animate()
-        self._move_by_itself(active)
+        keyed = self.views.get(self.shell.stage.keyboard)
+        is_keyed = imgui.get_current_context().nav_cursor_visible and keyed is not None
+        self.motions.frame(self, active, keyed if is_keyed else self._over)
         if self.state.step is None and not self.saving.busy and self.files.follow(self.state.scene):
             hello_imgui.request_refresh()
-        opened = self.files.poll()
-        if opened is not None:
-            self.animate()
-            take_opened(self, opened)
-        moving = active or self.transition.under_way or self._fly.under_way
-        moving = moving or self._playing.under_way
+        take_opened(self)
+        moving = active or self.motions.under_way
         self.shell.proportion.keep(self.lecture.arrangements)
         self.shell.frame(self)
         if not self.lecture.is_given:
@@ -378,12 +261,14 @@ class MainWindow:
         if self.lecture.arrangements != arrangements:
             begun, stage = self.lecture.take_begun(), self.shell.stage
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
-        if not self.boxes.focused:
+        typing = self.box is not None and self.box.focused  # its digits are no bookmarks
+        if not typing:
             run_shortcuts(self)
-        self.change(self.boxes.draw(self.state, self.renderers))
+        if self.box is not None and not self.box.draw():
+            self.box = None
         self.renderers.update(self.state, moving)
         self._bars()
-        self.shell.draw(self, self.boxes.focused, self.menu_keys.in_menus)
+        self.shell.draw(self, typing, self.menu_keys.in_menus)
         if self.files.busy or self.renderers.unfinished(self.state):
             hello_imgui.request_refresh()
 
@@ -427,20 +312,6 @@ class MainWindow:
         self.renderers.end()
         self.files.close()
         self.saving.close()
-
-    def _move_by_itself(self, active: bool) -> None:
-        """The camera under way, and keys that are held. A press of the mouse on anything ends the
-        passage where it is."""
-        if active and any(imgui.is_mouse_clicked(button) for button in range(3)):
-            self.transition.stop()
-        state = self.transition.step(self.state)
-        if state is not self.state:
-            self.history = self.history.change(state, self.transition.gesture)
-        keyed = self.views.get(self.shell.stage.keyboard)
-        is_keyed = imgui.get_current_context().nav_cursor_visible and keyed is not None
-        self._fly.frame(self, keyed if is_keyed else self._over)
-        if self.transition.under_way:
-            self.animate()
 
     def _cancel_drags(self) -> None:
         for view in self.views.values():

@@ -7,7 +7,6 @@ Owns its look. Knows nothing of what actions do.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
@@ -16,18 +15,17 @@ from lucida.app.lecture.view import LECTURE
 from lucida.app.state.app_state import History
 from lucida.app.state.changes import change
 from lucida.app.ui import layout, theme
-from lucida.app.ui.action import Action
+from lucida.app.ui.action import draw_entry
 from lucida.app.ui.host import Host
 from lucida.app.ui.stage import Stage
 from lucida.app.window import bookmarks
 from lucida.app.window.action_table import ACTIONS, MENUS
+from lucida.app.window.actions import FORGET
 from lucida.renderer.files import SCENE_NAMES
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
-
-USES = {one.name: one.use for one in layout.CHOICES}
 
 
 def menu_bar(
@@ -57,16 +55,22 @@ def menu_bar(
 
 
 def menu_button(window: Host, history: History, stage: Stage) -> None:
-    """Draw a button with all menus into the upper right corner of a lecture's column."""
+    """Draw a button with all menus into the lower right corner of a lecture's text, in line with
+    the foot, where it covers nothing.
+    """
     column = stage.rects.get(LECTURE)
     if column is None:
         return
-    imgui.set_next_window_pos((column[2], column[1]), pivot=(1, 0))
+    imgui.set_next_window_pos(column[2:], pivot=(1, 1))
     flags = imgui.WindowFlags_
     imgui.begin(
         "##stage menu",
         None,
-        flags.no_decoration | flags.always_auto_resize | flags.no_saved_settings | flags.no_docking,
+        flags.no_decoration
+        | flags.always_auto_resize
+        | flags.no_saved_settings
+        | flags.no_docking
+        | flags.no_background,
     )
     if imgui.button("Menu"):
         imgui.open_popup("menus")
@@ -90,7 +94,7 @@ def _actions(menu: str, window: Host, history: History) -> None:
     drawn: set[str] = set()
     for action in ACTIONS:
         if action.menu == menu:
-            _item(action, window)
+            draw_entry(action, window)
             if action.name == "Open...":
                 _scenes(window)
                 _recent(window)
@@ -111,21 +115,8 @@ def _actions(menu: str, window: Host, history: History) -> None:
             else:
                 for entry in ACTIONS:
                     if entry.menu == action.menu:
-                        _item(entry, window, first=entry is action)
+                        draw_entry(entry, window, first=entry is action)
             imgui.end_menu()
-
-
-def _item(action: Action, window: Host, first: bool = False) -> None:
-    if action.separated and not first:
-        imgui.separator()
-    on = action.is_on(window.state) if action.is_on else False
-    if action.menu == "View/Layout":
-        on = action.name == layout.current().name
-    can = action.can(window) if action.can else True
-    if imgui.menu_item(action.name, action.keys, on, can)[0]:
-        action.run(window)
-    if action.menu == "View/Layout" and action.name in USES:
-        imgui.set_item_tooltip(USES[action.name])
 
 
 def _scenes(window: Host) -> None:
@@ -200,25 +191,7 @@ def _bookmarks(window: Host) -> None:
             if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:
                 bookmarks.store(window, number)
         imgui.end_menu()
-    if imgui.begin_menu("Rename", bool(marks)):
-        for mark in marks:
-            imgui.set_next_item_width(20 * imgui.get_font_size())
-            done, name = imgui.input_text(
-                f"{mark.number}##name{mark.number}",
-                mark.name,
-                imgui.InputTextFlags_.enter_returns_true,
-            )
-            if (done or imgui.is_item_deactivated_after_edit()) and name.strip():
-                window.change(bookmarks.renamed(window.state, mark.number, name.strip()[:80]))
-        imgui.end_menu()
-    if imgui.begin_menu("Forget", bool(marks)):
-        for mark in marks:
-            if imgui.menu_item(f"{mark.name}###drop{mark.number}", str(mark.number), False)[0]:
-                window.change(bookmarks.without(window.state, mark.number))
-        imgui.separator()
-        if imgui.menu_item("All", "", False)[0]:
-            window.change(window.state.with_options(replace(window.state.options, bookmarks=())))
-        imgui.end_menu()
+    draw_entry(FORGET, window, first=True)
 
 
 def _views(stage: Stage) -> None:
@@ -245,5 +218,5 @@ def _layouts(window: Host, name: str) -> None:
     if opened:
         for action in ACTIONS:
             if action.menu == "View/Layout":
-                _item(action, window)
+                draw_entry(action, window)
         imgui.end_menu()

@@ -19,8 +19,6 @@ from lucida.app.lecture.model import Lecture
 from lucida.app.lecture.reading import is_lecture, load_lecture
 from lucida.app.window.code_files import found_code, is_code, is_tasks
 from lucida.renderer.files import SCENE_NAMES, load_scene, load_view
-from lucida.renderer.files.models.models import read_by
-from lucida.renderer.files.models.subprocess_reader import ModelReader
 from lucida.renderer.files.outside import OutsideError, kept_inside
 from lucida.renderer.files.reading import first_bytes
 from lucida.renderer.raster import Prepared, prepare
@@ -73,7 +71,7 @@ class OpenedLecture:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        return self.lecture.notes
+        return self.lecture.summary
 
 
 @dataclass(frozen=True)
@@ -208,8 +206,7 @@ def _open_cameras(source: str) -> OpenedPoses | OpenedView:
 
 def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
     """Return a newer version of a scene whose files have changed. agreed: as in OpenedScene."""
-    with read_by(ModelReader().read):
-        newer = _open_scene(source, agreed, "newer")
+    newer = _open_scene(source, agreed, "newer")
     return Opened((replace(newer, replaces=scene),))
 
 

@@ -28,8 +28,6 @@ OWN = {
     "Export...": "gltf glb blender save scene camera renderer",
     "Save a picture of the window": "screenshot capture image png",
     "Save a picture of the view in use": "screenshot capture image png",
-    "Copy a picture of the window": "screenshot clipboard",
-    "Copy a picture of the view in use": "screenshot clipboard",
     "Quit": "exit close end",
     "Undo": "revert",
     "Redo": "repeat",

@@ -100,13 +100,11 @@ class Shell:
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
 
-    def picture(self, view: bool = False, copy: bool = False) -> None:
-        """A picture of the window, or of the view in use, into the folder of pictures, or the
-        clipboard."""
+    def picture(self, view: bool = False) -> None:
+        """Save a picture of the window, or of the view in use, in the folder of pictures."""
         try:
             what = self._view_in_use() if view else ""
-            path = None if copy else self.captures.default_path(what.lower())
-            self.captures.ask(self._rect(what), path)
+            self.captures.ask(self._rect(what), self.captures.default_path(what.lower()))
         except LucidaError as error:
             self.toasts.add(describe(error), good=False)
 
@@ -114,7 +112,12 @@ class Shell:
         """The same into a file that the user names."""
         what = self._view_in_use() if view else ""
         name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
-        self.files.save_picture_dialog(name, lambda path: self._picture_to(what, path))
+        self.files.ask_name(
+            "Save the picture",
+            name,
+            ("Pictures", ".png"),
+            lambda path: self._picture_to(what, path),
+        )
 
     def export_as(self, host: Host) -> None:
         """The scene and its camera for other renderers, into a file that the user names."""
@@ -149,8 +152,8 @@ class Shell:
             self.exports.listing = None
         elif self.help:
             self.help = False
-        elif window.close_boxes():
-            pass
+        elif window.box is not None:
+            window.box = None
         elif self.files.loading:
             self.files.cancel()
         elif self.exports.busy:
@@ -339,7 +342,6 @@ class Shell:
         left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
         return left, top, right, bottom
 
-    def _picture_to(self, view: str, path: Path) -> None:
-        ending = path if path.suffix.lower() == ".png" else Path(f"{path}.png")
-        self.captures.ask(self._rect(view) if view in self.stage.rects else None, ending)
+    def _picture_to(self, view: str, path: str) -> None:
+        self.captures.ask(self._rect(view) if view in self.stage.rects else None, Path(path))
         hello_imgui.request_refresh()

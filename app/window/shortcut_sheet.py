@@ -14,7 +14,7 @@ from imgui_bundle import imgui
 from lucida.app.ui import theme
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
-from lucida.app.window.action_table import ACTIONS, MENUS, MOUSE
+from lucida.app.window.action_table import ACTIONS, MOUSE
 from lucida.app.window.instruments import INSTRUMENTS
 
 COLUMN_EM = 24.0
@@ -39,7 +39,7 @@ def sections() -> list[Part]:
     """Return the sheet's parts in their order."""
     headings = {a: one.heading for one in INSTRUMENTS if one.heading for a in one.actions}
     parts: dict[str, list[Row]] = {"Mouse": list(MOUSE)}
-    for action in sorted(ACTIONS, key=lambda a: MENUS.index(a.menu.split("/")[0])):
+    for action in ACTIONS:
         if action.keys:
             # Of "Stepper: play and pause", the heading says the first part.
             name = action.name.rpartition(": ")[2] if action in headings else action.name

@@ -25,11 +25,11 @@ from lucida.app.window.opening import Opened, Use, opened_scene
 from lucida.app.window.session_store import Keeper, SessionFile, take_place
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.files.models.models import ModelFile, read_by, read_model
-from lucida.renderer.files.models.subprocess_reader import is_large
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.errors import LucidaError, describe, one_line
 
 ChangeView = Callable[[View], View]
+LARGE_BYTES = 1 << 20  # a model of this size delays the first frame
 UNKEPT = "This session will not be kept: the settings folder cannot be written to."
 
 
@@ -247,6 +247,19 @@ def _gone_on(session: Session, lecture: LectureSession | None, place: SessionFil
     default = load_scene(BUILTIN_SCENES[0])  # of which the session's camera may see nothing
     state = replace(session.state(default), view=default.view)
     return Start(state, session, message=message, later=later)
+
+
+def is_large(path: Path) -> bool:
+    """Return True if reading a model takes long. False if it is no file, which is reported
+    elsewhere.
+    """
+    try:
+        size_bytes = path.stat().st_size
+        if path.suffix.lower() == ".gltf":  # its numbers are in files next to it
+            size_bytes += sum(file.stat().st_size for file in path.parent.glob("*.bin"))
+    except (OSError, ValueError):
+        return False
+    return size_bytes >= LARGE_BYTES
 
 
 class _LargeModelError(Exception):

@@ -18,8 +18,8 @@ from lucida.app.instruments.poses.view import PosesView
 from lucida.app.lecture.view import LectureView
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.host import Host
+from lucida.app.window.files import Files
 from lucida.app.window.opening import (
-    Opened,
     OpenedCode,
     OpenedLecture,
     OpenedPhotograph,
@@ -42,13 +42,21 @@ ADD, OPEN = "Add it to the scene", "Open it instead"
 class Taker(Host, Protocol):
     """The window as it takes what was opened."""
 
+    files: Files
+
     def open_code(self, path: str) -> None: ...
     def leave_scene(self, then: Callable[[], None]) -> None:
         """Run what replaces the scene; ask first if something would be lost."""
 
 
-def take_opened(window: Taker, opened: Opened) -> None:
-    """Take all that was opened, each thing in its place. A view is the scene's, or the set's."""
+def take_opened(window: Taker) -> None:
+    """Take all that was opened since the last frame, each thing in its place. A view is the
+    scene's, or the set's.
+    """
+    opened = window.files.poll()
+    if opened is None:
+        return
+    window.animate()
     scene, lecture = opened.find(OpenedScene), opened.find(OpenedLecture)
     view = opened.find(OpenedView)
     for thing in opened.things:

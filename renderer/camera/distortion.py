@@ -29,8 +29,8 @@ class Distortion:
     """Radial, tangential and thin-prism distortion of a plane.
 
     above, below: polynomials in r^2, whose quotient scales a point. end: the radius up to which the
-    radial part rises. The map is trusted from the middle outwards to where it first folds: to
-    `end`, or, with other than radial terms, to `_folds`, which depends on the angle.
+    radial part rises. The map is used from the middle outwards up to its first fold: at `end`, or,
+    with other than radial terms, at `_folds`, which depends on the angle.
     """
 
     above: Polynomial
@@ -61,13 +61,13 @@ class Distortion:
         x, y = np.full(a.shape, np.nan), np.full(a.shape, np.nan)
         near = self._may_reach(a, b)
         x[near], y[near] = self._newton(a[near], b[near], (a * scale)[near], (b * scale)[near])
-        # Near a fold, Newton may miss: there it follows the point outwards from the middle.
+        # Newton's method may fail near a fold: follow the point outwards from the middle.
         left = np.flatnonzero(near & ~self._hits(a, b, x, y))
         near_x, near_y = np.zeros(left.size), np.zeros(left.size)
         for part in np.linspace(0, 1, 33)[1:]:
             at_a, at_b = part * a.ravel()[left], part * b.ravel()[left]
             near_x, near_y = self._newton(at_a, at_b, near_x, near_y)
-            found = self._hits(at_a, at_b, near_x, near_y)  # what is lost stays lost
+            found = self._hits(at_a, at_b, near_x, near_y)  # a lost point stays lost
             left, near_x, near_y = left[found], near_x[found], near_y[found]
         x.flat[left], y.flat[left] = near_x, near_y
         seen = self._hits(a, b, x, y)
@@ -179,7 +179,7 @@ class Distortion:
         return x.reshape(shape), y.reshape(shape)
 
     def newton_step(self, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
-        """Return one step of Newton's method from (x, y) to what is mapped to (a, b)."""
+        """Return one step of Newton's method from (x, y) to the points mapped to (a, b)."""
         at_a, at_b = self._map(x, y)
         (xx, xy), (yx, yy) = self._slopes(x, y)
         da, db, turned = at_a - a, at_b - b, xx * yy - xy * yx
@@ -190,10 +190,11 @@ class Distortion:
         return new_x * scale, new_y * scale
 
     def steps(self, a: float, b: float) -> Floats:
-        """Return Newton's way to what is mapped to (a, b): points with their errors, (n, 3).
+        """Return the steps of Newton's method to the point that is mapped to (a, b): points with
+        their errors, (n, 3).
 
         It begins at (a, b) itself, or, if that leads nowhere, at the inverse of the radial part.
-        Empty where both lead nowhere.
+        The result is empty if both lead nowhere.
         """
         target = np.array([a]), np.array([b])
         radius = self._inverse_radius(np.hypot(*target))

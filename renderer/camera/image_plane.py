@@ -1,4 +1,4 @@
-"""The image plane: where pixels are on it, their rays, and what a lens shows there.
+"""The image plane: the places of pixels on it, their rays, and the directions seen by a lens.
 
 Points (x, y) are in units of the camera's u and v, directions in units of u, v and w.
 """
@@ -54,7 +54,7 @@ def image_point(
 
 
 def seen_through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
-    """Return the directions (..., 3) of what a lens shows at points; NaN outside of it."""
+    """Return the directions (..., 3) that a lens shows at points; NaN outside of it."""
     right, down, ahead = lens.direction(x / distance, -y / distance)
     return np.stack([right, -down, -ahead], axis=-1) * distance
 

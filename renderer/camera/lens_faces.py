@@ -1,8 +1,8 @@
 """The pinhole images in which a rasterizer sees what a lens shows.
 
-No projection matrix holds a lens. A rasterizer therefore draws pinhole images, called faces: one
-where that sees everything that the lens sees, otherwise up to six faces of a cube around the eye.
-Each pixel of the lens's image looks up the texel of a face in which its ray ends.
+No projection matrix describes a lens. A rasterizer therefore draws pinhole images, called faces:
+one if that sees everything that the lens sees, otherwise up to six faces of a cube around the
+eye. Each pixel of the lens's image looks up the texel of a face in which its ray ends.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from lucida.renderer.camera.lenses import Lens
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
 
-# In place of a face's number: the lens shows nothing there.
+# In place of a face's number: pixels where the lens shows nothing.
 OUTSIDE = -1
 # The cube's faces, as columns u, v, w in units of the camera's.
 _AHEAD = np.eye(3)

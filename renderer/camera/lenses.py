@@ -1,9 +1,9 @@
-"""Lenses: where a camera without a projection matrix sees a direction, and back.
+"""Lenses: from directions to image points without a projection matrix, and back.
 
 A lens maps a direction to a point (a, b) of the image plane at distance 1, with the axes of
 computer vision: a to the right, b downwards, and directions (X, Y, Z) with Z forwards. It does so
 in two steps: an ideal projection to a plane (the pinhole's, a fisheye's), then a polynomial map of
-that plane, the distortion. Only where both are one-to-one does a lens see anything.
+that plane, the distortion. A lens sees only where both are one-to-one.
 Sources: OpenCV's documentation, "Camera calibration" and "Fisheye camera model"; COLMAP's
 documentation, "Camera Models"; Devernay and Faugeras, Straight lines have to be straight (2001);
 Kannala and Brandt, A generic camera model (2006).
@@ -100,8 +100,8 @@ class Lens:
         """Return the directions that appear at points of the image plane: the inverse of
         image_point(); NaN outside of the lens.
 
-        Z is 1 for the lenses whose ideal is the pinhole; the others' directions have length 1, but
-        a cylinder's, which have X^2 + Z^2 = 1.
+        Z is 1 for the lenses whose ideal is the pinhole; the others' directions have length 1,
+        except a cylinder's, which have X^2 + Z^2 = 1.
         """
         x, y = np.broadcast_arrays(np.asarray(a, float), np.asarray(b, float))
         with np.errstate(all="ignore"):
@@ -144,10 +144,10 @@ class Lens:
         return float(low), float(places[places > 0].min(initial=math.inf))
 
     def inverse_steps(self, a: float, b: float) -> Floats:
-        """Return how Newton's method undoes the distortion of a point of the image plane: (n, 3).
+        """Return the steps of Newton's method that undo a point's distortion: (n, 3).
 
         Each row is a point of the ideal plane, with the distance by which its distorted point
-        misses (a, b). Empty if nothing is distorted, or if no way of a few steps is found.
+        misses (a, b). Empty if nothing is distorted, or if a few steps are not enough.
         """
         with np.errstate(all="ignore"):
             bends = _distortion(self)
@@ -241,7 +241,7 @@ def _radius_of(lens: Lens, angle: Floats) -> Floats:
 
 
 def _angle_of(lens: Lens, radius: Floats) -> Floats:
-    """Return the angle to the axis of what appears at a distance from the image's middle."""
+    """Return the angle to the axis of directions at a distance from the image's middle."""
     match lens.model:
         case "stereographic":
             return 2 * np.arctan(radius / 2)

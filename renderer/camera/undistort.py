@@ -1,4 +1,4 @@
-"""Undistorted photographs: what a pinhole at the same place would have seen.
+"""Undistorted photographs, as a pinhole camera at the same place would have taken them.
 
 The pinhole keeps the lens's focal lengths and principal point; its image is as large as the
 photograph fills without a gap.
@@ -32,7 +32,7 @@ def undistorted_camera(camera: Camera, lens: Lens, size: Size) -> tuple[Camera, 
     units = (right - left) / width, (top - bottom) / height
 
     def reached(axis: int, i: ArrayLike, j: ArrayLike) -> Floats:
-        """Return where the ideal points of pixels are, in pixels from the principal point."""
+        """Return the places of pixels' ideal points, in pixels from the principal point."""
         x, y = camera.image_point(i, j, size)
         place = lens.direction(x / camera.distance, -y / camera.distance)
         with np.errstate(all="ignore"):
@@ -86,7 +86,7 @@ def undistorted(
 def _places(
     target: Camera, target_size: Size, camera: Camera, lens: Lens, size: Size
 ) -> tuple[Floats, Floats]:
-    """Return for each pixel of the pinhole where the photograph shows it: columns and rows, with
+    """Return for each pixel of the pinhole its place in the photograph: columns and rows, with
     pixels' centres at integers; NaN outside of the lens.
     """
     target, camera = (replace(each, eye=(0.0, 0.0, 0.0)) for each in (target, camera))

@@ -1,6 +1,6 @@
 """A scene and its file: unsaved changes, and saving without losing anything.
 
-Checks if the file is still the one that was read.
+save() checks that the file is still the one that was read.
 """
 
 from __future__ import annotations

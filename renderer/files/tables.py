@@ -95,7 +95,11 @@ def _syntax_error(message: str, text: str) -> LucidaError:
         line, column = str(len(lines)), str(len(lines[-1]) + 1)
     reason = _PLACE.sub("", message)
     reason = reason[:1].lower() + reason[1:]
-    return LucidaError(f"line {line}, column {column}", reason, "correct the TOML there")
+    remedy = "correct the TOML there"
+    if reason.endswith("twice"):
+        name = ".".join(re.findall(r"'(.*?)'", reason))
+        remedy = f"keep one, or write all of a list's tables in double brackets: [[{name}]]"
+    return LucidaError(f"line {line}, column {column}", reason, remedy)
 
 
 def explained(message: str, value: Any = None, kind: Any = None, prefix: str = "") -> LucidaError:
@@ -119,7 +123,8 @@ def explained(message: str, value: Any = None, kind: Any = None, prefix: str = "
         remedy = suggestion(choice[1].strip("'"), choices)
         return LucidaError(field, f"{choice[1]} is unknown", remedy)
     if length := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", text):
-        return LucidaError(field, f"has {length[2]} entries", f"give {length[1]}")
+        count = "1 entry" if length[2] == "1" else f"{length[2]} entries"
+        return LucidaError(field, f"has {count}", f"give {length[1]}")
     if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", text):
         kinds = [name for name in wrong[1].split(" | ") if name != "null"]
         wanted = " or ".join(_NAMES.get(name, name) for name in kinds)

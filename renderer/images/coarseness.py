@@ -7,11 +7,11 @@ finer if it proves quick enough. Once it has been too slow, it does not become f
 
 from __future__ import annotations
 
-FACTORS = (1, 2, 4, 8)  # image pixels a side that one coarse pixel stands for
+FACTORS = (1, 2, 4, 8)  # image pixels along a side of a coarse pixel
 STILL_S = 0.2  # after the last change: images are full, and the next change begins another motion
-TOO_SLOW = 2.0  # times the budget ...
-MOST_MISSES = 4  # ... so many times in a row: coarser
-MOST_HITS = 8  # finer ones would have met the budget so many times in a row: finer
+TOO_SLOW = 2.0  # times the budget: a slower image is a miss
+MOST_MISSES = 4  # in a row, before images become coarser
+MOST_HITS = 8  # in a row that finer images would have met, before images become finer
 
 
 def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:

@@ -14,9 +14,7 @@ from lucida.renderer.camera.checks import number
 from lucida.renderer.system.errors import LucidaError
 
 CHANNELS = ("color", "depth", "normal", "id", "primitive")
-DISPLAY = (
-    "lucida.renderer.notebook.display"  # stands above all that it displays, so imported by name
-)
+DISPLAY = "lucida.renderer.notebook.display"  # it is in a higher layer, so import it by name
 LARGEST_SIDE = 16384
 LARGEST_PIXELS = 1 << 26
 

@@ -1,4 +1,4 @@
-"""Lucida in a notebook: what a cell displays of values, and a live widget (`explore`)."""
+"""Lucida in a notebook: the display of values in cells, and a live widget (`explore`)."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def explore(
 ) -> Explorer:
     """Return a live widget: the ray image of a scene from a camera that the mouse moves.
 
-    scene: a Scene, or what load_scene() takes. camera: as it is, also with a lens; the scene's own
-    view by default. size: (width, height) in pixels. shadows, mirror_depth: as of a Tracer. Raises
+    scene: a Scene, or an argument of load_scene(). camera: with or without a lens; None for the
+    scene's own view. size: (width, height) in pixels. shadows, mirror_depth: as in Tracer. Raises
     LucidaError, also if anywidget is not installed.
     """
     try:

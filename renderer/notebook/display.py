@@ -1,4 +1,4 @@
-"""What a notebook shows of a frame, a camera and a scene: PNG, SVG and HTML, without scripts.
+"""A notebook's display of frames, cameras and scenes: PNG, SVG and HTML, without scripts.
 
 The classes' own `_repr_png_` and `_repr_html_` call these functions, so that importing them costs
 nothing elsewhere.
@@ -96,7 +96,7 @@ def camera_html(camera: Camera) -> str:
 def camera_svg(camera: Camera) -> str:
     """Return a drawing of a camera from outside: the eye, its basis, the viewport and its rays.
 
-    With a lens, the viewport is where the directions of its border end.
+    With a lens, the viewport joins the ends of its border's directions.
     """
     eye, basis = np.asarray(camera.eye), camera.basis
     left, right, bottom, top = camera.viewport

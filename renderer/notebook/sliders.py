@@ -1,4 +1,4 @@
-"""The numbers of a camera that the live widget has sliders for, and what a new number changes."""
+"""The sliders of the live widget: a camera's numbers, and the camera after one has changed."""
 
 from __future__ import annotations
 
@@ -91,7 +91,9 @@ def with_number(camera: Camera, name: str, value: float, target: Vector) -> Came
 
 
 def is_level(camera: Camera) -> bool:
-    """Return True for what Camera.look_at() makes: an orthonormal, right-handed basis, no roll."""
+    """Return True for a camera as from Camera.look_at(): an orthonormal, right-handed basis, no
+    roll.
+    """
     basis = camera.basis
     orthonormal = np.allclose(basis.T @ basis, np.eye(3), atol=1e-6)
     return bool(

@@ -40,8 +40,8 @@ from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.memo import Memo
 from lucida.renderer.trace import TraceJob, Tracer
 
-MOVING_S = 0.03  # what an image in motion may take: 15 a second, with the way to the browser
-PATIENCE_S = 0.25  # then the browser is told to ask again
+MOVING_S = 0.03  # for an image in motion: 15 a second, including the transfer to the browser
+PATIENCE_S = 0.25  # after this time, the browser is asked to try again
 PUSH_S = 0.04  # between images that a running cell sends
 QUALITY = 90  # of a JPEG in motion; the image at rest is a PNG
 
@@ -60,7 +60,7 @@ def _to_json(camera: Camera, _widget: object) -> dict[str, Any]:
 
 
 def _camera_from_json(table: dict[str, Any], widget: Explorer) -> Camera:
-    """Return the camera that a browser sent; the present one, with a message, if it is wrong."""
+    """Return the camera that a browser sent; the present one, with a message, if it is invalid."""
     try:
         return view_from_table({**table, "fit": False}).camera
     except LucidaError as error:
@@ -97,7 +97,7 @@ class Explorer(anywidget.AnyWidget):
     """The widget that explore() returns.
 
     camera: a traitlet; set it, observe it, or read it. pixel: a traitlet, the marked pixel (row,
-    column) from 0, or None. Both raise LucidaError for wrong values.
+    column) from 0, or None. Both raise LucidaError for invalid values.
     """
 
     _esm = Path(__file__).parent / "explore.js"
@@ -126,7 +126,7 @@ class Explorer(anywidget.AnyWidget):
         self._effects = shadows, mirror_depth
         self._coarseness = Coarseness(MOVING_S, unknown=2)
         self._job: TraceJob | None = None
-        self._job_of: tuple[Camera, int] | None = None  # and how much coarser
+        self._job_of: tuple[Camera, int] | None = None  # and its coarseness
         self._latest: Frame | None = None
         self._latest_of: tuple[Camera, int] | None = None
         self._drag, self._parameter = 0.0, 1.0
@@ -167,20 +167,20 @@ class Explorer(anywidget.AnyWidget):
 
     @traitlets.observe("camera", "pixel")
     def _push(self, _change: Any) -> None:
-        """Send an image that nobody asked for, because a cell has changed the camera."""
+        """Send an image without a request, because a cell has changed the camera."""
         now = time.monotonic()
         if self._answering or not self._is_shown or now - self._pushed_s < PUSH_S:
             return  # the browser asks, at the latest when the cell is done
         self._pushed_s = now
         self._send_image(True, {})
 
-    # What the browser asks.
+    # The browser's requests.
 
     def _answer(self, _widget: object, question: dict[str, Any], _buffers: object) -> None:
-        """Do what the user did, and send the image, or that it is not ready yet.
+        """Apply the user's actions. Send the image, or report that it is not ready yet.
 
-        question: "ask", a mark to send back; "moves", see _move(); "moving", a coarse image will
-        do.
+        question: "ask", a number to send back; "moves", see _move(); "moving", True if a coarse
+        image will do.
         """
         self._answering = self._is_shown = True
         answer = {"answer": question["ask"]}
@@ -205,7 +205,7 @@ class Explorer(anywidget.AnyWidget):
         if kind == "orbit":
             camera = navigation.orbited(camera, self._target, move["right"], move["up"])
         elif kind == "pan":
-            if move["drag"] != self._drag:  # what is dragged keeps its depth
+            if move["drag"] != self._drag:  # the dragged point keeps its depth
                 self._drag, self._parameter = move["drag"], self._parameter_at(move["start"])
             start, end = (self._image_point(move[name]) for name in ("start", "end"))
             camera = navigation.panned(camera, start, end, self._parameter)
@@ -233,7 +233,7 @@ class Explorer(anywidget.AnyWidget):
         return float(x), float(y)
 
     def _parameter_at(self, place: list[float]) -> float:
-        """Return the ray parameter of what is seen there; that of the scene's middle if nothing."""
+        """Return the ray parameter of the hit there; of the scene's middle if nothing is hit."""
         if self._latest is not None:
             height, width = self._latest.channel("depth").shape
             row, column = (
@@ -249,7 +249,7 @@ class Explorer(anywidget.AnyWidget):
     # Images.
 
     def _send_image(self, moving: bool, answer: dict[str, Any]) -> None:
-        """Send the image of the present camera, or that it is not ready yet."""
+        """Send the image of the present camera, or report that it is not ready yet."""
         width, height = self.size
         begun_s = time.monotonic()
         factor = self._coarseness.changed(width * height, begun_s) if moving else 1
@@ -302,7 +302,7 @@ class Explorer(anywidget.AnyWidget):
         self._job_of = (camera, factor)
 
     def _numbers(self) -> dict[str, Any]:
-        """Return what the browser shows beside the image."""
+        """Return the numbers that the browser shows next to the image."""
         self._target = target_of(self.camera, self._focus, self._target)
         sliders = sliders_of(self.camera, self._target, self._focus)
         numbers = {"sliders": [asdict(slider) for slider in sliders]}

@@ -67,9 +67,10 @@ class Display:
     ) -> None:
         """Draw an image into a target of 8-bit colours.
 
-        source: of the look's channel: linear light, the ray parameter in its fourth component, the
-        normal, or objects as int32. depth_range: one pixel, see DepthRange; needed for the depth.
-        Leaves the framebuffer binding unchanged, and depth test, culling and blending off.
+        source: a texture of the look's channel: linear light, the ray parameter in its fourth
+        component, the normal, or objects as int32. depth_range: one pixel, see DepthRange; needed
+        for the depth. Leaves the framebuffer binding unchanged, and depth test, culling and
+        blending off.
         """
         with plain_state(self._gl, 3):
             target.use()

@@ -1,11 +1,11 @@
-"""Scenes: what they are made of.
+"""Scenes: their structure, shapes and textures.
 
     model       the structures: objects, materials, lights, Scene, View
     shapes      procedural meshes
     texture     an image that a surface shows
     flat        a scene as flat arrays, the form that both renderers read
 
-Knows nothing of renderers, pixels or windows.
+This package knows nothing of renderers, pixels or windows.
 """
 
 from lucida.renderer.scene import shapes

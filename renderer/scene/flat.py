@@ -49,7 +49,7 @@ _LAYOUT = (
     *("vertices", "colors", "faces", "face_object", "sphere_object"),
     *("object_faces", "object_vertices", "object_sphere"),
 )
-BLOCK = 4096  # normals at a time: what is between two steps stays in the cache
+BLOCK = 4096  # normals at a time, so that intermediate results stay in the cache
 
 
 class FlatScene(NamedTuple):
@@ -72,16 +72,15 @@ class FlatScene(NamedTuple):
         the cell of point p is floor(cell_from_world p), and a cell whose three numbers have an odd
         sum takes the other diffuse
     uv (n, 2): float32, vertices' texel coordinates, column and row from the upper left corner of
-        their object's image; 0 where it has none. (0, 2) where no object of the scene has
+        their object's image; 0 where it has none. shape (0, 2) if no object has texture coordinates
     textures (objects, 2, 4): int32, first texel, width, height and wraps (shared_numbers) of each
         object's image, 0 where it has none | the first texels of two more images of that size, or
         -1: the specular light, which multiplies the material's; and the opacity, less than 0 where
         there is a hole; -1, -1
     texels (k,): int32, packed_texels() of all images, or packed_opacity(), one after another; each
-        row of an image is one texel longer, and each image one row, than it is wide and high: with
-        what follows there
-    single_sided (objects,): uint8, 1 where triangles are seen on one side only (model.py)
-    lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
+    image has one more column and one more row, which repeat the texels that follow there
+    single_sided (objects,): uint8, 1 where triangles are seen on one side only (model.py) lights
+    (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32
     bounds (2, 3): float64, lowest and highest corner of everything in the world, around each
@@ -119,7 +118,7 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
     """Return the scene's arrays. Raises LucidaError if a transformed mesh leaves float32's range.
 
     known: a scene that was flattened before, and its arrays. If the two differ only in places and
-    materials, what they have in common is taken from them.
+    materials, their common arrays are reused.
     """
     old = known[1] if known and _layout_of(known[0]) == _layout_of(scene) else None
     layout = _same_layout(old) if old is not None else _new_layout(scene)

@@ -27,7 +27,7 @@ I32 = NDArray[np.int32]
 
 
 class TextureArrays(NamedTuple):
-    """As FlatScene has them."""
+    """The texture arrays of a FlatScene."""
 
     uv: F32
     textures: I32
@@ -92,8 +92,9 @@ class _Images:
         wrap: tuple[str, str],
         made: Callable[[], I32 | tuple[I32, ...]],
     ) -> list[int]:
-        """Return the first texels of images, one or more. key: all that they depend on, but for
-        wrap. made: returns them, packed. Raises LucidaError where they are too many."""
+        """Return the first texels of images, one or more. key: everything that they depend on
+        except the wrap. made: returns them, packed. Raises LucidaError if there are too many.
+        """
         key = *key, wrap
         if key not in self._places:
             firsts = []
@@ -115,25 +116,26 @@ def _wraps(image: Texture) -> int:
 
 
 def on_sphere(texture: Texture, size: tuple[int, int]) -> tuple[float, float, float, float]:
-    """Return (a, b, c, d), by which (a u + b, c v + d) are the texel coordinates of what a sphere
-    shows at u and v from 0 to 1: near 0 where the image repeats. size: (width, height)."""
+    """Return (a, b, c, d), with which (a u + b, c v + d) are a sphere's texel coordinates at u and
+    v from 0 to 1; they are near 0 if the image repeats. size: (width, height).
+    """
     (a, _, b), (_, c, d) = texture.in_texels(size)
     b -= _shift(texture, size, 0, b + a / 2)
     return a, b, c, d - _shift(texture, size, 1, d + c / 2)
 
 
 def _shift(texture: Texture, size: tuple[int, int], axis: int, middle: float) -> float:
-    """Return how far from 0 texel coordinates are, in whole periods of an image that repeats."""
+    """Return the distance of texel coordinates from 0, in whole periods of the image."""
     if texture.wrap[axis] == "clamp":
         return 0.0
-    # Twice the image, as every other one may be mirrored.
+    # The period is twice the image, because every other one may be mirrored.
     period = 2.0 * size[axis]
     return period * math.floor(middle / period)
 
 
 def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
-    """Return texels (height, width) as they are in FlatScene: with a copy of what follows the last
-    column and the last row, so that four neighbours are two and two in memory.
+    """Return texels (height, width) as they are in FlatScene: with a copy of the texels that follow
+    the last column and the last row, so that four neighbours are two pairs in memory.
     """
     height, width = texels.shape
     around = np.empty((height + 1, width + 1), np.int32)
@@ -144,7 +146,7 @@ def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
 
 
 def _key(scene: Scene, object_vertices: I32) -> list[tuple[object, ...]]:
-    """Return what the arrays depend on, while the scene lives."""
+    """Return a key of everything that the arrays depend on, valid while the scene lives."""
     materials = [entry.material for entry in scene.objects]
     if all(material.image is None for material in materials):
         return [(len(scene.objects),)]

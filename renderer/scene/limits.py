@@ -17,10 +17,10 @@ TEXTURE_SIDE = 8192  # texels
 IMAGE_BYTES = 4 * TEXTURE_SIDE**2 + (1 << 20)  # of the file of a texture, not compressed
 TEXELS = (1 << 26) + (1 << 20)  # of a scene's textures together
 TEXTURES = 256  # of a model or a scene file
-JPEG_SCANS = 200  # of a progressive JPEG, which each takes as long as all of the image
+JPEG_SCANS = 200  # of a progressive JPEG, each of which takes as long as the whole image
 
 OBJECTS = 10_000  # of a scene, after the parts of its models are counted apart
 LIGHTS = 64
-VIEWS = 1000  # of a scene, which its models bring
+VIEWS = 1000  # of a scene, from its models
 TRIANGLES = 20_000_000  # of a scene, instances counted as often as they appear
 SEGMENTS = 1024  # of a round shape, in one direction

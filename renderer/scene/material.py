@@ -80,10 +80,10 @@ class Material:
     """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent.
 
     One pattern: none, a checker, or a texture, whose colours diffuse multiplies. metal: a map of
-    where the surface is a metal; specular is then that of the rest. Of triangles alone: cutout:
-    where the texture's opacity is less than this, there is a hole; single_sided: they are seen only
-    on the side from which their corners go counter-clockwise in the space of their object; they
-    cast shadows all the same.
+    the parts that are metal; specular is then the reflectance of the other parts. cutout and
+    single_sided apply only to triangles. There is a hole where the texture's opacity is less than
+    cutout. Single-sided triangles are seen only from the side on which their corners are
+    counter-clockwise in the object's space, but still cast shadows.
     """
 
     diffuse: Color = (0.7, 0.7, 0.7)
@@ -122,7 +122,9 @@ class Material:
 
 
 def without_metal(material: Material) -> Material:
-    """Return what a material with a metal looks like from far away, with its texture, if any."""
+    """Return a material without a metal that looks alike from far away, with the same texture, if
+    any.
+    """
     if material.metal is None or material.image is None:
         return material
     light = from_srgb(material.image.texels[..., :3].reshape(-1, 3).mean(axis=0) / np.float32(255))

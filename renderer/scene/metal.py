@@ -19,14 +19,14 @@ from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.texture import packed_light
 from lucida.renderer.system.errors import LucidaError
 
-DIELECTRIC = 0.04  # what anything but a metal reflects head on
+DIELECTRIC = 0.04  # the reflectance of anything but a metal, seen head on
 # The diffuse part of a metal's base colour: it replaces the reflection of surroundings, which a
 # scene does not have.
 METAL_DIFFUSE = 0.3
-SMOOTHEST = 0.05  # below that roughness, a highlight is smaller than the exponent can say
+SMOOTHEST = 0.05  # with less roughness, the highlight is smaller than any exponent allows
 NARROW = 14.0  # an exponent plus 2 from which on a highlight has its full strength
 
-ROWS = 256  # of an image at a time: what is between two steps stays small
+ROWS = 256  # of an image at a time, so that intermediate results stay small
 
 EVERYWHERE = np.full((1, 1, 3), 255, np.uint8)
 EVERYWHERE.setflags(write=False)
@@ -39,7 +39,7 @@ class Metal:
     """A map of metalness and roughness, as in glTF. It covers what the texture covers.
 
     texels: uint8 (height, width, 3), of which green is the roughness and blue the metalness;
-    read-only; EVERYWHERE for the same all over. metalness, roughness: factors of these, 0 to 1.
+    read-only; EVERYWHERE for a uniform surface. metalness, roughness: factors of these, 0 to 1.
     file: where it was read from; None for one that was made, or is inside another file.
     """
 
@@ -64,14 +64,14 @@ class Metal:
 
     @property
     def mean(self) -> tuple[float, float]:
-        """Return the mean metalness, and the mean roughness of what reflects: metal counts most."""
+        """Return the mean metalness, and the mean roughness weighted by reflectance."""
         _, roughness, metalness = self.texels.reshape(-1, 3).T / 255
         rough = np.average(roughness, weights=metalness * self.metalness + DIELECTRIC)
         return float(metalness.mean()) * self.metalness, float(rough) * self.roughness
 
 
 def exponent(roughness: Floats | float) -> Floats:
-    """Return the highlight's exponent of a roughness, within what a material may have."""
+    """Return the highlight's exponent of a roughness, within a material's bounds."""
     alpha = np.clip(roughness, SMOOTHEST, 1.0) ** 2
     found: Floats = np.clip(2 / alpha**2 - 2, 1.0, 1000.0)
     return found
@@ -82,9 +82,9 @@ def reflectances(
 ) -> tuple[Floats, Floats]:
     """Return the diffuse and the specular reflectance of base colours (..., 3), 0 to 1.
 
-    metalness, roughness: numbers, or (..., 1). specular: of what is no metal.
+    metalness, roughness: numbers, or (..., 1). specular: of the parts that are not metal.
     """
-    # A wide highlight would be more light than there is: Blinn and Phong's is not normalized.
+    # A wide highlight would reflect too much light: Blinn and Phong's is not normalized.
     strength = np.minimum((exponent(roughness) + 2) / NARROW, 1.0)
     diffuse = base * (1 - (1 - METAL_DIFFUSE) * metalness)
     return diffuse, strength * (specular + (base - specular) * metalness)

@@ -98,7 +98,7 @@ class Mesh:
 
     normals: float32 (n, 3), unit, per vertex, or None for flat faces; a row of 0 makes the faces
     at that vertex flat there. colors: float32 (n, 3), linear, multiply the material's diffuse.
-    uv: float32 (n, 2), where of a texture each vertex is (texture.py), or None for no such places.
+    uv: float32 (n, 2), texture coordinates of the vertices (texture.py), or None.
     transform: float64 (4, 4), world_from_object, affine and invertible. Arrays are read-only.
     """
 
@@ -154,7 +154,7 @@ def _checked_transform(value: ArrayLike) -> NDArray[np.float64]:
 
 
 def is_flat(linear: NDArray[np.float64]) -> bool:
-    """Return True if a matrix (3, 3) flattens what it is applied to."""
+    """Return True if a matrix (3, 3) is singular or nearly so: it flattens a shape."""
     most = np.maximum(np.abs(linear).max(axis=0), 1e-300)  # so that no square leaves float64
     lengths = most * np.linalg.norm(linear / most, axis=0)
     return not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9)

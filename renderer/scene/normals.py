@@ -1,4 +1,4 @@
-"""Smooth vertex normals for meshes without normals: which faces share one at a vertex."""
+"""Smooth vertex normals, except across creases, for meshes without normals."""
 
 from __future__ import annotations
 

@@ -24,12 +24,12 @@ class FileEntry:
 
     key: a number that no other entry has in this process, and that editing keeps.
     table, fields: as in the file, and as a structure of schema.py.
-    material: the one that it names or gives; None for neither.
+    material: its material, named or inline; None without one.
     made: SceneObjects, its shapes before they were placed; none for a sphere.
     objects: the scene's, in their order; one for each part of a model.
     views: NamedViews, the model's own cameras.
     path: of the model's file, absolute.
-    notes: what of its textures is not shown.
+    notes: on properties of its textures that are not shown.
     """
 
     key: int
@@ -72,7 +72,7 @@ class Origin:
     source: an argument of load_scene, a built-in scene's name or an absolute path; "" for neither.
     tables: of its scene file, as read or edited, never modified; None for a model alone.
     folder: the start of its paths.
-    files: all that it was read from, as they were then; none for a built-in scene.
+    files: the files that it was read from, with their versions; none for a built-in scene.
     entries: one for each of the tables' objects.
     light_keys: one for each of their lights, as FileEntry.key.
     saved: the file itself.

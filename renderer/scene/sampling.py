@@ -110,8 +110,9 @@ def _interpolated(
 def between(
     sample: Callable[[FlatScene, Ints, F64], F64], flat: FlatScene, objects: Ints, places: F64
 ) -> tuple[F64, F64]:
-    """Return the least and the most that sampled(), gloss() or opacity() finds at any of some texel
-    coordinates (k, n, 2), and between them where they are not within a texel."""
+    """Return the least and the largest value of sampled(), gloss() or opacity() at texel
+    coordinates (k, n, 2), and between them unless they are within one texel.
+    """
     found = np.stack([sample(flat, objects, place) for place in places])
     least, most = found.min(axis=0), found.max(axis=0)
     low, size = places.min(axis=0), np.ptp(places, axis=0)

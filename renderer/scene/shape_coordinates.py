@@ -15,7 +15,7 @@ from lucida.renderer.scene.model import Mesh
 from lucida.renderer.scene.normals import face_normals
 
 Floats = NDArray[np.float64]
-CAP = 1 - 1e-6  # of a unit normal along y, from which on a face is an end of a cylinder or a cone
+CAP = 1 - 1e-6  # the least y of a unit normal at an end of a cylinder or a cone
 
 
 def on_box(mesh: Mesh) -> Mesh:
@@ -47,7 +47,7 @@ def on_cylinder(mesh: Mesh) -> Mesh:
     is_cap = np.abs(normals[:, 1]) > CAP
     uv = np.where(is_cap[:, None, None], _flat(mesh, corners), side)
     below = is_cap & (normals[:, 1] < 0)
-    uv[below, :, 1] = 1 - uv[below, :, 1]  # upright for who looks from below
+    uv[below, :, 1] = 1 - uv[below, :, 1]  # upright when seen from below
     return _with_corner_uv(mesh, uv)
 
 

@@ -39,14 +39,14 @@ def box(size: float | Iterable[float] = 1.0) -> Mesh:
 
 
 def rectangle(width: float = 1.0, depth: float = 1.0) -> Mesh:
-    """Return A rectangle in the plane y = 0, `width` along x and `depth` along z, facing +y."""
+    """Return a rectangle in the plane y = 0, `width` along x and `depth` along z, facing +y."""
     x, z = _length("width", width) / 2, _length("depth", depth) / 2
     vertices = np.array([[-x, 0, z], [x, 0, z], [x, 0, -z], [-x, 0, -z]])
     return _built(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
 
 
 def disk(radius: float = 0.5, segments: int = 64) -> Mesh:
-    """Return A disk in the plane y = 0, facing +y, as a regular polygon with `segments` corners."""
+    """Return a disk in the plane y = 0, facing +y, as a regular polygon with `segments` corners."""
     rim = _length("radius", radius) * _circle(_count("segments", segments))
     vertices, faces = _cap(rim, 0.0, up=True)
     return _built(vertices, faces)
@@ -68,7 +68,7 @@ def cylinder(
 
 
 def cone(radius: float = 0.5, height: float = 1.0, segments: int = 64, smooth: bool = True) -> Mesh:
-    """Return A closed cone about the y axis, its tip at +height / 2."""
+    """Return a closed cone about the y axis, its tip at +height / 2."""
     segments = _count("segments", segments)
     rim, half = (
         _length("radius", radius) * _circle(segments),
@@ -94,7 +94,7 @@ def torus(
     sides: int = 48,
     smooth: bool = True,
 ) -> Mesh:
-    """Return A torus about the y axis: a tube of `tube_radius` around a circle of `radius`."""
+    """Return a torus about the y axis: a tube of `tube_radius` around a circle of `radius`."""
     radius, tube_radius = _length("radius", radius), _length("tube_radius", tube_radius)
     if not tube_radius < radius:
         raise LucidaError(
@@ -115,7 +115,7 @@ def torus(
     return _assemble(vertices, faces, normals.reshape(-1, 3), [], smooth)
 
 
-# Moving a mesh about.
+# Transforms of a mesh.
 
 
 def placement(
@@ -171,7 +171,7 @@ def _strip(segments: int) -> Ints:
 
 
 def _cap(rim: Floats, y: float, up: bool) -> tuple[Floats, Ints]:
-    """Return A fan about its centre, the last vertex, at height y, facing +y or -y."""
+    """Return a fan about its centre, the last vertex, at height y, facing +y or -y."""
     count = len(rim)
     vertices = np.insert(np.concatenate([rim, np.zeros((1, 2))]), 1, y, axis=1)
     here = np.arange(count)
@@ -206,7 +206,7 @@ def _built(vertices: Floats, faces: Ints, normals: Floats | None = None) -> Mesh
 
 
 def _exact(value: float) -> float:
-    """Return the value, rounded to 0 or 1 if it is that but for rounding: for right angles."""
+    """Return the value, or 0 or 1 if it differs from that only by rounding, as at right angles."""
     nearest = round(value)
     return float(nearest) if abs(value - nearest) < 1e-15 else value
 

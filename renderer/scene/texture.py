@@ -1,10 +1,10 @@
 """A texture: an image on a surface, its coordinates, and the form in which renderers get it.
 
 Coordinates (u, v): u to the right, v up; (0, 0) is the image's lower left corner and (1, 1) its
-upper right one. What lies beyond is the image again (repeat), its mirror image and then itself
-again (mirror), or the nearest texel of its border (clamp). Between the middles of four texels their
-light is interpolated linearly, in both directions: at full resolution, however many of them a pixel
-covers.
+upper right one. Beyond these, the image is repeated (repeat), mirrored and repeated in turn
+(mirror), or continued by the nearest texel of its border (clamp). Light is interpolated linearly
+between the middles of four texels, in both directions, and always at full resolution, however many
+texels a pixel covers.
 """
 
 from __future__ import annotations
@@ -34,17 +34,17 @@ def is_final(value: object) -> bool:
         if value.flags.owndata:
             return True
         value = value.base
-    return isinstance(value, bytes)  # from another process, see system/pipe.py
+    return False
 
 
 @dataclass(frozen=True, eq=False)
 class Texture:
-    """texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height, width, 4) with opacity,
-    which matters to cutouts alone; read-only.
+    """An image on a surface. texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height,
+    width, 4) with opacity, which only cutouts use; read-only.
 
     wrap: along u and v, of WRAPS. scale, offset, rotate_deg: the place that is looked up is
-    scale * (u, v), turned counter-clockwise by rotate_deg, + offset. file: where it was read from;
-    None for one that was made, or is inside another file.
+    scale * (u, v), turned counter-clockwise by rotate_deg, + offset. file: the image file; None for
+    an image that was made, or is inside another file.
     """
 
     texels: NDArray[np.uint8] = field(repr=False)
@@ -84,7 +84,7 @@ class Texture:
 
     @property
     def place(self) -> NDArray[np.float64]:
-        """Return (2, 3): takes (u, v, 1) to the place that is looked up."""
+        """Return the matrix (2, 3) from (u, v, 1) to the place that is looked up."""
         turn = math.radians(self.rotate_deg % 360.0)
         cosine, sine = math.cos(turn), math.sin(turn)
         if self.rotate_deg % 90.0 == 0.0:
@@ -93,24 +93,25 @@ class Texture:
         return np.array([[cosine * a, -sine * d, u], [sine * a, cosine * d, v]])
 
     def in_texels(self, size: tuple[int, int] | None = None) -> NDArray[np.float64]:
-        """Return (2, 3): takes (u, v, 1) to texel coordinates, columns and rows from the image's
-        upper left corner. size: (width, height) of the image where it was resized."""
+        """Return the matrix (2, 3) from (u, v, 1) to texel coordinates, columns and rows from the
+        image's upper left corner. size: (width, height) of the image if it was resized.
+        """
         width, height = size or self.size
         columns, rows = self.place
         return np.array([columns * width, (np.array([0.0, 0.0, 1.0]) - rows) * height])
 
 
 def placed_alike(first: Texture, second: Texture) -> bool:
-    """Return whether two textures show the same place at the same coordinates."""
+    """Return True if two textures show the same place at the same coordinates."""
     return first.wrap == second.wrap and bool(np.allclose(first.place, second.place, atol=1e-6))
 
 
 def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
-    """Return texels as renderers take them, one number each, (height, width): red in the lowest
+    """Return texels in the renderers' form, one number each, (height, width): red in the lowest
     TEXEL_BITS, then green and blue, each the square root of linear light.
 
-    A root is nearly the curve of sRGB, and squaring undoes it in one instruction: 10 bits of it are
-    off by less than a fifth of an 8-bit step of sRGB.
+    A square root is close to the curve of sRGB, and one multiplication undoes it. With 10 bits, the
+    error is less than a fifth of an 8-bit step of sRGB.
     """
     return _packed(
         _roots(from_srgb(np.arange(256, dtype=np.uint8)).astype(np.float64))[texels[..., :3]]
@@ -134,8 +135,9 @@ def _packed(roots: NDArray[np.int32]) -> NDArray[np.int32]:
 
 
 def packed_opacity(texels: NDArray[np.uint8], cutout: float) -> NDArray[np.int32]:
-    """Return by how much the opacity of texels exceeds `cutout`, (height, width): less than 0 in a
-    hole. All numbers are exact in float32."""
+    """Return the opacity of texels minus `cutout`, (height, width): less than 0 in a hole. All
+    numbers are exact in float32.
+    """
     each = np.rint((np.arange(256) / 255 - min(cutout, 2.0)) * OPACITY_STEPS).astype(np.int32)
     opacity = texels[..., 3] if texels.shape[2] == 4 else np.full(texels.shape[:2], 255, np.uint8)
     return np.asarray(each[opacity])
@@ -148,4 +150,4 @@ def _pair(name: str, value: Iterable[float]) -> tuple[float, float]:
     return first, second
 
 
-WHITE = Texture(np.full((1, 1, 3), 255, np.uint8))  # what a metal without a texture covers
+WHITE = Texture(np.full((1, 1, 3), 255, np.uint8))  # the texture of a metal without one

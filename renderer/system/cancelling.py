@@ -3,12 +3,33 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from typing import TypeVar
 
 T = TypeVar("T")
+
+
+class CancelledError(Exception):
+    """Nobody is waiting for the result any more."""
+
+
+class Cancellation:
+    """A switch between two threads: one works under cancelled_by(check), the other cancels."""
+
+    def __init__(self) -> None:
+        self._cancelled = threading.Event()
+
+    def cancel(self) -> None:
+        self._cancelled.set()
+
+    def check(self) -> None:
+        """Raise CancelledError after cancel() was called."""
+        if self._cancelled.is_set():
+            raise CancelledError
+
 
 _check: ContextVar[Callable[[], None]] = ContextVar("check")
 

@@ -68,13 +68,10 @@ def import_path() -> list[str]:
     ]
 
 
-def start_child(
-    python: str, module: str, *arguments: str, output: bool = False
-) -> subprocess.Popen[bytes]:
+def start_child(python: str, module: str, *arguments: str) -> subprocess.Popen[bytes]:
     """Call main(*arguments) of a module in a child process. The module must call end_with_parent().
 
-    python: interpreter(). output: pipe its standard output to the result's stdout; otherwise it is
-    discarded. Raises OSError.
+    python: interpreter(). Its output is discarded. Raises OSError.
     """
     flags = 0
     if sys.platform == "win32":
@@ -84,7 +81,7 @@ def start_child(
     return subprocess.Popen(
         child_command(python, __name__, module, *arguments),
         stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE if output else subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
         creationflags=flags,
@@ -92,15 +89,14 @@ def start_child(
 
 
 def end_child(process: subprocess.Popen[bytes]) -> int:
-    """Kill the process if it is still running, close its pipes, and return its exit status. May be
+    """Kill the process if it is still running, close its input, and return its exit status. May be
     called again.
     """
     process.kill()
     status = process.wait()
-    for pipe in (process.stdin, process.stdout):
-        if pipe is not None:
-            with contextlib.suppress(OSError):  # unread input is lost
-                pipe.close()
+    if process.stdin is not None:
+        with contextlib.suppress(OSError):  # unread input is lost
+            process.stdin.close()
     return status
 
 

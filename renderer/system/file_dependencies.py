@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextvars import ContextVar
 from pathlib import Path
 
@@ -40,11 +40,6 @@ def noted_so_far() -> frozenset[Path]:
 def note(path: Path) -> None:
     """Record a file dependency. Call this before reading the file, or looking whether it exists."""
     if _notes.get():
-        note_all({path.absolute(): stamp(path)})
-
-
-def note_all(noted: Mapping[Path, Stamp | None]) -> None:
-    """Record dependencies that a process found which reads for this one."""
-    for notes in _notes.get():
-        for path, found in noted.items():
-            notes.setdefault(path, found)
+        found = stamp(path)
+        for notes in _notes.get():
+            notes.setdefault(path.absolute(), found)

@@ -1,7 +1,7 @@
 """One image in progress: requested, traced, finished or cancelled.
 
-Manages a job's state, and synchronises access to it. A control array is the only link to a running
-kernel: it reports progress and stops the kernel.
+Access to a job's state is synchronised. A control array is the only link to a running kernel: it
+reports progress and stops the kernel.
 """
 
 from __future__ import annotations

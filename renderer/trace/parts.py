@@ -1,6 +1,6 @@
 """The tracer's parts: groups of kernels that are compiled separately, each under a name.
 
-The name marks the part in the cache folder, and tells another process what to compile:
+The name marks the part in the cache folder, and another process compiles a part by its name:
 
     trees      builds the trees of a scene
     walk-...   finds the closest hits of an image's viewing rays, in a variant (tiles/variants.py)

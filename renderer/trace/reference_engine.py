@@ -16,7 +16,7 @@ from lucida.renderer.trace.threads.thread_pool import Control, Team, cancelled_c
 
 
 class ReferenceEngine:
-    """Traces images of one scene with a team of threads. Raises LucidaError (see flatten)."""
+    """An engine that traces images of one scene ray by ray. Raises LucidaError (see flatten)."""
 
     def __init__(self, scene: Scene, team: Team) -> None:
         self._team = team

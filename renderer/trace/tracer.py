@@ -34,7 +34,7 @@ POLL_S = 0.03  # between two progress reports
 
 
 class Tracer:
-    """Draws images of one scene by tracing each pixel's viewing ray.
+    """A ray tracer that draws images of one scene by tracing each pixel's viewing ray.
 
     threads: the number that trace an image together; None for the number of processors. method:
     "packets" traces squares of pixels together, in float32 and with SIMD. "reference" traces one

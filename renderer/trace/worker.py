@@ -1,7 +1,7 @@
 """A Tracer's own thread: it prepares the scene, then traces one task after another.
 
-Manages that thread and its team, and ends them when the Tracer is closed or dropped, or the
-interpreter exits. Everything slow happens here: importing numba, compiling, building the BVH.
+The thread and its team end when the Tracer is closed or dropped, or the interpreter exits.
+Everything slow happens here: importing numba, compiling, building the BVH.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _imported_pid = os.getpid()
 
 
 class Worker:
-    """Runs tasks in the order of their submission, on a thread that starts with the first."""
+    """A thread that runs tasks in the order of their submission, and starts with the first."""
 
     def __init__(self, threads: int, method: str, shadows: bool, mirror_depth: int) -> None:
         self._team, self._method = Team(threads), method
@@ -165,9 +165,7 @@ class Worker:
             self.is_compiling = False
 
     def _is_unwanted(self, scene: Scene, task: Work) -> bool:
-        """Return True if preparing a scene for a task is useless: another scene was requested
-        since.
-        """
+        """Return True if another scene was requested since: this one need not be prepared."""
         return self._closed or (task.finished.is_set() and self._newest is not scene)
 
 

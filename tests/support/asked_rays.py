@@ -8,9 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from lucida.app.checking.mistakes.ray_trial import RayCase
 from lucida.app.checking.mistakes.rays import WORDS, RayTask
+from lucida.app.checking.tasks import CheckCase
+from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 
 KINDS = ("orthonormal", "off-axis", "skewed", "left-handed")
@@ -56,32 +58,44 @@ def made_camera(random: np.random.Generator, kind: str, projection: str = "persp
 
 def made_cases(
     seed: int, count: int, projection: str = "perspective", kinds: Sequence[str] = KINDS
-) -> list[RayCase]:
+) -> list[CheckCase]:
     """All pixels of `count` images, wider than high or higher than wide."""
     random = np.random.default_rng(seed)
     cases = []
     for number in range(count):
         camera = made_camera(random, kinds[number % len(kinds)], projection)
         width, height = random.choice(np.arange(3, 8), 2, replace=False).tolist()
-        cases += [
-            RayCase(camera, (width, height), (i, j)) for i in range(height) for j in range(width)
-        ]
+        cases += whole_image(camera, (width, height))
     return cases
 
 
-def asked_cases(task: RayTask, count: int, seed: int = 2) -> list[RayCase]:
+def whole_image(camera: Camera, size: Size) -> list[CheckCase]:
+    """All pixels of an image."""
+    return [made_case(camera, size, pixel) for pixel in np.ndindex(size[::-1])]
+
+
+def made_case(camera: Camera, size: Size, pixel: Pixel) -> CheckCase:
+    """The case of a pixel. Its tolerance is what float32 needs."""
+    right = np.array(camera.ray(*pixel, size))
+    back, up = np.asarray(camera.w), np.asarray(camera.v)
+    target, tilted = np.asarray(camera.eye) - 2.5 * back, 1.5 * up + 0.4 * back
+    vectors = (tuple(target.tolist()), tuple(tilted.tolist()))
+    return CheckCase((), right, (1e-5, 1e-5), {}, camera, size, pixel, *vectors)
+
+
+def asked_cases(task: RayTask, count: int, seed: int = 2) -> list[CheckCase]:
     """Cameras that can be told in the task's words."""
     has_angle = "fov_y" in task.words
     kinds = ("orthonormal",) if has_angle or "target" in task.words else KINDS
     made = []
     for case in made_cases(seed, count, task.projection, kinds):
         camera = case.camera
+        assert camera is not None
         if has_angle:
             high = camera.viewport[3]
+            assert case.size is not None
             wide = high * case.size[0] / case.size[1]
             camera = replace(camera, viewport=(-wide, wide, -high, high))
-        back, up = np.asarray(camera.w), np.asarray(camera.v)
-        target = tuple((np.asarray(camera.eye) - 2.5 * back).tolist())
-        tilted = tuple((1.5 * up + 0.4 * back).tolist())
-        made.append(replace(case, camera=camera, target=target, up=tilted))
+        assert case.size is not None and case.pixel is not None
+        made.append(made_case(camera, case.size, case.pixel))
     return made

@@ -10,5 +10,5 @@ class Clock:
 
     def __init__(self, d: Driver) -> None:
         self.s = 10.0
-        d.window.transition.now_s = lambda: self.s
-        d.window.transition.instant = False
+        d.window.motions.transition.now_s = lambda: self.s
+        d.window.motions.transition.instant = False

@@ -100,9 +100,9 @@ class Driver:
         self.window.files.message = ""
         self.window.shell.toasts.clear()
         self.window.shell.stage.failed.errors.clear()
-        self.window.transition.stop()
+        self.window.motions.transition.stop()
         self.window.end_movement()
-        self.window.transition.instant = True  # no passage unless a test wants one
+        self.window.motions.transition.instant = True  # no passage unless a test wants one
         self.stay = False
         self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))

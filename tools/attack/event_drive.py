@@ -303,7 +303,7 @@ class Attack:
         views = [name for name in stage.rects if not stage.views[name].settled]
         return (
             f"no rest: views {views}, failures {stage.failed.errors}, shown {list(stage.rects)}, "
-            f"files {window.files.busy}, travelling {window.transition.under_way}, images "
+            f"files {window.files.busy}, travelling {window.motions.transition.under_way}, images "
             f"{window.renderers.settled(window.state)}, failure {window.renderers.failure}"
         )
 

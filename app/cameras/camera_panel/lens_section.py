@@ -1,20 +1,16 @@
-"""The camera panel's section Lens: the model, its formula, its coefficients, presets."""
+"""The camera panel's section Lens: the model, its formula, its coefficients."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from functools import partial
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.actions import go_to_lens, take_lens_off
 from lucida.app.cameras.camera_panel.projection import PanelContext
-from lucida.app.cameras.camera_panel.sections import Wish
 from lucida.app.cameras.editing import Draft, edit_field
 from lucida.app.cameras.lens_choices import (
     KINDS,
-    LENS_PRESETS,
     NO_LENS,
     PANORAMA,
     RADIUS,
@@ -30,18 +26,15 @@ from lucida.renderer.camera.lenses import MODELS, Lens, coefficient_range, with_
 from lucida.renderer.system.errors import LucidaError
 
 MODEL = "How the lens maps directions to the image plane."
-OFF = "Take the lens off: the distance and the viewport that the scene came with."
 
 
-def lens_section(
-    state: AppState, draft: Draft, around: PanelContext
-) -> tuple[AppState, Draft, Wish | None]:
+def lens_section(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Draw the section into the current window."""
     state = _model(state, around)
     draft = draft.following(state.camera)
     if state.camera.lens is not None:
         state, draft = _numbers(state, draft, around, state.camera.lens)
-    return state, draft, _presets()
+    return state, draft
 
 
 def _numbers(
@@ -56,24 +49,6 @@ def _numbers(
     # Only files hold the prism's terms (s1, sx1, ...).
     names = [name for name in MODELS[lens.model] if not name.startswith("s")]
     return _coefficients(state, draft, around, names)
-
-
-def _presets() -> Wish | None:
-    """Draw the presets' buttons, three in a row."""
-    wish = None
-    columns = 2 if rows.is_narrow() else 3
-    spacing = imgui.get_style().item_spacing.x
-    width = (imgui.get_content_region_avail().x - (columns - 1) * spacing) / columns
-    for number, preset in enumerate(LENS_PRESETS):
-        if number % columns:
-            imgui.same_line()
-        if imgui.button(preset.name, (width, 0)):
-            wish = Wish(partial(go_to_lens, preset=preset))
-        rows.tip(preset.note)
-    if imgui.button("No lens", (-1, 0)):
-        wish = Wish(take_lens_off)
-    rows.tip(OFF)
-    return wish
 
 
 def _model(state: AppState, around: PanelContext) -> AppState:

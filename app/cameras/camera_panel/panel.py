@@ -19,10 +19,8 @@ from lucida.app.cameras.camera_panel.projection import PanelContext, component, 
 from lucida.app.cameras.camera_panel.sections import (
     Sections,
     Wish,
-    copy_section,
     header,
     look_section,
-    presets_section,
     words_section,
 )
 from lucida.app.cameras.editing import BASIS, Draft
@@ -50,7 +48,7 @@ Off: any three independent vectors: skewed, scaled or left-handed."""
 EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
 
 # From these heights of the window on, in parts of the type's size, sections begin open.
-WORDS_OPEN_EM, PRESETS_OPEN_EM, OTHERS_OPEN_EM = 50.0, 60.0, 72.0
+WORDS_OPEN_EM, LOOK_OPEN_EM = 50.0, 60.0
 
 
 @dataclass(frozen=True)
@@ -190,19 +188,12 @@ def _sections(
         return now
 
     if is_open("Lens", 0.0 if state.camera.lens is not None else math.inf):
-        state, draft, wish = lens_section(state, draft, around)
+        state, draft = lens_section(state, draft, around)
     if is_open("K, R and t", WORDS_OPEN_EM):
-        state, wanted = words_section(state, around.size, around.fonts)
-        wish = wish or wanted
-    if is_open("Presets", PRESETS_OPEN_EM):
-        state, wanted = presets_section(state)
-        wish = wish or wanted
-    if is_open("Look at", OTHERS_OPEN_EM):
+        state, wish = words_section(state, around.size, around.fonts)
+    if is_open("Look at", LOOK_OPEN_EM):
         look, wanted = look_section(sections.look, state, around)
         sections, wish = replace(sections, look=look), wish or wanted
-    if is_open("Copy and paste", OTHERS_OPEN_EM):
-        wanted = copy_section()
-        wish = wish or wanted
     chosen = tuple(opened) if any_toggled else sections.chosen
     sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
     return state, draft, sections, wish

@@ -1,4 +1,4 @@
-"""The camera panel's sections below its numbers: K, R and t, presets, look at, copy and paste.
+"""The camera panel's sections below its numbers: K, R and t, look at.
 
 Draws the widgets and returns the effects of clicks, which camera_panel/view.py runs.
 """
@@ -12,14 +12,13 @@ from typing import Any, NamedTuple
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.actions import copy, form_name, go_to_preset, go_to_view, paste
+from lucida.app.cameras.camera_panel.actions import go_to_view
 from lucida.app.cameras.camera_panel.projection import PanelContext
 from lucida.app.cameras.other_words import TOLD, other_words
-from lucida.app.cameras.presets import PRESETS, look_at
-from lucida.app.cameras.text import FORMATS_OF, FORMS, Form
+from lucida.app.cameras.presets import look_at
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import pending, rows, theme
-from lucida.app.ui.checks import checkbox, radio_button
+from lucida.app.ui.checks import radio_button
 from lucida.app.ui.explaining.symbols import vector
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.host import Host
@@ -28,18 +27,6 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.system.errors import LucidaError
 
-FORM_NOTES: dict[Form, str] = {
-    "view file": "VIEW.toml, for --view, for scene files, and to open.",
-    "command line": "lucida render ..., for a terminal.",
-    "Python": "Runs as it is.",
-    "OpenGL matrices": "camera_from_world and clip_from_camera as drawn, column by column.",
-    "OpenCV": "A calibration file (.yml) with K, R and t, for images of the size that is shown.",
-    "NeRF": "A transforms.json with this one frame.",
-    "glTF": "A .gltf file with the camera alone, for Blender, three.js and engines.",
-}
-PASTE_NOTE = """\
-Read a camera from the clipboard (Ctrl+V), in any of these forms. A message names the form and the
-conventions."""
 ORIGINS: tuple[tuple[str, PixelOrigin], ...] = (("centres", "center"), ("corners", "corner"))
 ORIGIN_NOTES: dict[PixelOrigin, str] = {
     "center": "The first pixel's centre is (0, 0), as in OpenCV.",
@@ -49,12 +36,6 @@ LOOK_FIELDS = (
     ("eye", "Where the camera is."),
     ("target", "What it looks at: in the middle of an on-axis image."),
     ("up", "Which direction is up in the image; not along the view direction."),
-)
-ORDER = (
-    ("Front", "Left", "Top"),
-    ("Back", "Right", "Bottom"),
-    ("Isometric", "Dimetric"),
-    ("Cavalier", "Cabinet"),
 )
 
 
@@ -103,30 +84,6 @@ def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
     if toggled:
         imgui.internal.mark_ini_settings_dirty()  # it belongs to what a session keeps
     return opened, toggled
-
-
-def presets_section(state: AppState) -> tuple[AppState, Wish | None]:
-    """Draw the presets' buttons, and the switch for perspective where both are possible."""
-    wish = None
-    spacing = imgui.get_style().item_spacing.x
-    width = (imgui.get_content_region_avail().x - 2 * spacing) / 3
-    named = {preset.name: preset for preset in PRESETS}
-    for row in ORDER:
-        for column, name in enumerate(row):
-            if column:
-                imgui.same_line()
-            if imgui.button(name, (width, 0)):
-                wish = Wish(partial(go_to_preset, preset=named[name]))
-            rows.tip(named[name].note)
-    perspective = state.options.presets_in_perspective
-    changed, perspective = checkbox("in perspective", perspective)
-    rows.tip(
-        "Off: parallel rays, as on an engineer's drawing.\n"
-        "On: the same directions from an eye (cavalier and cabinet are parallel always)."
-    )
-    if changed:
-        state = state.with_options(replace(state.options, presets_in_perspective=perspective))
-    return state, wish
 
 
 def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:
@@ -178,26 +135,6 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
     if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
         look = LookAt()
     return look, wish
-
-
-def copy_section() -> Wish | None:
-    """Draw all forms, and paste."""
-    wish = None
-    own = [form for form in FORMS if form not in FORMATS_OF]
-    room, spacing = imgui.get_content_region_avail().x, imgui.get_style().item_spacing.x
-    for forms, columns in ((own, 2), (list(FORMATS_OF), 3)):
-        width = (room - (columns - 1) * spacing) / columns
-        for number, form in enumerate(forms):
-            if number % columns:
-                imgui.same_line()
-            if imgui.button(form_name(form), (width, 0)):
-                wish = Wish(partial(copy, form=form), leaves=False)
-            rows.tip(f"Copy the camera. {FORM_NOTES[form]}")
-    imgui.same_line()
-    if imgui.button("Paste", (-1, 0)):
-        wish = Wish(paste, leaves=False)
-    rows.tip(PASTE_NOTE)
-    return wish
 
 
 def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppState, Wish | None]:

@@ -63,9 +63,7 @@ def through(keys: Sequence[Key], focus: Focus, size: Size, count: int) -> list[C
     if len(keys) == 1:
         return [keys[0].view.for_size(size)] * count
     ends = np.cumsum([key.seconds for key in keys[:-1]])
-    passages = [
-        Passage(one.view, two.view, focus.center, focus.bounds, size) for one, two in pairwise(keys)
-    ]
+    passages = [Passage(one.view, two.view, focus.center, size) for one, two in pairwise(keys)]
     cameras = []
     for moment in np.linspace(0, ends[-1], count).tolist():
         number = min(int(np.searchsorted(ends, moment, "right")), len(passages) - 1)

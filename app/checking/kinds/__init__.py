@@ -12,29 +12,17 @@ lenses       a point through a lens, and back
 
 from __future__ import annotations
 
-from lucida.app.checking.kinds.basis import BasisKind
-from lucida.app.checking.kinds.hits import ClosestHitKind, SphereHitKind, TriangleHitKind
-from lucida.app.checking.kinds.images import BitmapKind, GrayKind, OffsetKind
+from lucida.app.checking.kinds.basis import BASIS
+from lucida.app.checking.kinds.hits import CLOSEST, SPHERE, TRIANGLE
+from lucida.app.checking.kinds.images import BITMAP, GRAY, OFFSET
 from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.kinds.lenses import FisheyeKind, ProjectKind, UndistortKind
-from lucida.app.checking.kinds.render import RenderKind
-from lucida.app.checking.kinds.viewing_ray import ViewingRayKind
+from lucida.app.checking.kinds.lenses import FISHEYE, PROJECT, UNDISTORT
+from lucida.app.checking.kinds.render import RENDER
+from lucida.app.checking.kinds.viewing_ray import VIEWING_RAY
 
 # In the order of the lecture, as the built-in tasks.
-KINDS: dict[str, CheckKind] = {
-    kind.name: kind
-    for kind in (
-        GrayKind(),
-        BitmapKind(),
-        OffsetKind(),
-        ViewingRayKind(),
-        BasisKind(),
-        SphereHitKind(),
-        TriangleHitKind(),
-        ClosestHitKind(),
-        RenderKind(),
-        ProjectKind(),
-        FisheyeKind(),
-        UndistortKind(),
-    )
-}
+IN_ORDER: tuple[CheckKind, ...] = (
+    GRAY, BITMAP, OFFSET, VIEWING_RAY, BASIS, SPHERE, TRIANGLE, CLOSEST, RENDER,
+    PROJECT, FISHEYE, UNDISTORT,
+)  # fmt: skip
+KINDS = {kind.name: kind for kind in IN_ORDER}

@@ -1,7 +1,6 @@
 """Intersection of a ray with a sphere, a triangle, and the nearest of several objects.
 
-Answers in the kind's own form: t, float64 (N,), inf for a miss; for the nearest object (N, 2): its
-number from 0 and t, -1 and inf for a miss.
+Answers: t, inf for a miss; for the nearest object, its number from 0 and t, -1 and inf for a miss.
 
 Tolerances. Sphere: with M = |o| + |c| + r, no intermediate result is larger than M^2 |d|^2. The
 discriminant cancels to (s |d|)^2, where s is half of the chord, and its root has an error of
@@ -15,14 +14,14 @@ rounding of float32.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lucida.app.checking.cases import generator, point, rounded
-from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, named, tolerances
+from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, Words, named
 from lucida.app.checking.kinds.shapes import hits, tolerance
 from lucida.app.checking.kinds.values import in_order, is_miss, number, text_of
 from lucida.app.checking.tasks import CheckCase, CheckTask
@@ -30,206 +29,160 @@ from lucida.app.checking.tasks import CheckCase, CheckTask
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
 
-Floats = NDArray[np.float64]
-
 MARGIN = 0.05
+MISS = (-1.0, np.inf)
 Place = Literal["ahead", "beside", "behind", "around"]
-_PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
-RAY_WORDS = {
+PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
+Values = dict[str, Any]
+Simple = tuple[tuple[list[float], list[float], list[Values]], ...]
+RAY_WORDS: Words = {
     "origin": "where the ray starts",
     "direction": "where it goes; of any length",
     "ray": "an object with origin and direction",
 }
-Values = dict[str, Any]
 
 
+@dataclass(frozen=True, kw_only=True)
 class HitKind(CheckKind):
-    """Base class for rays and objects.
+    """A ray that meets one object, or several.
 
-    kind, fields: an object's type, and its fields.
+    simple: the first cases: origin, direction, objects.
+    shape: the type of the one object; "" for several of both types.
     places: of the generated objects, in turn; see _sphere and _triangle.
     """
 
-    answer = "a number t, or None"
-    kind: ClassVar[str]
-    fields: ClassVar[tuple[str, ...]]
-    places: ClassVar[tuple[Place, ...]]
+    answer: str = "a number t, or None"
+    simple: Simple
+    shape: str = ""
+    places: tuple[Place, ...] = PLACES
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
-        made = [*self._simple(), *(self._made_up(random, n) for n in range(task.count))]
-        return [self._case(task, values) for values in made]
+        made = [({"origin": o, "direction": d}, objects) for o, d, objects in self.simple]
+        make = self._one_object if self.shape else _several_objects
+        made += [make(random, number) for number in range(task.count)]
+        return [self._case(task, *one) for one in made]
 
-    def _case(self, task: CheckTask, values: Values) -> CheckCase:
-        ray = {name: values[name] for name in ("origin", "direction")}
-        fields = {name: values[name] for name in self.fields}
-        shape = {"type": self.kind, **fields}
-        t = float(hits(**ray, shape=shape)[0])
-        near = tolerance(**ray, shape=shape, t=t, rounding=FLOAT32)
-        values = {**values, "ray": ray, self.kind: fields}
+    def _one_object(self, random: Random, number: int) -> tuple[Values, list[Values]]:
+        ray = _ray(random)
+        return ray, [_object(random, ray, self.shape, self.places[number % len(self.places)])]
+
+    def _case(self, task: CheckTask, ray: Values, objects: list[Values]) -> CheckCase:
+        met = [*_all_hits(ray, objects), np.inf]
+        first = int(np.argmin(met))
+        t, near, right = met[first], 0.0, MISS
+        if t < np.inf:
+            near = tolerance(**ray, shape=objects[first], t=t, rounding=FLOAT32)
+            right = (float(first), t)
+        values = {**ray, "ray": ray, "objects": objects}
+        if not self.shape:
+            return CheckCase(named(task, values), right, near, values)
+        values |= objects[0] | {self.shape: objects[0]}
         return CheckCase(named(task, values), t, near, values)
 
-    def _simple(self) -> list[Values]:
-        raise NotImplementedError
-
-    def _made_up(self, random: Random, number: int) -> Values:
-        ray = _ray(random)
-        return ray | _object(random, ray, self.kind, self.places[number % len(self.places)])
-
-    def read(self, task: CheckTask, value: Any) -> Any:
-        return parameter(value)
-
-    def shape(self, task: CheckTask) -> tuple[int, ...]:
-        return ()
-
-    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
-        return _differ(self.right(cases), given, tolerances(cases))
+    def read(self, task: CheckTask, case: CheckCase, value: Any) -> Any:
+        if self.shape:
+            return parameter(value)
+        returns = task.conventions.returns
+        value = in_order(value, returns)
+        if is_miss(value):
+            return MISS
+        if not isinstance(value, list) or len(value) != 2:
+            return None
+        which, t = (value[returns.index(name)] for name in self.returns)
+        if is_miss(t):
+            return MISS
+        found = number(which), number(t)
+        return None if None in found else np.array(found) - (task.conventions.base, 0)
 
     def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
-        return f"{float(answer):.6g}" if np.isfinite(answer) else "None (no hit)"
+        if np.isinf(np.ravel(answer)[-1]):
+            return "None (no hit)"
+        if self.shape:
+            return text_of(float(answer))
+        return super().answer_text(task, case, answer)
+
+    def parts(self, task: CheckTask, case: CheckCase, answer: Any) -> dict[str, Any]:
+        return {"object": answer[0] + task.conventions.base, "t": float(answer[1])}
 
 
-class SphereHitKind(HitKind):
-    name = "hit-sphere"
-    function = "hit_sphere"
-    words: ClassVar[Mapping[str, str]] = {
+def _at(z: float, x: float = 0.0) -> Values:
+    return {"type": "sphere", "center": [x, 0.0, z], "radius": 1.0}
+
+
+def _flat(z: float) -> Values:
+    corners = {"a": [-1.0, -1.0, z], "b": [2.0, -1.0, z], "c": [-1.0, 2.0, z]}
+    return {"type": "triangle", **corners}
+
+
+_AHEAD = [0.0, 0.0, -1.0]
+SPHERE = HitKind(
+    name="hit-sphere",
+    function="hit_sphere",
+    words={
         **RAY_WORDS,
         "center": "the sphere's centre",
         "radius": "its radius",
         "sphere": "an object with center and radius",
-    }
-    arguments = ("origin", "direction", "center", "radius")
-    kind = "sphere"
-    fields = ("center", "radius")
-    places = ("ahead", "beside", "ahead", "behind", "around")
-
-    def _simple(self) -> list[Values]:
-        straight = {"origin": [0.0, 0.0, 5.0], "center": [0.0, 0.0, 0.0], "radius": 1.0}
-        return [
-            {**straight, "direction": [0.0, 0.0, -1.0]},
-            {**straight, "direction": [0.0, 0.0, -2.0]},
-            {**straight, "direction": [0.0, 0.0, 1.0]},
-            {**straight, "direction": [0.0, 1.0, 0.0]},
-            {**straight, "origin": [0.0, 0.0, 0.0], "direction": [0.0, 0.5, 0.0]},
-        ]
-
-
-class TriangleHitKind(HitKind):
-    name = "hit-triangle"
-    function = "hit_triangle"
-    words: ClassVar[Mapping[str, str]] = {
+    },
+    arguments=("origin", "direction", "center", "radius"),
+    shape="sphere",
+    places=("ahead", "beside", "ahead", "behind", "around"),
+    simple=(
+        ([0.0, 0.0, 5.0], _AHEAD, [_at(0.0)]),
+        ([0.0, 0.0, 5.0], [0.0, 0.0, -2.0], [_at(0.0)]),
+        ([0.0, 0.0, 5.0], [0.0, 0.0, 1.0], [_at(0.0)]),
+        ([0.0, 0.0, 5.0], [0.0, 1.0, 0.0], [_at(0.0)]),
+        ([0.0, 0.0, 0.0], [0.0, 0.5, 0.0], [_at(0.0)]),
+    ),
+)
+TRIANGLE = HitKind(
+    name="hit-triangle",
+    function="hit_triangle",
+    words={
         **RAY_WORDS,
         "a": "a corner",
         "b": "the next one",
         "c": "the last one",
         "triangle": "an object with a, b and c",
-    }
-    arguments = ("origin", "direction", "a", "b", "c")
-    kind = "triangle"
-    fields = ("a", "b", "c")
-    places = ("ahead", "beside", "ahead", "beside", "beside", "behind")
-
-    def _simple(self) -> list[Values]:
-        flat = {"a": [-1.0, -1.0, 0.0], "b": [2.0, -1.0, 0.0], "c": [-1.0, 2.0, 0.0]}
-        at = [0.0, 0.0, 4.0]
-        return [
-            {"origin": at, "direction": [0.0, 0.0, -1.0], **flat},
-            {"origin": at, "direction": [0.0, 0.0, -2.0], **flat},
-            {"origin": [0.0, 0.0, -4.0], "direction": [0.0, 0.0, 1.0], **flat},
-            {"origin": at, "direction": [0.0, 0.0, 1.0], **flat},
-            {"origin": [1.5, 1.5, 4.0], "direction": [0.0, 0.0, -1.0], **flat},
-            {"origin": at, "direction": [0.0, 1.0, 0.0], **flat},
-        ]
-
-
-class ClosestHitKind(HitKind):
-    name = "closest-hit"
-    function = "closest_hit"
-    words: ClassVar[Mapping[str, str]] = {
+    },
+    arguments=("origin", "direction", "a", "b", "c"),
+    shape="triangle",
+    places=("ahead", "beside", "ahead", "beside", "beside", "behind"),
+    simple=(
+        ([0.0, 0.0, 4.0], _AHEAD, [_flat(0.0)]),
+        ([0.0, 0.0, 4.0], [0.0, 0.0, -2.0], [_flat(0.0)]),
+        ([0.0, 0.0, -4.0], [0.0, 0.0, 1.0], [_flat(0.0)]),
+        ([0.0, 0.0, 4.0], [0.0, 0.0, 1.0], [_flat(0.0)]),
+        ([1.5, 1.5, 4.0], _AHEAD, [_flat(0.0)]),
+        ([0.0, 0.0, 4.0], [0.0, 1.0, 0.0], [_flat(0.0)]),
+    ),
+)
+CLOSEST = HitKind(
+    name="closest-hit",
+    function="closest_hit",
+    words={
         **RAY_WORDS,
         "objects": "a list of objects: type ('sphere' or 'triangle') with center and radius, or a, "
         "b and c",
-    }
-    arguments = ("origin", "direction", "objects")
-    return_words: ClassVar[Mapping[str, str]] = {"object": "its number", "t": "the ray parameter"}
-    returns = ("object", "t")
-    answer = "the object's number and t, or None"
-
-    def _case(self, task: CheckTask, values: Values) -> CheckCase:
-        ray = {name: values[name] for name in ("origin", "direction")}
-        found = [*_all_hits(**ray, objects=values["objects"]), np.inf]
-        number, t = int(np.argmin(found)), float(min(found))
-        near = 0.0
-        if t < np.inf:
-            near = tolerance(**ray, shape=values["objects"][number], t=t, rounding=FLOAT32)
-        else:
-            number = -1
-        values = {**values, "ray": ray}
-        return CheckCase(named(task, values), (float(number), t), near, values)
-
-    def _simple(self) -> list[Values]:
-        ray = {"origin": [0.0, 0.0, 5.0], "direction": [0.0, 0.0, -1.0]}
-        ahead, farther, behind = (
-            {"type": "sphere", "center": [0.0, 0.0, z], "radius": 1.0} for z in (0.0, -4.0, 9.0)
+    },
+    arguments=("origin", "direction", "objects"),
+    answer="the object's number and t, or None",
+    returns=("object", "t"),
+    return_words={"object": "its number", "t": "the ray parameter"},
+    simple=tuple(
+        ([0.0, 0.0, 5.0], _AHEAD, objects)
+        for objects in (
+            [_at(0.0)],
+            [_at(0.0), _at(-4.0)],
+            [_at(-4.0), _at(0.0)],
+            [_at(0.0), _flat(2.0), _at(-4.0)],
+            [_at(9.0), _at(-4.0), _at(0.0)],
+            [_at(0.0, 5.0), _at(9.0)],
+            [],
         )
-        beside = {"type": "sphere", "center": [5.0, 0.0, 0.0], "radius": 1.0}
-        flat = {
-            "type": "triangle",
-            "a": [-1.0, -1.0, 2.0],
-            "b": [2.0, -1.0, 2.0],
-            "c": [-1.0, 2.0, 2.0],
-        }
-        many: tuple[list[dict[str, Any]], ...] = (
-            [ahead], [ahead, farther], [farther, ahead], [ahead, flat, farther],
-            [behind, farther, ahead], [beside, behind], [],
-        )  # fmt: skip
-        return [{**ray, "objects": objects} for objects in many]
-
-    def _made_up(self, random: Random, number: int) -> Values:
-        """Return several objects. In turn, the ray hits at least none, one or more of them."""
-        while True:
-            ray, objects = _ray(random), []
-            for _ in range(int(random.integers(2, 7))):
-                kind = "sphere" if random.random() < 0.6 else "triangle"
-                objects.append(_object(random, ray, kind, random.choice(_PLACES)))
-            met = np.sort(_all_hits(ray["origin"], ray["direction"], objects))
-            met = met[np.isfinite(met)]
-            if met.size >= number % 3 and np.all(np.diff(met) > 0.02 * met[1:]):
-                return {**ray, "objects": objects}
-
-    def shape(self, task: CheckTask) -> tuple[int, ...]:
-        return (2,)
-
-    def read(self, task: CheckTask, value: Any) -> list[float] | None:
-        order = task.conventions.returns
-        value = in_order(value, order)
-        if is_miss(value):
-            return [-1.0, np.inf]
-        if not isinstance(value, list) or len(value) != 2:
-            return None
-        object_number, t = (value[order.index(name)] for name in ("object", "t"))
-        if is_miss(t):
-            return [-1.0, np.inf]
-        which, parameter = number(object_number), number(t)
-        if which is None or parameter is None:
-            return None
-        return [which - task.conventions.base, parameter]
-
-    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
-        right = self.right(cases)
-        is_other = given[:, 0] != right[:, 0]
-        return is_other | _differ(right[:, 1], given[:, 1], tolerances(cases))
-
-    def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
-        which, t = (float(part) for part in answer)
-        if np.isinf(t) and which < 0:
-            return "None (no hit)"
-        parts = {"object": which + task.conventions.base, "t": t}
-        return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
-
-
-def _all_hits(origin: Any, direction: Any, objects: Sequence[Mapping[str, Any]]) -> Floats:
-    return np.array([float(hits(origin, direction, shape)[0]) for shape in objects])
+    ),
+)
 
 
 def parameter(value: Any) -> float | None:
@@ -241,11 +194,21 @@ def parameter(value: Any) -> float | None:
     return np.inf if is_miss(value) else number(value)
 
 
-def _differ(right: Floats, given: Floats, near: Floats) -> Flags:
-    """Return where parameters differ. inf is a miss."""
-    with np.errstate(invalid="ignore"):
-        same = np.isinf(right) & np.isposinf(given)
-        return ~(same | (np.abs(given - right) <= near))
+def _all_hits(ray: Values, objects: list[Values]) -> list[float]:
+    return [float(hits(**ray, shape=shape)[0]) for shape in objects]
+
+
+def _several_objects(random: Random, number: int) -> tuple[Values, list[Values]]:
+    """Return a ray and objects, of which it hits, in turn, at least none, one, or two."""
+    while True:
+        ray, objects = _ray(random), []
+        for _ in range(int(random.integers(2, 7))):
+            shape = "sphere" if random.random() < 0.6 else "triangle"
+            objects.append(_object(random, ray, shape, random.choice(PLACES)))
+        met = np.sort(_all_hits(ray, objects))
+        met = met[np.isfinite(met)]
+        if met.size >= number % 3 and np.all(np.diff(met) > 0.02 * met[1:]):
+            return ray, objects
 
 
 def _ray(random: Random) -> Values:
@@ -255,7 +218,7 @@ def _ray(random: Random) -> Values:
     return {"origin": list(point(random)), "direction": direction}
 
 
-def _object(random: Random, ray: Values, kind: str, place: Place) -> dict[str, Any]:
+def _object(random: Random, ray: Values, kind: str, place: Place) -> Values:
     """Return an object that the ray clearly hits, or clearly misses.
 
     place: ahead of the ray, which hits it; beside the ray; behind it; or around its origin.
@@ -306,4 +269,4 @@ def _is_clear(ray: Values, shape: Values) -> bool:
         facing = abs(float(np.cross(b - a, c - a) @ ray["direction"]))
         if not facing > 0.1 * longest**2 * float(np.linalg.norm(ray["direction"])) > 0.02:
             return False
-    return bool(hits(ray["origin"], ray["direction"], shape)[1] > MARGIN)
+    return bool(hits(**ray, shape=shape)[1] > MARGIN)

@@ -1,47 +1,48 @@
-"""The base class of all kinds of functions: generate cases, call, read answers and judge them."""
+"""A kind of function: it generates cases, calls the function, reads its answers and judges them."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.checking.calls import Call
-from lucida.app.checking.kinds.values import shown, vectors
+from lucida.app.checking.kinds.values import shown, text_of
 from lucida.app.checking.tasks import CheckCase, CheckTask
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Words = Mapping[str, str]
 
 # Rounding error allowed for a correct float32 answer: 64 times 2^-24, relative to the largest
 # number that it is computed from. The longest usual computations take about twenty operations; the
 # inputs are rounded too, and a matrix is inverted.
 FLOAT32 = 2.0**-18
 
-
 Cases = Sequence[CheckCase]
-Read = tuple[Any, dict[int, str]]  # the answers, and a message for each malformed one, by number
 
 
+@dataclass(frozen=True, kw_only=True)
 class CheckKind(ABC):
     """A kind of function.
 
     words: the possible arguments, with their meanings.
     arguments: the default words, in order.
-    returns: the words of the returned parts, if there are several.
     answer: the description of a well-formed answer.
+    returns: the words of the returned parts, if there are several.
     """
 
-    name: ClassVar[str]
-    function: ClassVar[str]
-    words: ClassVar[Mapping[str, str]]
-    arguments: ClassVar[tuple[str, ...]]
-    returns: ClassVar[tuple[str, ...]] = ()
-    return_words: ClassVar[Mapping[str, str]] = {}
-    answer: ClassVar[str]
+    name: str
+    function: str
+    words: Words
+    arguments: tuple[str, ...]
+    answer: str
+    returns: tuple[str, ...] = ()
+    return_words: Words = field(default_factory=dict)
 
     @abstractmethod
     def cases(self, task: CheckTask) -> list[CheckCase]:
@@ -53,44 +54,42 @@ class CheckKind(ABC):
         """Return the calls whose values answer the cases."""
         return [Call(task.function, case.arguments, notation=task.notation) for case in cases]
 
-    def read(self, task: CheckTask, value: Any) -> Any:
-        """Return one answer as numbers; None if it is malformed. The default reads a vector for
-        each returned part.
-        """
-        return vectors(value, task.conventions.returns)
+    @abstractmethod
+    def read(self, task: CheckTask, case: CheckCase, value: Any) -> ArrayLike | None:
+        """Return an answer in the form of case.right; None if it is malformed."""
 
-    def shape(self, task: CheckTask) -> tuple[int, ...]:
-        """Return the shape of one answer as numbers."""
-        return len(task.conventions.returns), 3
-
-    def wanted(self, task: CheckTask) -> str:
+    def wanted(self, task: CheckTask, case: CheckCase) -> str:
         return self.answer
 
-    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
-        """Return the answers in the same form as `right`, and the messages. Malformed and missing
-        answers are NaN.
+    def given(
+        self, task: CheckTask, cases: Cases, values: Sequence[Any]
+    ) -> tuple[list[Floats], dict[int, str]]:
+        """Return the answers in the form of the correct ones, and a message for each malformed one
+        by its number. Malformed and missing answers are NaN.
         """
-        read = [self.read(task, value) for value in values]
-        found = np.full((len(cases), *self.shape(task)), np.nan)
+        given = [np.full(np.shape(case.right), np.nan) for case in cases]
         problems: dict[int, str] = {}
-        for number, (value, answer) in enumerate(zip(values, read, strict=True)):
+        for number, (case, value) in enumerate(zip(cases, values, strict=False)):
+            answer = self.read(task, case, value)
             if answer is None:
-                problems[number] = f"returned {shown(value)}, not {self.wanted(task)}"
+                problems[number] = f"returned {shown(value)}, not {self.wanted(task, case)}"
             else:
-                found[number] = answer
-        return found, problems
+                given[number] = np.asarray(answer, float)
+        return given, problems
 
-    def right(self, cases: Cases) -> Any:
-        """Return the correct answers to all cases together, in the kind's own form."""
-        return np.array([case.right for case in cases], float)
-
-    @abstractmethod
     def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
         """Return the cases with wrong answers, bool (N,)."""
+        pairs = zip(cases, given, strict=True)
+        return np.array([wrong_numbers(case, answer).any() for case, answer in pairs], bool)
 
-    @abstractmethod
-    def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
-        """Return an answer in the kind's own form as the student would write it."""
+    def answer_text(self, task: CheckTask, case: CheckCase, answer: Floats) -> str:
+        """Return an answer as the student would write it."""
+        parts = self.parts(task, case, answer)
+        return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
+
+    def parts(self, task: CheckTask, case: CheckCase, answer: Floats) -> dict[str, Any]:
+        """Return the parts of an answer by their words."""
+        return dict(zip(self.returns, np.asarray(answer).tolist(), strict=True))
 
     def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
         """Return the place of a wrong case, the correct answer and the given one. The place is
@@ -100,8 +99,11 @@ class CheckKind(ABC):
         return "", right, self.answer_text(task, case, answer)
 
 
-def tolerances(cases: Cases) -> Floats:
-    return np.array([case.tolerance for case in cases], float)
+def wrong_numbers(case: CheckCase, answer: Floats) -> Flags:
+    """Return the numbers of an answer that are wrong. Those of a miss are infinite."""
+    right = np.asarray(case.right)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~((answer == right) | (np.abs(answer - right) <= case.tolerance)))
 
 
 def named(task: CheckTask, values: Mapping[str, Any]) -> tuple[tuple[str, Any], ...]:

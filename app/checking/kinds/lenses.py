@@ -1,6 +1,6 @@
 """Points through a lens, and back: OpenCV's two models.
 
-Answers in the kind's own form are arrays (N, 2): column and row, or a and b.
+Answers are two numbers: column and row, or a and b.
 
 Tolerances: a thousandth of a pixel, which float32 and any reasonable iteration reach. The points
 are where a lens's map is one-to-one.
@@ -9,27 +9,25 @@ are where a lens's map is one-to-one.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lucida.app.checking.cases import generator, rounded
-from lucida.app.checking.kinds.kind import Cases, CheckKind, Flags, named, tolerances
-from lucida.app.checking.kinds.values import in_order, number, text_of
+from lucida.app.checking.kinds.kind import CheckKind, named
+from lucida.app.checking.kinds.values import in_order, number
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.renderer.camera.lenses import Lens
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
 
-Floats = NDArray[np.float64]
 Values = dict[str, Any]
 
 PIXELS = 1e-3  # tolerance
 INTRINSICS = ("fx", "fy", "cx", "cy")
-BROWN = ("k1", "k2", "p1", "p2", "k3")  # in OpenCV's order
-FISHEYE = ("k1", "k2", "k3", "k4")
+BROWN_SPREAD = {"k1": 0.25, "k2": 0.06, "p1": 0.02, "p2": 0.02, "k3": 0.02}
 CAMERA_WORDS = {
     "fx": "the focal length in pixels, across",
     "fy": "the same, down",
@@ -45,13 +43,38 @@ POINT_WORDS = {
     "Z": "the third, forwards",
     **CAMERA_WORDS,
 }
+PIXEL_WORDS = {
+    "column": "where the point is seen, in pixels to the right",
+    "row": "in pixels down",
+}
+# Coefficients in OpenCV's order.
+BROWN_WORDS = {
+    "k1": "the first radial coefficient, of r^2",
+    "k2": "the second, of r^4",
+    "p1": "the first tangential coefficient",
+    "p2": "the second",
+    "k3": "the third radial one, of r^6",
+}
+FISHEYE_WORDS = {
+    "k1": "the first coefficient, of theta^2",
+    "k2": "the second, of theta^4",
+    "k3": "the third, of theta^6",
+    "k4": "the fourth, of theta^8",
+}
 
 
+@dataclass(frozen=True, kw_only=True)
 class LensKind(CheckKind):
-    """Base class. model, coefficients: the lens's. spread: of each random coefficient."""
+    """A point through a lens.
 
-    model: ClassVar[str]
-    spread: ClassVar[Mapping[str, float]]
+    model: the lens's.
+    spread: of each random coefficient.
+    is_inverse: the way back, from the pixel.
+    """
+
+    model: str = "brown"
+    spread: Mapping[str, float] = field(default_factory=lambda: BROWN_SPREAD)
+    is_inverse: bool = False
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         """Return cases of one coefficient after another, then of all together."""
@@ -69,32 +92,36 @@ class LensKind(CheckKind):
         for name, size in self.spread.items():
             drawn = random.uniform(0.4, 1.0) * size * random.choice((-1.0, 1.0))
             values[name] = rounded(drawn, 5) if name in names else 0.0
-        return values | self._place(random, values)
+        return values | self._place(random)
 
-    def _place(self, random: Random, values: Values) -> Values:
-        """Return a point in front of the lens."""
+    def _place(self, random: Random) -> Values:
+        """Return a point in front of the lens. A fisheye sees behind itself: up to 100 degrees
+        from the axis.
+        """
         depth, angle = random.uniform(1.0, 6.0), random.uniform(0.0, 2 * np.pi)
-        across = depth * random.uniform(0.25, 0.75)
-        return _point(across * np.cos(angle), across * np.sin(angle), depth)
+        if self.model == "fisheye":
+            theta = random.uniform(0.3, 1.75)
+            across, depth = depth * np.sin(theta), depth * np.cos(theta)
+        else:
+            across = depth * random.uniform(0.25, 0.75)
+        point = (across * np.cos(angle), across * np.sin(angle), depth)
+        x, y, z = (rounded(part, 4) for part in point)
+        return {"point": [x, y, z], "X": x, "Y": y, "Z": z}
 
     def _case(self, task: CheckTask, values: Values) -> CheckCase:
         fx, fy, cx, cy = (values[name] for name in INTRINSICS)
         values["K"] = [[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
         values["distortion"] = [values[name] for name in self.spread]
         lens = Lens(self.model, {name: values[name] for name in self.spread})
-        right, near = self._solved(lens, values)
+        x, y, z = values["point"]
+        a, b = lens.image_point(x, y, z)
+        right, near = (float(fx * a + cx), float(fy * b + cy)), PIXELS
+        if self.is_inverse:
+            values |= dict(zip(("column", "row"), right, strict=True))
+            right, near = (x / z, y / z), PIXELS / fx
         return CheckCase(named(task, values), right, near, values)
 
-    def _solved(self, lens: Lens, values: Values) -> tuple[tuple[float, float], float]:
-        """Return the correct answer and its tolerance: of projecting the point."""
-        a, b = lens.image_point(values["X"], values["Y"], values["Z"])
-        column, row = values["fx"] * a + values["cx"], values["fy"] * b + values["cy"]
-        return (float(column), float(row)), PIXELS
-
-    def shape(self, task: CheckTask) -> tuple[int, ...]:
-        return (2,)
-
-    def read(self, task: CheckTask, value: Any) -> list[float] | None:
+    def read(self, task: CheckTask, case: CheckCase, value: Any) -> list[float] | None:
         order = task.conventions.returns
         value = in_order(value, order)
         while isinstance(value, list) and len(value) == 1:
@@ -105,87 +132,34 @@ class LensKind(CheckKind):
         found = [part for part in parts if part is not None]
         return found if len(found) == len(parts) else None
 
-    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
-        apart = np.abs(given - self.right(cases)).max(axis=1)
-        return ~(apart <= tolerances(cases))  # NaN is wrong
 
-    def answer_text(self, task: CheckTask, case: CheckCase, answer: Any) -> str:
-        parts = dict(zip(self.returns, np.asarray(answer, float).tolist(), strict=True))
-        return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
-
-
-class ProjectKind(LensKind):
-    name = "project"
-    function = "project"
-    words: ClassVar[Mapping[str, str]] = {
-        **POINT_WORDS,
-        "k1": "the first radial coefficient, of r^2",
-        "k2": "the second, of r^4",
-        "k3": "the third, of r^6",
-        "p1": "the first tangential coefficient",
-        "p2": "the second",
-    }
-    arguments = ("point", *INTRINSICS, *BROWN)
-    returns = ("column", "row")
-    return_words: ClassVar[Mapping[str, str]] = {
-        "column": "where the point is seen, in pixels to the right",
-        "row": "in pixels down",
-    }
-    answer = "column and row, two numbers"
-    model = "brown"
-    spread: ClassVar[Mapping[str, float]] = {
-        "k1": 0.25, "k2": 0.06, "p1": 0.02, "p2": 0.02, "k3": 0.02,
-    }  # fmt: skip
-
-
-class FisheyeKind(LensKind):
-    name = "project-fisheye"
-    function = "project_fisheye"
-    words: ClassVar[Mapping[str, str]] = {
-        **POINT_WORDS,
-        "k1": "the first coefficient, of theta^2",
-        "k2": "the second, of theta^4",
-        "k3": "the third, of theta^6",
-        "k4": "the fourth, of theta^8",
-    }
-    arguments = ("point", *INTRINSICS, *FISHEYE)
-    returns = ProjectKind.returns
-    return_words = ProjectKind.return_words
-    answer = ProjectKind.answer
-    model = "fisheye"
-    spread: ClassVar[Mapping[str, float]] = {"k1": 0.05, "k2": 0.01, "k3": 0.002, "k4": 0.0004}
-
-    def _place(self, random: Random, values: Values) -> Values:
-        """Return a point up to 100 degrees from the axis: a fisheye sees behind itself."""
-        away, angle = random.uniform(1.0, 6.0), random.uniform(0.0, 2 * np.pi)
-        theta = random.uniform(0.3, 1.75)
-        across = away * np.sin(theta)
-        return _point(across * np.cos(angle), across * np.sin(angle), away * np.cos(theta))
-
-
-class UndistortKind(LensKind):
-    name = "undistort"
-    function = "undistort"
-    words: ClassVar[Mapping[str, str]] = {
-        "column": "where the point is seen, in pixels to the right",
-        "row": "the same, down",
-        **CAMERA_WORDS,
-        **{name: ProjectKind.words[name] for name in BROWN},
-    }
-    arguments = ("column", "row", *INTRINSICS, *BROWN)
-    returns = ("a", "b")
-    return_words: ClassVar[Mapping[str, str]] = {"a": "X / Z of the point", "b": "Y / Z"}
-    answer = "a and b, two numbers"
-    model = "brown"
-    spread = ProjectKind.spread
-
-    def _solved(self, lens: Lens, values: Values) -> tuple[tuple[float, float], float]:
-        (column, row), _ = super()._solved(lens, values)
-        values |= {"column": column, "row": row}
-        ideal = values["X"] / values["Z"], values["Y"] / values["Z"]
-        return ideal, PIXELS / values["fx"]
-
-
-def _point(x: float, y: float, z: float) -> Values:
-    point = [rounded(part, 4) for part in (x, y, z)]
-    return {"point": point, **dict(zip("XYZ", point, strict=True))}
+PROJECT = LensKind(
+    name="project",
+    function="project",
+    words={**POINT_WORDS, **BROWN_WORDS},
+    arguments=("point", *INTRINSICS, *BROWN_WORDS),
+    answer="column and row, two numbers",
+    returns=("column", "row"),
+    return_words=PIXEL_WORDS,
+)
+FISHEYE = LensKind(
+    name="project-fisheye",
+    function="project_fisheye",
+    words={**POINT_WORDS, **FISHEYE_WORDS},
+    arguments=("point", *INTRINSICS, *FISHEYE_WORDS),
+    answer=PROJECT.answer,
+    returns=PROJECT.returns,
+    return_words=PIXEL_WORDS,
+    model="fisheye",
+    spread={"k1": 0.05, "k2": 0.01, "k3": 0.002, "k4": 0.0004},
+)
+UNDISTORT = LensKind(
+    name="undistort",
+    function="undistort",
+    words={**PIXEL_WORDS, **CAMERA_WORDS, **BROWN_WORDS},
+    arguments=("column", "row", *INTRINSICS, *BROWN_WORDS),
+    answer="a and b, two numbers",
+    returns=("a", "b"),
+    return_words={"a": "X / Z of the point", "b": "Y / Z"},
+    is_inverse=True,
+)

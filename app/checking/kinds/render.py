@@ -1,6 +1,6 @@
 """Both loops: an image of spheres and triangles, in the colour of the nearest object, unshaded.
 
-Answers in the kind's own form: a list of arrays (H, W, 3), one for each case.
+Answers are arrays (H, W, 3).
 
 Tolerance: half of 1/255, so that bytes divided by 255 are correct. A pixel is not judged if its
 ray passes an edge or an outline by less than EDGE of the object's size, or hits two objects within
@@ -11,16 +11,15 @@ hits.py).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.calls import Call
 from lucida.app.checking.cases import generator, rounded, shots
 from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_values
 from lucida.app.checking.kinds.images import HALF_A_BYTE, ImageKind
-from lucida.app.checking.kinds.kind import Cases, Flags, named
+from lucida.app.checking.kinds.kind import Flags, named
 from lucida.app.checking.kinds.shapes import hits
 from lucida.app.checking.tasks import CheckCase, CheckTask
 
@@ -32,29 +31,9 @@ Floats = NDArray[np.float64]
 EDGE = 2e-3
 
 
-class RenderKind(ImageKind):
-    name = "render"
-    function = "render"
-    words: ClassVar[Mapping[str, str]] = {
-        "scene": "an object with objects (type, its numbers, and color) and background (a colour)",
-        "objects": "the scene's objects alone",
-        "background": "its background alone",
-        CAMERA: "an object with these fields",
-        **CAMERA_WORDS,
-    }
-    arguments = ("scene", "camera", "width", "height")
-    answer = "height x width x 3 numbers from 0 to 1"
-
-    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
-        return [Call(task.function, case.arguments, notation=task.notation) for case in cases]
-
-    def cases(self, task: CheckTask) -> list[CheckCase]:
-        random = generator(task)
-        return [_case(task, shot, random) for shot in shots(task)]
-
-    def wrong_pixels(self, task: CheckTask, case: CheckCase, image: Floats | None) -> Flags:
-        judged: Flags = case.values["judged"]
-        return super().wrong_pixels(task, case, image) & judged
+def _cases(task: CheckTask) -> list[CheckCase]:
+    random = generator(task)
+    return [_case(task, shot, random) for shot in shots(task)]
 
 
 def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
@@ -64,22 +43,34 @@ def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
     if task.conventions.rows == "bottom":
         image, judged = image[::-1], judged[::-1]
     scene = {"objects": objects, "background": background}
-    values: dict[str, Any] = {"scene": scene, **scene}
-    known = camera_values(shot, task.conventions)
-    words = (CAMERA, *(word for _, word in task.conventions.arguments))
-    values |= {word: known[word] for word in words if word in known}
-    arguments = named(task, values)
-    values["judged"] = judged
+    values: dict[str, Any] = {"scene": scene, **scene, **camera_values(shot, task.conventions)}
     return CheckCase(
-        arguments,
+        named(task, values),
         image,
         HALF_A_BYTE,
-        values,
-        camera=shot.camera,
-        size=shot.size,
+        {"scene": scene, "judged": judged},
+        shot.camera,
+        shot.size,
         target=shot.target,
         up=shot.up,
     )
+
+
+RENDER = ImageKind(
+    name="render",
+    function="render",
+    words={
+        "scene": "an object with objects (type, its numbers, and color) and background (a colour)",
+        "objects": "the scene's objects alone",
+        "background": "its background alone",
+        CAMERA: "an object with these fields",
+        **CAMERA_WORDS,
+    },
+    arguments=("scene", "camera", "width", "height"),
+    answer="height x width x 3 numbers from 0 to 1",
+    make=_cases,
+    takes_arrays=False,
+)
 
 
 def rendered(

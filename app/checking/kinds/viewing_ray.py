@@ -1,6 +1,6 @@
 """The viewing ray of a pixel, in the words of any course.
 
-Answers in the kind's own form are arrays (N, 2, 3): origin and direction in the world.
+Answers are arrays (2, 3): origin and direction in the world.
 
 Tolerances. Let S = X|u| + Y|v| + d|w|, where X = max(|left|, |right|) + (right - left) and Y is
 the same for bottom and top. No intermediate result is larger than M = |eye| + S: neither a point
@@ -14,13 +14,10 @@ images is at least 1e-2.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lucida.app.checking.calls import Call
 from lucida.app.checking.cases import shots
 from lucida.app.checking.conventions import (
     CAMERA,
@@ -32,68 +29,42 @@ from lucida.app.checking.conventions import (
     argument_lists,
 )
 from lucida.app.checking.kinds.basis import conditioning
-from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Read, tolerances
-from lucida.app.checking.kinds.values import in_order, shown, text_of
+from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats
+from lucida.app.checking.kinds.values import vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.renderer.camera.camera import Camera
 
-Floats = NDArray[np.float64]
-
 
 class ViewingRayKind(CheckKind):
-    name = "viewing-ray"
-    function = "viewing_ray"
-    words: ClassVar[Mapping[str, str]] = {
-        **PIXEL_WORDS,
-        **{
-            name: f"two numbers: {PIXEL_WORDS[a]}; {PIXEL_WORDS[b]}"
-            for name, (a, b) in PAIRS.items()
-        },
-        **CAMERA_WORDS,
-        CAMERA: "an object with these fields",
-    }
-    arguments = ("i", "j", "width", "height", "camera")
-    returns = ("origin", "direction")
-    return_words: ClassVar[Mapping[str, str]] = {
-        "origin": "where the ray starts",
-        "direction": "where it goes",
-    }
-    answer = "origin and direction, three numbers each"
-
     def cases(self, task: CheckTask) -> list[CheckCase]:
         return [case for shot in shots(task) for case in cases_of(task, shot)]
 
-    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
-        if not task.vectorised:
-            return super().calls(task, cases)
-        return [
-            Call(task.function, _vectorised(task, cases[first:last]), True, task.notation)
-            for first, last in _images(cases)
-        ]
-
-    def given(self, task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
-        returns = task.conventions.returns
-        read = _vectorised_rays if task.vectorised else super().given
-        rays, problems = read(task, cases, values)
-        places = [("origin", "direction").index(name) for name in returns]
-        given = np.full((len(cases), 2, 3), np.nan)
-        given[:, places] = rays
+    def read(self, task: CheckTask, case: CheckCase, value: Any) -> Floats | None:
+        returns, right = task.conventions.returns, np.asarray(case.right)
+        if (parts := vectors(value, returns)) is None:
+            return None
+        given = np.zeros((2, 3))
+        places = [self.returns.index(name) for name in returns]
+        given[places] = parts
         if task.conventions.space == "camera":
-            for first, last in _images(cases):
-                given[first:last] = _to_world(task.conventions, cases[first], given[first:last])
-        for place in {0, 1} - set(places):  # parts that are not asked for
-            given[:, place] = self.right(cases)[:, place]
-        return given, problems
+            frame, eye = _frame(task.conventions, case)
+            with np.errstate(all="ignore"):
+                given = given @ frame.T + [eye, np.zeros(3)]
+        others = [place for place in (0, 1) if place not in places]
+        given[others] = right[others]  # the part that is not asked for counts as correct
+        return given
 
-    def wrong(self, task: CheckTask, cases: Cases, given: Floats) -> Flags:
-        return ~are_right(task.conventions, self.right(cases), given, tolerances(cases))
+    def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
+        right = np.array([case.right for case in cases], float)
+        tolerance = np.array([case.tolerance for case in cases], float)
+        return ~are_right(task.conventions, right, np.asarray(given), tolerance)
 
-    def answer_text(self, task: CheckTask, case: CheckCase, answer: Floats) -> str:
+    def parts(self, task: CheckTask, case: CheckCase, answer: Floats) -> dict[str, Any]:
         ray = np.asarray(answer, float)
         if task.conventions.space == "camera":
-            ray = _to_camera(task.conventions, case, ray)
-        parts = dict(zip(("origin", "direction"), ray.tolist(), strict=True))
-        return ", ".join(f"{name} {text_of(parts[name])}" for name in task.conventions.returns)
+            frame, eye = _frame(task.conventions, case)
+            ray = np.linalg.solve(frame, (ray - [eye, np.zeros(3)]).T).T
+        return super().parts(task, case, ray)
 
     def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
         assert case.size is not None and case.pixel is not None
@@ -101,6 +72,25 @@ class ViewingRayKind(CheckKind):
         i, j = case.pixel
         where = f"pixel in row {i}, column {j} (from 0, from the top left) of {width}x{height}"
         return where, *super().first_wrong(task, case, answer)[1:]
+
+
+VIEWING_RAY = ViewingRayKind(
+    name="viewing-ray",
+    function="viewing_ray",
+    words={
+        **PIXEL_WORDS,
+        **{
+            name: f"two numbers: {PIXEL_WORDS[a]}; {PIXEL_WORDS[b]}"
+            for name, (a, b) in PAIRS.items()
+        },
+        **CAMERA_WORDS,
+        CAMERA: "an object with these fields",
+    },
+    arguments=("i", "j", "width", "height", "camera"),
+    answer="origin and direction, three numbers each",
+    returns=("origin", "direction"),
+    return_words={"origin": "where the ray starts", "direction": "where it goes"},
+)
 
 
 def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
@@ -121,11 +111,12 @@ def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
             tuple(zip(names, values, strict=True)),
             ray,
             tolerance,
-            camera=shot.camera,
-            size=shot.size,
-            pixel=pixel,
-            target=shot.target,
-            up=shot.up,
+            {},
+            shot.camera,
+            shot.size,
+            pixel,
+            shot.target,
+            shot.up,
         )
         for *values, ray, tolerance, pixel in zip(*columns, right, tolerances, pixels, strict=True)
     ]
@@ -198,58 +189,3 @@ def _frame(conventions: Conventions, case: CheckCase) -> tuple[Floats, Floats]:
     """Return the axes of camera space as columns, and the eye."""
     assert case.camera is not None
     return case.camera.basis * np.array(conventions.axes, float), np.asarray(case.camera.eye)
-
-
-def _to_world(conventions: Conventions, case: CheckCase, rays: Floats) -> Floats:
-    frame, eye = _frame(conventions, case)
-    with np.errstate(all="ignore"):
-        world = rays @ frame.T
-    world[..., 0, :] += eye
-    return world
-
-
-def _to_camera(conventions: Conventions, case: CheckCase, ray: Floats) -> Floats:
-    frame, eye = _frame(conventions, case)
-    return np.linalg.solve(frame, (ray - np.array([eye, np.zeros(3)])).T).T
-
-
-def _images(cases: Cases) -> list[tuple[int, int]]:
-    """Return (first, last + 1) of the cases of each image."""
-    starts = [
-        number
-        for number, case in enumerate(cases)
-        if number == 0 or case.camera is not cases[number - 1].camera
-    ]
-    return list(zip(starts, [*starts[1:], len(cases)], strict=True))
-
-
-def _vectorised(task: CheckTask, cases: Cases) -> tuple[tuple[str, Any], ...]:
-    """Return the arguments of a single call for all pixels. Arguments that depend on the pixel are
-    lists.
-    """
-    columns = zip(*([value for _, value in case.arguments] for case in cases), strict=True)
-    return tuple(
-        (name, [*values] if word in PIXEL_WORDS or word in PAIRS else values[0])
-        for (name, word), values in zip(task.conventions.arguments, columns, strict=True)
-    )
-
-
-def _vectorised_rays(task: CheckTask, cases: Cases, values: Sequence[Any]) -> Read:
-    """Return the rays from calls that are each for a whole image: (N, parts, 3)."""
-    returns = task.conventions.returns
-    rays = np.full((len(cases), len(returns), 3), np.nan)
-    problems: dict[int, str] = {}
-    for value, (first, last) in zip(values, _images(cases), strict=False):
-        parts = in_order(value, returns)
-        parts = [parts] if len(returns) == 1 and isinstance(parts, list) else parts
-        try:
-            assert isinstance(parts, list) and len(parts) == len(returns)
-            for place, part in enumerate(parts):
-                array = np.array(part, float)
-                rays[first:last, place] = array if array.ndim == 1 else array.reshape(-1, 3)
-        except (AssertionError, TypeError, ValueError):
-            problems[first] = (
-                f"returned {shown(value)}, not {' and '.join(returns)} "
-                f"with three numbers for each of {last - first} pixels"
-            )
-    return rays, problems

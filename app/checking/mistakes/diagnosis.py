@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.mistakes.candidates import Trial, candidates
+from lucida.app.checking.cases import is_orthonormal, is_symmetric
+from lucida.app.checking.kinds.kind import Flags
+from lucida.app.checking.kinds.viewing_ray import are_right
+from lucida.app.checking.mistakes.candidates import candidates
 from lucida.app.checking.mistakes.program import Mistakes, Program
+from lucida.app.checking.mistakes.programs import program_of
+from lucida.app.checking.mistakes.trials import trial_of
+from lucida.app.checking.own_words import AS_IF, in_the_tasks_words
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
+Cases = Sequence[CheckCase]
 # By projection: the program, and the mistakes that explain the answers.
 Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]
 
-AS_IF = "As if it read"
+MOST = 1000  # of cases that are examined; large images have more rays
 NAMED = 3  # candidates named; more would not help
 
 
@@ -31,90 +42,160 @@ class Diagnosis:
     candidates: tuple[Mistakes, ...] = ()
 
 
-def candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:
+def diagnosis(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagnosis:
+    """Return the diagnosis of wrong answers, in the task's words.
+
+    given: the answers in the kind's own form.
+    wrong: the wrong ones, bool (N,).
+    """
+    with np.errstate(all="ignore"):  # a student's numbers may be anything
+        said = _of_all(task, cases, given)
+        found = Diagnosis((said,)) if said else _of_each_projection(task, cases, given, wrong)
+    return replace(found, sentences=in_the_tasks_words(task, found.sentences))
+
+
+def _of_all(task: CheckTask, cases: Cases, given: Any) -> str:
+    """Return a sentence that describes all answers; empty if there is none."""
+    if task.kind == "viewing-ray":
+        of_any_length = replace(task.conventions, unit=False)
+        right = np.array([case.right for case in cases], float)
+        tolerance = np.array([case.tolerance for case in cases], float)
+        if are_right(of_any_length, right, np.asarray(given), tolerance).all():
+            return "The directions are correct, but not of length 1: normalise them."
+        return ""
+    last = np.array([np.ravel(one)[-1] for one in given], float)
+    if "hit" in task.kind and np.isposinf(last).all():
+        return "You never find a hit."
+    numbers = np.concatenate([np.ravel(np.asarray(one, float)) for one in given])
+    if len(cases) < 3 or not (numbers == numbers[0]).all():
+        return ""
+    return f"All your answers are {numbers[0]:.4g}, whatever is asked."
+
+
+def _of_each_projection(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagnosis:
+    by_projection: dict[str, list[int]] = defaultdict(list)
+    for number in range(len(cases)) if len(cases) <= MOST else _some(wrong):
+        camera = cases[number].camera
+        by_projection[camera.projection if camera else ""].append(number)
+    told: Told = {}
+    for projection, numbers in by_projection.items():
+        if wrong[numbers].any():
+            program = program_of(task, projection)
+            answers = [given[number] for number in numbers]
+            trial = trial_of(task, projection, [cases[number] for number in numbers], answers)
+            told[projection] = program, candidates(program, trial, wrong[numbers])
+    told = _shared(told)
+    sentences = _sentences(told, len(by_projection))
+    if task.kind == "viewing-ray" and not all(found for _, found in told.values()):
+        sentences += _correct_parts(task, cases, given, wrong)
+    every = dict.fromkeys(one for _, found in told.values() for one in found)
+    return Diagnosis(tuple(sentences), tuple(every))
+
+
+def _some(wrong: Flags) -> NDArray[np.intp]:
+    """Return the numbers of at most MOST cases, spread evenly over the wrong and over the other
+    cases. The first of each is included.
+    """
+    parts = (np.flatnonzero(flags) for flags in (wrong, ~wrong))
+    chosen = [part[:: 2 * len(part) // MOST or 1] for part in parts]
+    return np.sort(np.concatenate(chosen))
+
+
+def _names(told: tuple[Program, tuple[Mistakes, ...]]) -> list[tuple[str, ...]]:
+    return [tuple(mistake.name for mistake in one) for one in told[1]]
+
+
+def _shared(told: Told) -> Told:
+    """Keep only the mistakes that explain all projections by the same name, if there are any."""
+    shared = set.intersection(*(set(_names(its)) for its in told.values()))
+    if not shared:
+        return told
+    return {
+        kind: (its[0], tuple(one for one, name in zip(its[1], _names(its), strict=True)
+                             if name in shared))
+        for kind, its in told.items()
+    }  # fmt: skip
+
+
+def _sentences(told: Told, projections: int) -> list[str]:
+    """Return sentences on each projection's candidates; common ones only once. projections: the
+    number of all projections, also of those whose answers are correct.
+    """
+    sentences: list[str] = []
+    seen: list[list[tuple[str, ...]]] = [[]]
+    is_common = len({tuple(_names(its)) for its in told.values()}) == 1 and len(told) > 1
+    for projection, its in told.items():
+        if (names := _names(its)) in seen:
+            continue
+        seen.append(names)
+        if projections > 1 and not is_common:
+            is_perspective = projection == "perspective"
+            sentences.append(f"In {'perspective' if is_perspective else 'parallel projection'}:")
+        sentences += _candidate_sentences(*its)
+    return sentences
+
+
+def _candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:
     """Return the hints of the first candidate, the lines that it amounts to, the other candidates'
     hints, and what to read again.
     """
     first = found[0]
-    sentences = ["Two mistakes at once." if len(first) == 2 else ""]
-    sentences += list(dict.fromkeys(mistake.hint for mistake in first))
+    sentences = ["Two mistakes at once."] if len(first) == 2 else []
+    sentences += dict.fromkeys(mistake.hint for mistake in first)
     for line in program.text(first):
         if line.instead is not None:
             written = " and ".join(f"`{code.strip()}`" for code in line.instead.split("\n"))
             sentences.append(f"{AS_IF} {written}, not `{line.code.strip()}`.")
-    told = set(sentences)
-    for others in found[1:NAMED]:
-        hint = " ".join(mistake.hint for mistake in others)
-        if hint not in told:
-            told.add(hint)
+    hints = [" ".join(mistake.hint for mistake in others) for others in found[1:NAMED]]
+    for hint in dict.fromkeys(hints):
+        if hint not in sentences:
             sentences.append(f"Or, with the same numbers: {hint}")
     if len(found) > NAMED:
         sentences.append(f"{len(found) - NAMED} more mistakes would give the same numbers.")
     parts = dict.fromkeys(mistake.part for mistake in first)
-    sentences.append(f"Read again: {', '.join(parts)}.")
-    return [sentence for sentence in sentences if sentence]
+    return [*sentences, f"Read again: {', '.join(parts)}."]
 
 
-def named(
-    kinds: Sequence[str],
-    wrong: NDArray[np.bool_],
-    program_and_trial: Callable[[str, list[int]], tuple[Program, Trial]],
-) -> tuple[list[str], tuple[Mistakes, ...], bool]:
-    """Return sentences on the mistakes of each kind of cases that has wrong ones, the mistakes, and
-    True if they explain every such kind.
+# The correct parts of wrong rays, reported when no mistake fits.
 
-    kinds: of each case.
-    wrong: the wrong ones.
-    program_and_trial: of a kind and the numbers of its cases.
-    """
-    told: Told = {}
-    for kind in dict.fromkeys(kinds):
-        chosen = [number for number, its in enumerate(kinds) if its == kind]
-        if wrong[chosen].any():
-            program, trial = program_and_trial(kind, chosen)
-            told[kind] = program, candidates(program, trial, wrong[chosen])
-    told = _shared(told)
-    found = tuple(dict.fromkeys(one for _, its in told.values() for one in its))
-    explained = all(its for _, its in told.values())
-    return _sentences(told, len(set(kinds))), found, explained
+PLACES: dict[str, Callable[[Camera, Size], bool]] = {
+    "in parallel projection": lambda camera, _: camera.is_parallel,
+    "in perspective": lambda camera, _: not camera.is_parallel,
+    "where the basis is orthonormal": lambda camera, _: is_orthonormal(camera),
+    "where the viewport is symmetric": lambda camera, _: is_symmetric(camera),
+    "where `distance` = 1": lambda camera, _: camera.distance == 1.0,
+    "in square images": lambda _, size: size[0] == size[1],
+}
 
 
-def _shared(told: Told) -> Told:
-    """Keep only the mistakes that explain both projections by the same name, if both are wrong and
-    there are such mistakes.
-    """
-    if len(told) < 2:
-        return told
-    shared = set.intersection(*(set(_all_names(its)) for its in told.values()))
-    if not shared:
-        return told
-    return {
-        kind: (program, tuple(one for one in found if _names(one) in shared))
-        for kind, (program, found) in told.items()
-    }
+def _correct_parts(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Iterator[str]:
+    """Yield a few sentences, the most helpful first."""
+    right, rays = np.array([case.right for case in cases], float), np.asarray(given, float)
+    broken = len(cases) - np.count_nonzero(np.isfinite(rays).all(axis=(1, 2)))
+    if broken:
+        yield f"{broken} of {len(cases)} rays have NaN or inf: look for a division by 0."
+        return
+    if np.ptp(rays, axis=0).max() == 0:
+        yield "All your rays are the same: they do not depend on i and j."
+        return
+    tolerance = np.array([case.tolerance for case in cases], float)
 
+    def are_all_right(origins: Any, directions: Any) -> bool:
+        made = np.stack([origins, directions], axis=1)
+        return bool(are_right(task.conventions, right, made, tolerance).all())
 
-def _names(mistakes: Mistakes) -> tuple[str, ...]:
-    return tuple(mistake.name for mistake in mistakes)
-
-
-def _sentences(told: Told, kinds: int) -> list[str]:
-    """Return sentences on each projection's candidates; common ones only once. kinds: the number of
-    projections in the task.
-    """
-    sentences: list[str] = []
-    every = {kind: _all_names(its) for kind, its in told.items()}
-    seen: list[Any] = [()]
-    for kind, (program, found) in told.items():
-        if every[kind] in seen:
-            continue
-        seen.append(every[kind])
-        if kinds > 1 and (len(told) == 1 or len(set(every.values())) > 1):
-            place = "In perspective" if kind == "perspective" else "In parallel projection"
-            sentences.append(f"{place}:")
-        sentences += candidate_sentences(program, found)
-    return sentences
-
-
-def _all_names(told: tuple[Program, tuple[Mistakes, ...]]) -> tuple[tuple[str, ...], ...]:
-    return tuple(_names(one) for one in told[1])
+    if are_all_right(rays[:, 0], right[:, 1]):
+        yield "Your origins are correct, your directions are not."
+    elif are_all_right(right[:, 0], rays[:, 1]):
+        yield "Your directions are correct, your origins are not."
+    images: dict[Any, bool] = {}  # True for those whose rays are all correct
+    for case, is_wrong in zip(cases, wrong, strict=True):
+        image = case.camera, case.size
+        images[image] = images.get(image, True) and not is_wrong
+    found = [
+        place
+        for place, is_there in PLACES.items()
+        if all(is_there(*image) == is_correct for image, is_correct in images.items())
+    ]
+    if found and any(images.values()):
+        yield f"Your rays are correct {' and '.join(found)}, and wrong elsewhere."

@@ -19,9 +19,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.app.checking.conventions import camera_words, pixel_words
+from lucida.app.checking.conventions import PAIRS, camera_words, pixel_words
 from lucida.app.checking.mistakes.catalogue import Part, part, part_from_angles
 from lucida.app.checking.mistakes.program import Mistake, Program
+from lucida.app.checking.tasks import CheckTask
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
@@ -45,6 +46,23 @@ UNITS = {
 }
 LIMITS = {"long": "minimum", "short": "maximum"}
 
+# The translation of a task's words into those of the lines.
+LETTERS = {"row": "i", "column": "j"}
+_VIEWPORT = {"left", "right", "bottom", "top"}
+_MATRICES = {"camera_to_world", "world_to_camera"}
+_SAME: dict[str, set[str]] = {
+    **{word: {letter} for word, letter in LETTERS.items()},
+    "size": {"width", "height"},
+    "viewport": _VIEWPORT,
+    **{name: set(pair) for name, pair in PAIRS.items()},
+    **{word: {"distance", *_VIEWPORT} for word in ("K", "fx", "fy", "cx", "cy")},
+    **{word: {"world_to_camera"} for word in ("R", "t", "cam_from_world")},
+    "world_from_cam": {"camera_to_world"},
+}
+_PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
+_FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
+_KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
+
 
 @dataclass(frozen=True)
 class RayTask:
@@ -63,6 +81,25 @@ class RayTask:
     from_top: bool = True
     words: frozenset[str] = WORDS
     axes: tuple[int, int, int] = (1, 1, 1)
+
+
+def ray_task(task: CheckTask, projection: str = "perspective") -> RayTask:
+    """Return the conventions of a task in the words of the lines, or in the camera's own words if
+    the lines lack them. The loops of an image count from 0, whatever its pixels are counted from.
+    """
+    its = task.conventions
+    words = {same for word in its.words for same in _SAME.get(word, {word})}
+    pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
+    if {"rotation", "eye"} <= words or (words & _MATRICES and its.row_vectors):
+        words = words - _MATRICES | {"eye", "u", "v", "w"}
+    seen = words >= _VIEWPORT or words >= set(SIZES) or any(w.startswith("fov") for w in words)
+    placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
+    if not (has_corners(words) or (seen and placed)):
+        words = set(WORDS)
+    words = {word for word in words if word in _KNOWN or word.startswith("fov")}
+    words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
+    base = 0 if task.kind == "render" else its.base
+    return RayTask(projection, Indexing(base), its.rows == "top", frozenset(words), its.axes)
 
 
 @functools.lru_cache(256)

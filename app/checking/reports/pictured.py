@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lucida.app.checking.calls import Failure, Student
 from lucida.app.checking.checked import TaskResult, WrongCase
 from lucida.app.checking.conventions import Shot
-from lucida.app.checking.kinds.viewing_ray import ViewingRayKind, cases_of
+from lucida.app.checking.kinds.viewing_ray import VIEWING_RAY, cases_of
 from lucida.app.checking.reports.picture import picture
 from lucida.app.checking.reports.told import told
 
@@ -52,7 +52,7 @@ def _of_rays(student: Student, result: TaskResult, first: WrongCase) -> Pictured
     camera, (width, height) = case.camera, case.size
     times = max(1, SIDE // max(width, height))
     size = width * times, height * times
-    task, kind = result.task, ViewingRayKind()
+    task, kind = result.task, VIEWING_RAY
     shot = Shot(camera, size, case.target, case.up)
     cases = cases_of(task, shot)
     run = student.call(kind.calls(task, cases))
@@ -61,14 +61,13 @@ def _of_rays(student: Student, result: TaskResult, first: WrongCase) -> Pictured
     given, problems = kind.given(task, cases, run.values)
     if problems:
         return None
-    rays = (np.asarray(part).reshape(size[1], size[0], 2, 3) for part in (given, kind.right(cases)))
+    right = [one.right for one in cases]
+    rays = (np.reshape(part, (size[1], size[0], 2, 3)) for part in (given, right))
     return Pictured(*(picture(camera, size, part) for part in rays))
 
 
 def _of_images(result: TaskResult, first: WrongCase) -> Pictured | None:
     given, right = first.answer, np.asarray(first.case.right, float)
-    if given is None or np.shape(given) != right.shape or right.ndim != 3:
-        return None
     upright = -1 if result.task.conventions.rows == "bottom" else 1
     return Pictured(_bytes(np.asarray(given, float)[::upright]), _bytes(right[::upright]))
 

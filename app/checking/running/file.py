@@ -58,7 +58,6 @@ class FileStudent(ProgramStudent):
         self._failed: Failure | None = None  # permanent
         self._used_s = 0.0  # time of the process's runs
         self._printed = ""
-        self._values: list[Any] = []
 
     def __enter__(self) -> Self:
         return self
@@ -74,16 +73,11 @@ class FileStudent(ProgramStudent):
                 raise NotRunnableError(failure, self._printed)
             return self._functions
 
-    @property
-    def answered(self) -> int:
-        """The number of answered calls in the current or last run. Safe to read from any thread."""
-        return len(self._values)
-
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
             begin = time.monotonic()
             end = begin + self.limits.seconds
-            values = self._values = []
+            values: list[Any] = []
             failure = self._start(end)
             if self._program and calls:
                 failure = self._run(self._program, calls, values, end)
@@ -144,7 +138,7 @@ class FileStudent(ProgramStudent):
         self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
     ) -> Failure | None:
         """Append the answers to `values`. Return the reason if the run ended early."""
-        asked = [(call.function, call.arguments, call.vectorised) for call in calls]
+        asked = [(call.function, call.arguments, call.as_arrays) for call in calls]
         program.send(json.dumps(asked).encode() + b"\n")
         try:
             for call in calls:

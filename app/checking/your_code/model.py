@@ -15,11 +15,10 @@ from lucida.app.checking.builtin import BUILTIN, builtin_tasks
 from lucida.app.checking.calls import Failure, Limits, Run
 from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
-from lucida.app.checking.diagnosed import diagnosis
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.basis import case_of
 from lucida.app.checking.kinds.viewing_ray import cases_of
-from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.mistakes.diagnosis import Diagnosis, diagnosis
 from lucida.app.checking.task_file import TaskSet, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.state.options.shared import Notation
@@ -44,7 +43,6 @@ class CodeRays:
     wrong: the wrong rays among those returned, bool (H, W).
     result: that of a check, without diagnosis.
     camera: the window's, mirrored if the course's coordinates are left-handed.
-    seconds: the duration of the calls.
     cases, given: the cases, and the answers in the kind's own form.
     """
 
@@ -57,7 +55,6 @@ class CodeRays:
     right_directions: Floats
     wrong: NDArray[np.bool_]
     result: TaskResult
-    seconds: float
     cases: Sequence[CheckCase]
     given: Floats
 
@@ -150,18 +147,17 @@ def rays_of(
     size: Size,
     cases: Sequence[CheckCase],
     run: Run,
-    seconds: float = 0.0,
 ) -> CodeRays:
     """Return the rays of a run that answers all of the cases, or the first of them."""
     kind = KINDS[task.kind]
     values = [None if isinstance(value, Failure) else value for value in run.values]
-    given, _ = kind.given(task, cases, values)
+    given = np.array(kind.given(task, cases, values)[0])
     result = judged(replace(task, feedback="first-wrong"), cases, run)
     if task.kind == RAY:
-        right, rays = kind.right(cases), given
+        right, rays = np.array([case.right for case in cases], float), given
         wrong = kind.wrong(task, cases, given) & np.isfinite(given).all(axis=(1, 2))
     else:
-        right, rays = _turned(camera, size, kind.right(cases)[0]), _turned(camera, size, given[0])
+        right, rays = _turned(camera, size, cases[0].right), _turned(camera, size, given[0])
         wrong = np.full(len(rays), bool(kind.wrong(task, cases, given)[0]))
         wrong &= np.isfinite(rays).all(axis=(1, 2))
     width, height = size
@@ -176,14 +172,13 @@ def rays_of(
         right[:, 1].reshape(shape),
         wrong.reshape(height, width),
         result,
-        seconds,
         cases,
         given,
     )
 
 
-def diagnosis_of(rays: CodeRays) -> Diagnosis | None:
-    """Return the diagnosis of the rays, if there is one. Takes a while."""
+def diagnosis_of(rays: CodeRays) -> Diagnosis:
+    """Return the diagnosis of the rays. Takes a while."""
     wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
     return diagnosis(rays.task, rays.cases, rays.given, wrong)
 

@@ -112,15 +112,15 @@ def head(
     if runs is not None and running:
         width = 9 * imgui.get_font_size()
         follow(width)
-        part = runs.progress or -0.5 * running_s  # negative: an unknown part
-        imgui.progress_bar(part, ImVec2(width, 0), f"{running_s:.0f} s")
+        # A negative part shows that it is unknown.
+        imgui.progress_bar(-0.5 * running_s, ImVec2(width, 0), f"{running_s:.0f} s")
     elif is_away:
         follow(imgui.calc_text_size(AWAY).x)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.ERROR, AWAY)
     elif report is not None and report.at:
         at = time.strftime("%H:%M:%S", time.localtime(report.at))
-        text = f"ran at {at}, {report.seconds:.2g} s" if report.seconds else f"ran at {at}"
+        text = f"ran at {at}, {report.seconds:.2g} s"
         follow(imgui.calc_text_size(text).x)
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)

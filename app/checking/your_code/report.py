@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.calls import Failure
@@ -19,33 +19,41 @@ ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for anot
 
 
 @dataclass(frozen=True)
-class CodeQuestion:
-    """A question to a file.
+class CodeContent:
+    """What is asked about.
 
     path: of the file.
-    version: changes with the content of this file or of the tasks' file.
-    task: the name of the selected one.
-    camera, size: for the canvas.
     tasks: the file of tasks, "" for the built-in ones.
     notation: the window's.
+    version: changes with the content of the file or of the tasks' file.
     """
 
     path: str
-    version: int
+    tasks: str = ""
+    notation: Notation = "book"
+    version: int = 1
+
+    def is_of_files(self, other: CodeContent) -> bool:
+        """Return True if both are versions of the same files."""
+        return (self.path, self.tasks) == (other.path, other.tasks)
+
+
+@dataclass(frozen=True)
+class CodeQuestion:
+    """A question to a file.
+
+    task: the name of the selected one.
+    camera, size: for the canvas.
+    """
+
+    content: CodeContent
     task: str
     camera: Camera
     size: Size
-    tasks: str = ""
-    notation: Notation = "book"
-
-    @property
-    def of(self) -> tuple[str, str, int, Notation]:
-        """The content that it is about."""
-        return self.path, self.tasks, self.version, self.notation
 
     def differs_in_camera(self, other: CodeQuestion) -> bool:
         """Return True if it is the same as the other one, except for the camera."""
-        return (self.of, self.task, self.size) == (other.of, other.task, other.size)
+        return replace(self, camera=other.camera) == other
 
 
 @dataclass(frozen=True, eq=False)

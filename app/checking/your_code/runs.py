@@ -1,20 +1,17 @@
-"""Runs a student's file in the background: for the window's camera, then for the built-in tasks.
+"""Runs a student's file in the background: for the window's camera, then for all of its tasks.
 
 The newest question wins. An overtaken one is given up, and its process ended if it takes long. The
-slow work, diagnosis and tasks, waits until the camera rests, and runs on a separate thread so that
-pictures can follow the camera.
+slow work, tasks and diagnosis, waits until the camera rests.
 """
 
 from __future__ import annotations
 
 import threading
 import time
-from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from lucida.app.checking.calls import Failure, Limits
 from lucida.app.checking.checked import TaskResult, checked, failed
@@ -34,20 +31,28 @@ from lucida.app.checking.your_code.model import (
     tasks_of,
     why_not_asked,
 )
-from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.ui.background import Background
 from lucida.renderer.system.errors import LucidaError, describe
 
 OVERTAKEN_S = 0.3  # what has run for so long, and is not wanted any more, is ended
 REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
 CLOSING_S = 2.0
-KEPT = 16  # answers for cameras that undo may come back to
+
+
+@dataclass(frozen=True, eq=False)
+class _Opened:
+    """One version of a file and of its tasks."""
+
+    content: CodeContent
+    student: FileStudent
+    asked: TaskSet
 
 
 class CodeRuns:
     """The runs of a file. Methods are for the window's thread, except tick().
 
-    wake: called from the threads when there is news.
+    wake: called from the thread when there is news.
     make: makes the student for a file.
     report: the newest; None before the first.
     files: the modules that the file imported, or failed to import, when it was last read.
@@ -58,58 +63,46 @@ class CodeRuns:
         self, wake: Callable[[], None], make: Callable[[Path, Limits], FileStudent] = FileStudent
     ) -> None:
         self._wake, self._make = wake, make
-        self._pictures: Background[None] = Background("lucida-your-code", wake)
-        self._checks: Background[None] = Background("lucida-your-checks", wake)
-        self._lock = threading.Lock()  # of the student, and of the report
-        self._student: tuple[tuple[str, str, int, str], FileStudent] | None = None
+        self._background: Background[None] = Background("lucida-your-code", wake)
+        self._lock = threading.Lock()  # of the opened file, and of the report
+        self._opened: _Opened | None = None
         self._newest: CodeQuestion | None = None
         self._asked = threading.Event()  # something newer, or the end
-        self._calls = 0  # that are being made for a picture
-        self._turn = threading.Lock()  # one thread at a time has the process
         self._ending = threading.Lock()  # while a run is ended, no other follows it
         self._run: tuple[CodeQuestion, float] | None = None  # what for, since when
         self._stopped = self._closed = False  # by the user; for good
-        self._kept: OrderedDict[CodeQuestion, CodeRays] = OrderedDict()  # of one version
-        self._tasks: tuple[tuple[str, str, int, str], TaskSet] | None = None  # of one version
         self.report: CodeReport | None = None
         self.files: tuple[str, ...] = ()
         self.read_s = 0.0
 
-    def follow(self, question: CodeQuestion | None) -> None:
-        """Ask a question, or None for nothing. Call once a frame.
+    def follow(self, question: CodeQuestion) -> None:
+        """Ask a question. Call once a frame.
 
         A file that has run endlessly is not run again for another camera, but only for something
         that the user asks for here: another version, task, or size.
         """
         report = self.report
-        if question is None or question == self._newest or self._closed:
+        if question == self._newest or self._closed:
             return
         if report is not None and report.halted and question.differs_in_camera(report.question):
             return
         self._newest = question
         self._asked.set()
-        self._pictures.submit(lambda: self._told(question, lambda: self._work(question)))
+        self._background.submit(lambda: self._answer(question))
 
     @property
     def busy(self) -> bool:
-        return self._pictures.busy or self._checks.busy
+        return self._background.busy
 
     def poll(self) -> None:
-        """Notice the ends of threads. Call once a frame."""
-        self._pictures.poll()
-        self._checks.poll()
+        """Notice the end of the work. Call once a frame."""
+        self._background.poll()
 
     @property
     def running_s(self) -> float:
         """The time that the file has been running, in seconds; 0 if it is not."""
         run = self._run
         return time.monotonic() - run[1] if run is not None else 0.0
-
-    @property
-    def progress(self) -> float:
-        """The finished part of the picture, 0 to 1."""
-        student, calls = self._student, self._calls
-        return min(1.0, student[1].answered / calls) if student is not None and calls else 0.0
 
     def stop(self) -> None:
         """End the current run, at the next tick(). Its report says so."""
@@ -119,7 +112,6 @@ class CodeRuns:
         """Discard all results, because there is no file any more, or to start over."""
         with self._lock:
             self._newest = self.report = None
-        self._kept = OrderedDict()
         self._asked.set()
         self._close_student()
 
@@ -130,12 +122,12 @@ class CodeRuns:
         May take a while.
         """
         with self._ending:
-            student, run = self._student, self._run
-            if student is None or run is None:
+            opened, run = self._opened, self._run
+            if opened is None or run is None:
                 return
             is_late = time.monotonic() - run[1] > OVERTAKEN_S
             if self._stopped or (is_late and not self._is_wanted(run[0])):
-                student[1].stop()
+                opened.student.stop()
 
     def close(self) -> None:
         """End the file's process."""
@@ -144,32 +136,30 @@ class CodeRuns:
         closing = self._close_student()
         if closing is not None:
             closing.join(CLOSING_S)
-        self._pictures.close()
-        self._checks.close()
+        self._background.close()
 
     def _close_student(self) -> threading.Thread | None:
         """End the process on a thread, because reading the file may delay it."""
         with self._lock:
-            student, self._student = self._student, None
-        if student is None:
+            opened, self._opened = self._opened, None
+        if opened is None:
             return None
-        closing = threading.Thread(target=student[1].close, daemon=True)
+        closing = threading.Thread(target=opened.student.close, daemon=True)
         closing.start()
         return closing
 
-    # In the threads.
+    # On the thread.
 
     @contextmanager
     def _running(self, question: CodeQuestion) -> Iterator[float]:
-        """Note that the process works on a question, on this thread. Yield the starting time."""
-        with self._turn:
-            begin = time.monotonic()
-            self._run = question, begin
-            try:
-                yield begin
-            finally:
-                with self._ending:
-                    self._run = None
+        """Note that the process works on a question. Yield the starting time."""
+        begin = time.monotonic()
+        self._run = question, begin
+        try:
+            yield begin
+        finally:
+            with self._ending:
+                self._run = None
 
     def _is_wanted(self, question: CodeQuestion) -> bool:
         return question is self._newest
@@ -181,13 +171,6 @@ class CodeRuns:
             self._asked.wait(REST_S)
         return self._is_wanted(question)
 
-    def _told(self, question: CodeQuestion, work: Callable[[], None]) -> None:
-        """Run `work`. Report its error with this question, unless that was overtaken."""
-        try:
-            work()
-        except Exception as error:
-            self._publish(CodeReport(question, failure=Failure("ended", describe(error))))
-
     def _publish(self, report: CodeReport) -> None:
         with self._lock:
             if not self._is_wanted(report.question):
@@ -195,122 +178,72 @@ class CodeRuns:
             self.report = report
         self._wake()
 
-    def _add(self, question: CodeQuestion, **changes: Any) -> None:
-        """Find out more about a question."""
+    def _open(self, question: CodeQuestion) -> _Opened:
+        """Return the opened file, opened anew for another version. Raises LucidaError."""
+        opened = self._opened
+        if opened is not None and opened.content == question.content:
+            return opened
+        asked = asked_of(question.content.tasks, question.content.notation)
         with self._lock:
-            report = self.report
-            if report is None or report.question is not question:
-                return
-            self.report = replace(report, **changes)
-        self._wake()
-
-    def _asked_of(self, question: CodeQuestion) -> TaskSet:
-        """Return the tasks, read once per version."""
-        if self._tasks is None or self._tasks[0] != question.of:
-            self._tasks = question.of, asked_of(question.tasks, question.notation)
-        return self._tasks[1]
-
-    def _student_of(self, question: CodeQuestion, limits: Limits) -> FileStudent:
-        """Return the file's process, or a new one for another version."""
-        with self._lock:
-            if self._student is not None and self._student[0] == question.of:
-                return self._student[1]
-            old, self._student = self._student, None
-            if not self._closed and self._is_wanted(question):
+            old, self._opened = self._opened, None
+            if self._is_wanted(question):
                 self.read_s = time.time()
-                self._student = question.of, self._make(Path(question.path), limits)
-            made = self._student
+                student = self._make(Path(question.content.path), asked.limits)
+                self._opened = _Opened(question.content, student, asked)
+            made = self._opened
         if old is not None:
-            old[1].close()
+            old.student.close()
         if made is None:
             raise LucidaError("", "nobody waits for it")
-        return made[1]
+        return made
 
-    def _work(self, question: CodeQuestion) -> None:
+    def _answer(self, question: CodeQuestion) -> None:
         before = self.report
-        if before is not None and before.question.of != question.of:
+        if before is not None and before.question.content != question.content:
             before = None
-            self._kept.clear()
         is_slow = before is not None and before.seconds > REST_S
-        if is_slow and question not in self._kept and not self._rests(question):
+        if is_slow and not self._rests(question):
             return
         if not self._is_wanted(question):
             return
         self._stopped = False
+        begin = time.monotonic()
         try:
-            with self._running(question) as begin:
-                report, student = self._report(question, before, begin)
-        finally:
-            self._calls = 0
-        self._publish(report)
-        if student is not None and self._is_wanted(question):
-            self._checks.submit(
-                lambda: self._told(question, lambda: self._check(question, student))
-            )
-
-    def _report(
-        self, question: CodeQuestion, before: CodeReport | None, begin: float
-    ) -> tuple[CodeReport, FileStudent | None]:
-        """Return the file's answer for the camera, and the student for further questions."""
-        try:
-            asked = self._asked_of(question)
-            student = self._student_of(question, asked.limits)
-            try:
-                functions = student.functions()
-            finally:
-                self.files = student.files
+            with self._running(question):
+                report = self._report(question, before)
+            self._publish(replace(report, seconds=time.monotonic() - begin, at=time.time()))
+            self._check(question)
         except NotRunnableError as error:
-            report = CodeReport(question, failure=error.failure, output=error.output)
-            return _timed(report, begin), None
+            self._publish(CodeReport(question, failure=error.failure, output=error.output))
         except LucidaError as error:
-            failure = Failure("missing", describe(error))
-            return _timed(CodeReport(question, failure=failure), begin), None
-        tasks = tasks_of(functions, asked.tasks)
+            self._publish(CodeReport(question, failure=Failure("missing", describe(error))))
+        except Exception as error:
+            self._publish(CodeReport(question, failure=Failure("ended", describe(error))))
+
+    def _report(self, question: CodeQuestion, before: CodeReport | None) -> CodeReport:
+        """Return the file's answer for the camera. Raises LucidaError."""
+        opened = self._open(question)
+        student, asked = opened.student, opened.asked.tasks
+        try:
+            functions = student.functions()
+        finally:
+            self.files = student.files
+        tasks = tuple(tasks_of(functions, asked))
         chosen = chosen_of(tasks, question.task)
         results = before.results if before is not None else {}
-        report = CodeReport(
-            question,
-            tuple(tasks),
-            chosen,
-            results=results,
-            at=time.time(),
-            asked=asked.tasks,
-        )
+        report = CodeReport(question, tasks, chosen, results=results, asked=asked)
         if chosen is None or not is_of_camera(chosen):
-            return report, student
-        task = for_camera(chosen, question.camera, asked.tasks)
-        problem = why_not_asked(task, question.camera, question.size)
-        if problem:
-            return replace(report, not_asked=problem), student
-        rays = self._rays(question, task, student)
-        output, diagnosis = rays.result.output, None
-        if before is not None and before.rays is rays:
-            diagnosis = before.diagnosis
-        report = replace(
-            report, rays=rays, output=output, seconds=rays.seconds, diagnosis=diagnosis
-        )
-        return report, student
+            return report
+        task = for_camera(chosen, question.camera, asked)
+        if problem := why_not_asked(task, question.camera, question.size):
+            return replace(report, not_asked=problem)
+        rays = _rays(question, task, student)
+        return replace(report, rays=rays, output=rays.result.output)
 
-    def _rays(self, question: CodeQuestion, task: CheckTask, student: FileStudent) -> CodeRays:
-        if question in self._kept:
-            return self._kept[question]
-        camera, size = question.camera, question.size
-        cases = cases_for(task, camera, size)
-        calls = KINDS[task.kind].calls(task, cases)
-        begin, self._calls = time.monotonic(), len(calls)
-        run = student.call(calls)
-        self._calls = 0
-        rays = rays_of(task, camera, size, cases, run, time.monotonic() - begin)
-        if run.failure is None:
-            self._kept[question] = rays
-            while len(self._kept) > KEPT:
-                self._kept.popitem(last=False)
-        return rays
-
-    def _check(self, question: CodeQuestion, student: FileStudent) -> None:
+    def _check(self, question: CodeQuestion) -> None:
         """Check the tasks that have not been tried, then find out why the picture is wrong."""
-        report = self.report
-        if not self._rests(question) or report is None or report.question is not question:
+        opened, report = self._opened, self.report
+        if opened is None or report is None or not self._rests(question):
             return
         results: dict[str, TaskResult] = dict(report.results)
         for task in report.tasks:
@@ -318,19 +251,21 @@ class CodeRuns:
                 return
             if task.name not in results:
                 with self._running(question):
-                    result = _tried(student, task, report)
-                if self._is_wanted(question):  # otherwise it may have been ended on purpose
-                    results[task.name] = result
-                    self._add(question, results=dict(results))
+                    result = _tried(opened.student, task, report)
+                if not self._is_wanted(question):  # it may have been ended on purpose
+                    return
+                results[task.name] = result
+                report = replace(report, results=dict(results))
+                self._publish(report)
         rays = report.rays
-        if rays is None or report.diagnosis is not None or rays.task.feedback != "diagnosis":
-            return
-        if rays.result.status == "wrong":
-            self._add(question, diagnosis=diagnosis_of(rays))
+        if rays and rays.result.status == "wrong" and rays.task.feedback == "diagnosis":
+            self._publish(replace(report, diagnosis=diagnosis_of(rays)))
 
 
-def _timed(report: CodeReport, begin: float) -> CodeReport:
-    return replace(report, seconds=time.monotonic() - begin, at=time.time())
+def _rays(question: CodeQuestion, task: CheckTask, student: FileStudent) -> CodeRays:
+    camera, size = question.camera, question.size
+    cases = cases_for(task, camera, size)
+    return rays_of(task, camera, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
 
 
 def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:

@@ -23,7 +23,7 @@ from lucida.app.checking.your_code.model import RAY, asked_of
 from lucida.app.checking.your_code.outside_items import outside_items
 from lucida.app.checking.your_code.panel import CodeWish
 from lucida.app.checking.your_code.pictures import CodePictures
-from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, told_of
 from lucida.app.instruments.outside.extent import end_parameter
@@ -178,13 +178,10 @@ class YourCodeView(Instrument):
         self._follower.follow_too(runs.files, runs.read_s)
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
-        question = CodeQuestion(
-            path, self._follower.version, options.task, camera, options.canvas, tasks,
-            host.state.options.notation,
-        )  # fmt: skip
-        runs.follow(question)
+        content = CodeContent(path, tasks, host.state.options.notation, self._follower.version)
+        runs.follow(CodeQuestion(content, options.task, camera, options.canvas))
         report = runs.report
-        if report is not None and (report.question.path, report.question.tasks) != (path, tasks):
+        if report is not None and not report.question.content.is_of_files(content):
             report = None
         wish, canvas = panel.head(
             Path(path), options, runs, report, self._follower.is_away, host.fonts
@@ -216,7 +213,7 @@ class YourCodeView(Instrument):
 
     def _count_as(self, host: Host, report: CodeReport) -> None:
         """Count pixels as the tasks do, once for each file of tasks. A lecture's count holds."""
-        tasks, state = report.question.tasks, host.state
+        tasks, state = report.question.content.tasks, host.state
         if report.chosen is not None and tasks != self._counted and state.step is None:
             self._counted = tasks
             one_based = report.chosen.conventions.base == 1
@@ -237,11 +234,11 @@ class YourCodeView(Instrument):
         if not rays.wrong.any():
             self._outside.show(YOUR_CODE, items)
             return
-        place = report.question.path, rays.task.name
+        place = report.question.content.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        self._outside.show(YOUR_CODE, items, answer=(report.question.of, rays.task.name))
+        self._outside.show(YOUR_CODE, items)
 
     # Requests of the user.
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from lucida.app.images.compare import comparing
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.compare import CompareMode
-from lucida.app.ui.action import Action, Key, changing
+from lucida.app.ui.action import Action, Key, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.compare.raster_and_ray import Comparison
 
@@ -33,48 +34,26 @@ def _differ(window: Host) -> bool:
     return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
 
 
-def _shown(change: Callable[[AppState], AppState]) -> Callable[[Host], None]:
-    """Return a change that also brings the view to the front."""
+def _comparing(number: int, mode: CompareMode, name: str) -> Action:
+    """Return the action that selects a mode, and shows the view."""
+    choice = choosing(MENU, name, "compare.mode", mode, f"F{5 + number}")
 
     def run(window: Host) -> None:
-        window.change(change(window.state))
+        choice.run(window)
         window.show("Compare")
 
+    return replace(choice, run=run)
+
+
+def _tuned(factor: float = 1.0, step: float = 0.0) -> Callable[[Host], None]:
+    """Return what multiplies the gain, and moves the divider to the right, within their bounds."""
+
+    def run(window: Host) -> None:
+        old = window.options.compare
+        new = replace(old, gain=old.gain * factor, divider=old.divider + step)
+        window.change(window.state.with_options(new))
+
     return run
-
-
-def _comparing(number: int, mode: CompareMode, name: str) -> Action:
-    return Action(
-        MENU,
-        name,
-        _shown(lambda state: comparing.with_mode(state, mode)),
-        f"F{5 + number}",
-        is_on=lambda state: state.options.compare.mode == mode,
-    )
-
-
-def _switch(name: str, field: str, keys: str, binds: bool = True) -> Action:
-    """Return an action that toggles an option."""
-
-    def is_on(state: AppState) -> bool:
-        return bool(getattr(state.options.compare, field))
-
-    def toggled(state: AppState) -> AppState:
-        return state.with_options(
-            state.options.with_changes({"compare": {field: not is_on(state)}})
-        )
-
-    return Action(MENU, name, changing(toggled), keys, binds=binds, is_on=is_on)
-
-
-def _gain(factor: float) -> Callable[[Host], None]:
-    return changing(lambda state: comparing.with_gain(state, state.options.compare.gain * factor))
-
-
-def _divider(step: float) -> Callable[[Host], None]:
-    return changing(
-        lambda state: comparing.with_divider(state, state.options.compare.divider + step)
-    )
 
 
 def _previous(state: AppState, comparison: Comparison) -> AppState:
@@ -83,12 +62,20 @@ def _previous(state: AppState, comparison: Comparison) -> AppState:
 
 COMPARING = (
     *(_comparing(number, mode, name) for number, (mode, name, _) in enumerate(comparing.MODES)),
-    _switch("The other image (hold the key)", "flipped", "X", binds=False),
-    _switch("Mark the causes", "causes", "K"),
-    Action(MENU, "More gain", _gain(2.0), "]"),
-    Action(MENU, "Less gain", _gain(0.5), "["),
-    Action(MENU, "Divider to the right", _divider(STEP), "Shift+]"),
-    Action(MENU, "Divider to the left", _divider(-STEP), "Shift+["),
+    choosing(
+        MENU,
+        "The other image (hold the key)",
+        "compare.flipped",
+        True,
+        "X",
+        off=False,
+        binds=False,
+    ),
+    choosing(MENU, "Mark the causes", "compare.causes", True, "K", off=False),
+    Action(MENU, "More gain", _tuned(factor=2.0), "]"),
+    Action(MENU, "Less gain", _tuned(factor=0.5), "["),
+    Action(MENU, "Divider to the right", _tuned(step=STEP), "Shift+]"),
+    Action(MENU, "Divider to the left", _tuned(step=-STEP), "Shift+["),
     Action(MENU, "Next differing pixel", _differing(comparing.stepped), "N", can=_differ),
     Action(MENU, "Previous differing pixel", _differing(_previous), "Shift+N", can=_differ),
     Action(MENU, "Worst pixel", _differing(comparing.at_worst), "Shift+M", can=_differ),

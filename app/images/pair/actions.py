@@ -1,22 +1,31 @@
 """The actions of the menu "Image": what both images show, how large, how magnified.
 
-Their keys are Alt and a letter or digit, as far as they have any.
+Their keys are Alt and a letter or digit, as far as they have any. The strips above the images offer
+some of them too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
-from lucida.app.images.imaging import with_magnification
-from lucida.app.images.pair import choices
-from lucida.app.images.pair.choices import Choice, has, toggling
-from lucida.app.images.placement import step_from
+from lucida.app.images.imaging import (
+    CHANNELS,
+    size_text,
+    with_magnification,
+    with_pixel_size,
+    with_resolution,
+)
+from lucida.app.images.pair.boxes import ask_pixel, ask_resolution
+from lucida.app.images.placement import magnification_text, step_from
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.action import Action, changing
+from lucida.app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
+from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
+from lucida.renderer.camera.pixels import ENLARGEMENTS
 
-CHANNEL, RESOLUTION, MAGNIFY = "Image/Channel", "Image/Resolution", "Image/Magnification"
+RESOLUTION, MAGNIFY = "Image/Resolution", "Image/Magnification"
 COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"
 
 
@@ -31,98 +40,174 @@ def _step(steps: int) -> Callable[[Host], None]:
     return run
 
 
-def _exposure(stops: float) -> Callable[[AppState], AppState]:
-    return lambda state: state.with_options(
-        replace(
-            state.options.images, exposure_ev=state.images.exposure_ev + stops if stops else 0.0
-        )
-    )
+def _exposure(stops: float) -> Callable[[Host], None]:
+    def brighter(state: AppState) -> AppState:
+        exposure_ev = state.images.exposure_ev + stops if stops else 0.0
+        return state.with_options(replace(state.images, exposure_ev=exposure_ev))
+
+    return changing(brighter)
 
 
-def _with_lines(state: AppState) -> AppState:
-    on = not state.options.pair.straight_lines
-    return state.with_options(replace(state.options.pair, straight_lines=on))
+def _pixel_size(size: int) -> Action:
+    def is_on(state: AppState) -> bool:
+        return state.images.resolution is None and state.images.pixel_size == size
+
+    name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
+    change = changing(partial(with_pixel_size, pixel_size=size))
+    return Action(RESOLUTION, name, change, "Alt+W" if size == 1 else "", is_on=is_on)
 
 
-def _counting(name: str, one_based: bool) -> Action:
+def _resolution(size: tuple[int, int]) -> Action:
     return Action(
-        COUNTING,
-        name,
-        changing(lambda state: state.with_options(replace(state.options, one_based=one_based))),
-        is_on=lambda state: state.options.one_based == one_based,
-        can=lambda window: window.state.step is None,  # a lecture's text counts in its own way
+        RESOLUTION,
+        size_text(size),
+        changing(partial(with_resolution, resolution=size)),
+        is_on=lambda state: state.images.resolution == size,
+        separated=size == RESOLUTIONS[0],
     )
 
 
-def _lens(choice: Choice) -> Action:
-    return replace(choice.action(LENS), can=has_lens)
+def _magnification(factor: float | None, name: str, keys: str, tip: str) -> Action:
+    return Action(
+        MAGNIFY,
+        name,
+        changing(partial(with_magnification, magnification=factor)),
+        keys,
+        is_on=lambda state: state.images.magnification == factor,
+        separated=factor == MAGNIFICATIONS[0],
+        tip=tip,
+    )
 
 
 def has_lens(window: Host) -> bool:
     return window.state.camera.lens is not None
 
 
-IMAGE = (
-    *(choice.action(CHANNEL) for choice in choices.CHANNEL),
-    *(choice.action(CHANNEL, k == 0) for k, choice in enumerate(choices.COMPONENT)),
-    *(choice.action(RESOLUTION) for choice in choices.PIXEL_SIZE),
-    *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.RESOLUTION)),
-    Action(RESOLUTION, "Custom size...", lambda w: w.ask_resolution(), "Alt+S", separated=True),
-    *(choice.action(RESOLUTION, k == 0) for k, choice in enumerate(choices.SAMPLE)),
-    *map(_lens, choices.LENS),
-    choices.FIT.action(MAGNIFY),
+SHOWN_CHANNEL = tuple(
+    choosing("Image/Channel", name, "images.channel", channel, f"Alt+{number}", tip=tip)
+    for number, (channel, (name, tip)) in enumerate(CHANNELS.items(), 1)
+)
+SHOWN_COMPONENT = tuple(
+    choosing(
+        "Image/Channel",
+        f"{component.capitalize()} only",
+        "images.component",
+        component,
+        f"Alt+{component[0].upper()}",
+        off="rgb",
+        separated=component == "red",
+        tip=f"the {component} channel only, as gray",
+    )
+    for component in ("red", "green", "blue")
+)
+SIZES = (
+    *map(_pixel_size, PIXEL_SIZES),
+    *map(_resolution, RESOLUTIONS),
     Action(
-        MAGNIFY,
-        "Magnify",
-        _step(1),
-        "Alt++",
-    ),
-    Action(
-        MAGNIFY,
-        "Reduce",
-        _step(-1),
-        "Alt+-",
-    ),
-    *(choice.action(MAGNIFY, k == 0) for k, choice in enumerate(choices.MAGNIFICATION)),
-    choices.GRID.action(MAGNIFY, separated=True),
-    choices.VALUES.action(MAGNIFY),
-    Action(
-        "Image",
-        "Brighter",
-        changing(_exposure(0.5)),
-        "+",
+        RESOLUTION,
+        "Custom size...",
+        ask_resolution,
+        "Alt+S",
+        is_on=lambda state: state.images.resolution not in (None, *RESOLUTIONS),
         separated=True,
     ),
-    Action(
-        "Image",
-        "Darker",
-        changing(_exposure(-0.5)),
-        "-",
+    *(
+        choosing(
+            RESOLUTION,
+            "Ray: 1 sample per pixel" if count == 1 else f"Ray: mean of {count} samples",
+            "images.samples",
+            count,
+            separated=count == 1,
+            tip="Of the ray image at rest: its pixels show their mean. Compared are the centres.",
+        )
+        for count in SAMPLES
     ),
-    Action("Image", "Exposure 0", changing(_exposure(0.0)), "0"),
-    Action(
-        "Image",
-        "Linear light without sRGB's curve",
-        changing(toggling("transfer", ("srgb", "linear"))),
-        "Alt+L",
-        is_on=has("transfer", "linear"),
+)
+LENS_LOOKUP = tuple(
+    choosing(
+        LENS,
+        f"Lens: look up, {count} x {count} texels per pixel",
+        "images.lens_enlargement",
+        count,
+        can=has_lens,
+        tip="A pinhole image finds each pixel's primitive; its own ray shades it.",
+    )
+    for count in ENLARGEMENTS
+)
+FIT = _magnification(None, "Fit", "Alt+0", "All of the image in its window.")
+FACTORS = tuple(
+    _magnification(
+        factor,
+        magnification_text(factor),
+        "Alt+A" if factor == 1 else "",
+        "Ctrl+wheel magnifies at the pointer, Ctrl+drag moves the image.",
+    )
+    for factor in MAGNIFICATIONS
+)
+PIXELS = (
+    choosing(
+        MAGNIFY,
+        "Pixel grid and values",
+        "images.grid",
+        True,
+        "Alt+X",
+        off=False,
+        separated=True,
+        tip="Lines from 8x on, numbers from 32x on.",
     ),
-    Action(
+    choosing(
+        MAGNIFY,
+        "Values as linear light",
+        "images.values",
+        "floats",
+        "Alt+V",
+        off="bytes",
+        tip="A pixel's numbers: 0 to 255, or light.",
+    ),
+)
+LINEAR = choosing(
+    "Image",
+    "Linear light without sRGB's curve",
+    "images.transfer",
+    "linear",
+    "Alt+L",
+    off="srgb",
+    tip="On: linear light as it is, too dark. Off: through the curve that screens expect.",
+)
+
+IMAGE = (
+    *SHOWN_CHANNEL,
+    *SHOWN_COMPONENT,
+    *SIZES,
+    *LENS_LOOKUP,
+    FIT,
+    Action(MAGNIFY, "Magnify", _step(1), "Alt++"),
+    Action(MAGNIFY, "Reduce", _step(-1), "Alt+-"),
+    *FACTORS,
+    *PIXELS,
+    Action("Image", "Brighter", _exposure(0.5), "+", separated=True),
+    Action("Image", "Darker", _exposure(-0.5), "-"),
+    Action("Image", "Exposure 0", _exposure(0.0), "0"),
+    LINEAR,
+    choosing(
         "Image",
         "Straight lines",
-        changing(_with_lines),
-        is_on=lambda state: state.options.pair.straight_lines,
+        "pair.straight_lines",
+        True,
+        off=False,
         can=lambda window: not window.state.camera.is_parallel,
     ),
-    Action(
-        "Image",
-        "Go to pixel...",
-        lambda w: w.ask_pixel(),
-        "Ctrl+G",
-        separated=True,
+    Action("Image", "Go to pixel...", ask_pixel, "Ctrl+G", separated=True),
+    *(
+        choosing(
+            COUNTING,
+            name,
+            "one_based",
+            from_one,
+            can=lambda window: window.state.step is None,  # a lecture's text counts in its own way
+        )
+        for name, from_one in (("Pixels from 1 (lecture)", True), ("Pixels from 0 (arrays)", False))
     ),
-    _counting("Pixels from 1 (lecture)", one_based=True),
-    _counting("Pixels from 0 (arrays)", one_based=False),
     Action(
         "Image",
         "Clear mark",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -17,7 +16,7 @@ from lucida.app.images.pair.marks import walked
 from lucida.app.images.pair.pane import Drawn, MouseState, Pane, image_pane
 from lucida.app.images.pair.pixelgrid import Values
 from lucida.app.images.pair.rulers import ruler_sizes
-from lucida.app.images.pair.toolbar import Strip, image_strip
+from lucida.app.images.pair.toolbar import image_strip
 from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
@@ -39,9 +38,8 @@ class Linked:
     """The state that the two images share.
 
     photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
-    steady_frames: of the images, and how often they were drawn at that size. pins: returns the
-    pixels that are pinned in a state; set by their owner. guest: see app/ui/guest.py; set by
-    itself.
+    steady_frames: of the images, and how often they were drawn at that size. guest: see
+    app/ui/guest.py; set by itself.
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
@@ -52,7 +50,6 @@ class Linked:
     walked_frame: int = -1
     size: tuple[int, int] = (0, 0)
     steady_frames: int = 0
-    pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
     guest: Guest | None = None
 
 
@@ -151,7 +148,6 @@ class ImageView(Instrument):
             legend=legend,
             has_tools=host.has_tools,
             hovered=self._hovered(host, placed(state)),
-            pins=shared.pins(state),
             depths=both.depths() if state.images.channel == "depth" else None,
             on_pixels=lambda screen: self._on_pixels(host, screen),
             held=shared.guest is not None and shared.guest.holds(self.name),
@@ -233,9 +229,7 @@ class ImageView(Instrument):
 
     def _strip(self, host: Host) -> None:
         if host.has_tools and not host.state.preferences.presentation:
-            size = self.linked.photograph.file_size
-            strip = Strip(self.name, host.ask_resolution, size)
-            host.apply(image_strip(strip, host.state))
+            image_strip(self.name, host, self.linked.photograph.file_size)
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """Return the pixel to frame: always in the other image, in this one only if it is small."""

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from lucida.app.images.photograph.model import can_undistort, closed, undistorting
-from lucida.app.images.photograph.panel import UNDISTORT
-from lucida.app.state.app_state import AppState
-from lucida.app.ui.action import Action, changing
+from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
 
 MENU = "Image/Photograph"
+UNDISTORT = "Undistort the photograph"
 
 
 def is_open(window: Host) -> bool:
@@ -18,22 +15,18 @@ def is_open(window: Host) -> bool:
     return bool(window.state.options.photograph.file)
 
 
-def _switched(state: AppState) -> AppState:
-    shown = not state.options.photograph.shown
-    return state.with_options(replace(state.options.photograph, shown=shown))
-
-
 def _undistort(window: Host) -> None:
     window.change(undistorting(window.state, window.renderers.size))
 
 
 PHOTOGRAPH = (
-    Action(
+    choosing(
         MENU,
         "Photograph on the images",
-        changing(_switched),
+        "photograph.shown",
+        True,
         "Alt+P",
-        is_on=lambda state: state.options.photograph.shown,
+        off=False,
         can=is_open,
     ),
     Action(
@@ -43,6 +36,7 @@ PHOTOGRAPH = (
         is_on=lambda state: state.options.photograph.distorted is not None,
         can=lambda window: can_undistort(window.state),
         separated=True,
+        tip="What a pinhole would have seen: photograph and camera, no lens.",
     ),
     Action(MENU, "Close the photograph", changing(closed), can=is_open, separated=True),
 )

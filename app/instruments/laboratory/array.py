@@ -36,7 +36,8 @@ def array(page: Page) -> Figure:
         code.word(line, (0, 0), 1.25, mono=True, align=0.0)
         code.word(assigned, (0, 1.9), 1.25, opacity=lit, mono=True, align=0.0)
     for number, name in enumerate(("height = 3", "width = 4")):
-        sheet.word(name, (22.2, 7.6 + 1.9 * number), 1.25, look.dim, mono=True, align=0.0)
+        at = 22.2, 7.6 + 1.9 * number
+        sheet.word(name, at, 1.25, look.dim, turns[0], mono=True, align=0.0)
     grid, memory = sheet.part(CORNER), sheet.part((0.3, MEMORY_Y), stored)
     for row, column in np.ndindex(ROWS, COLUMNS):
         color = mixed(BLACK, ORANGE, lit if (row, column) == LIT else 0.0)

@@ -43,8 +43,8 @@ def boxes(page: str, size: Size, shape: Size) -> tuple[Point, tuple[Box, ...]]:
             (26.0, 25.6), (26.0, 17.4))  # fmt: skip
         rooms: tuple[Box, ...] = (((0.0, 0.0), room),)
     elif page == "exposure":
-        extent = (36.0, 24.0) if wide else (24.0, 37.6)
-        step = (18.2, 0.0) if wide else (0.0, 18.8)
+        extent = (36.0, 24.0) if wide else (24.0, 38.6)
+        step = (18.2, 0.0) if wide else (0.0, 19.6)
         room = (17.8, 20.4) if wide else (24.0, 14.8)
         rooms = ((0.0, 0.0), room), (step, room)
     else:

@@ -21,11 +21,11 @@ from lucida.renderer.camera.checks import Floats
 
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1
-CELL, CORNER = 1.3, np.array((15.6, 2.9))
+CELL, CORNER = 1.3, np.array((16.2, 2.9))
 ROW_Y = 10.4  # of the row of pixels below the corner, before it is in its image
 ACROSS = ("j - 0.5", "/ W", "- 0.5 = u")
 DOWN = ("i - 0.5", "/ H", "- 0.5", "v")
-TEXT = 1.2
+TEXT = 1.22
 
 
 def numbers(pixel: int) -> list[tuple[float, float, float]]:
@@ -40,8 +40,8 @@ def numbers(pixel: int) -> list[tuple[float, float, float]]:
 def ruler(page: Page) -> Figure:
     """Draw a row of pixels. Builds 1, 2 and 3 go on to u; build 4 does the same with a column."""
     down, look = reached(page.progress, 4), page.look
-    extent = between(down, [(22.4, 15.2), (30.6, 26.4)])
-    sheet = page.sheet((extent[0], extent[1]), between(down, [(8.2, 11.2), (0.0, 0.0)]))
+    extent = between(down, [(22.4, 15.2), (31.1, 26.4)])
+    sheet = page.sheet((extent[0], extent[1]), between(down, [(8.8, 11.2), (0.0, 0.0)]))
     sheet = sheet.part(CORNER)
     image, row_y = sheet.part(opacity=down), float(between(down, (ROW_Y, CELL * (PIXEL[0] - 1))))
     row, names = sheet.part((0.0, row_y)), sheet.part((0.0, (1 - down) * ROW_Y))
@@ -83,7 +83,7 @@ def _down(sheet: Sheet, notation: Notation) -> None:
     y, look, (*rulers, last) = CELL * (PIXEL[0] - 0.5), sheet.look, numbers(PIXEL[0])
     upward = -last[0], -last[1], -last[2]
     for number, (name, values) in enumerate(zip(DOWN, (*rulers, last, upward), strict=True)):
-        x, color = -2.9 - 3.2 * number, look.v if number == 3 else look.text
+        x, color = -2.9 - 3.45 * number, look.v if number == 3 else look.text
         _ticks(sheet, (x, 0.0), (0.0, CELL), color)
         sheet.disc((x, y), 0.3, look.mark)
         for value, at in zip(values, (0.0, y, CELL * COUNT), strict=True):

@@ -194,7 +194,7 @@ class MistakesView(Instrument):
             self._outside.show(MISTAKES)
             return
         items = self._items(made, end_parameter(made.of.camera, host.focus.framed))
-        self._outside.show(MISTAKES, items, answer=tuple(one.name for one in made.mistakes))
+        self._outside.show(MISTAKES, items)
 
 
 def _put_pictures(uploads: Uploads, made: Compared, exposure_ev: float) -> str:

@@ -6,8 +6,6 @@ Pure. second_camera.py draws a whole camera.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -87,14 +85,3 @@ def _stretched(direction: Floats, length: float) -> Floats:
 
 def is_drawable(*points: Floats) -> bool:
     return all(bool(np.isfinite(one).all() and np.abs(one).max() < LARGEST) for one in points)
-
-
-def points_of(items: Iterable[Item]) -> Floats:
-    """Return the points of a drawing that must be in sight, (n, 3): without rays' far ends."""
-    found = [np.zeros((0, 3))]
-    for item in items:
-        if isinstance(item, Arrow):
-            found.append(np.array([item.start, item.end]))
-        elif isinstance(item, Dot | Label):
-            found.append(np.array([item.point]))
-    return np.concatenate(found)

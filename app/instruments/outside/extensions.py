@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from typing import NamedTuple
 
 import moderngl
@@ -23,16 +23,12 @@ class Extension(NamedTuple):
     inside the view's window, with the view as it was drawn, and True if the mouse is over its
     picture; returns True if a double click there is for the instrument. The arrow keys are its own
     then.
-    answer: what was answered, if the items are the drawing of a wrong answer: they are brought
-    into sight when it changes. around: points (n, 3) that must be in sight with the scene.
     """
 
     items: tuple[Item, ...] = ()
     cloud: Cloud | None = None
     picture: moderngl.Texture | None = None
     draw: Callable[[Host, Scope, bool], bool] | None = None
-    answer: Hashable = None
-    around: Floats | None = None
 
 
 class Extensions:
@@ -65,13 +61,6 @@ class Extensions:
         return self.items if self.cloud is None else (self.cloud.lines, *self.items)
 
     @property
-    def answers(self) -> dict[Hashable, tuple[Item, ...]]:
-        """Return the wrong answers that are drawn, with their drawings."""
-        found = self.by_source.values()
-        return {one.answer: one.items for one in found if one.answer is not None}
-
-    @property
     def points(self) -> Floats:
         """Return points (n, 3) that must be in sight with the scene."""
-        found = [one.around for one in self.by_source.values() if one.around is not None]
-        return next(iter(found), NOTHING) if self.cloud is None else self.cloud.around
+        return NOTHING if self.cloud is None else self.cloud.around

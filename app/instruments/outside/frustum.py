@@ -254,13 +254,13 @@ def pixel_seen(
     direction: Floats,
     hidden_at: Callable[[], float] | None = None,
 ) -> Pixel | None:
-    """Return the pixel of the image that a ray from elsewhere meets, or None.
+    """Return the pixel of the image plane that a ray from elsewhere meets, or None.
 
     hidden_at: returns the ray parameter from which the scene hides what is behind it. Called only
     if the ray meets the image plane.
     """
     if not has_plane(camera):
-        return _pixel_on_sphere(camera, size, origin, direction, hidden_at)
+        return None
     corners = plane_corners(camera)
     edges = np.column_stack([corners[1] - corners[0], corners[3] - corners[0], -direction])
     with np.errstate(all="ignore"):
@@ -273,26 +273,3 @@ def pixel_seen(
     if hidden_at is not None and t >= hidden_at():
         return None
     return min(math.floor(y * size[1]), size[1] - 1), min(math.floor(x * size[0]), size[0] - 1)
-
-
-def _pixel_on_sphere(
-    camera: Camera,
-    size: Size,
-    origin: Floats,
-    direction: Floats,
-    hidden_at: Callable[[], float] | None,
-) -> Pixel | None:
-    inverse = np.linalg.inv(camera.basis)
-    start, way = inverse @ (origin - camera.eye), inverse @ direction
-    a, b, c = way @ way, start @ way, start @ start - camera.distance**2
-    if b * b < a * c:
-        return None
-    root = math.sqrt(b * b - a * c)
-    for t in ((-b - root) / a, (-b + root) / a):  # the nearer side first
-        place = camera.project(origin + t * direction, size)
-        if not (t > 0 and np.isfinite(place.row)):
-            continue
-        row, column = math.floor(place.row + 0.5), math.floor(place.column + 0.5)
-        if 0 <= row < size[1] and 0 <= column < size[0]:
-            return None if hidden_at is not None and t >= hidden_at() else (row, column)
-    return None

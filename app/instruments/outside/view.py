@@ -46,7 +46,6 @@ from lucida.app.instruments.outside.placing import Edges, LabelPlacer
 from lucida.app.instruments.outside.projected import Primitive, project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
 from lucida.app.instruments.outside.tools import draw_labels, use_tools, written
-from lucida.app.instruments.outside.widening import Widening
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
@@ -93,12 +92,11 @@ class OutsideView(Instrument):
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
-        self._widening = Widening()
         self._meetings = Memo(_meetings)
 
     @property
     def settled(self) -> bool:
-        return not self._scopes.waits and (self.tools is None or self.tools.settled)
+        return not self._scopes.moves and (self.tools is None or self.tools.settled)
 
     @property
     def primitives(self) -> Sequence[Primitive]:
@@ -178,7 +176,6 @@ class OutsideView(Instrument):
         pixels = self._pixels.shown(host)
         self.show("pixels", pixels)
         scope = self._follow_mouse(host, size, origin, extent)
-        self._widening.follow(host, scope, self.extensions.answers)
         texture = self._texture(host, scope.shown, size, scope)
         draw = imgui.get_window_draw_list()
         far = ImVec2(origin.x + extent.x, origin.y + extent.y)

@@ -1,4 +1,4 @@
-"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python or Julia."""
+"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ from collections.abc import Iterable
 
 from lucida.app.instruments.probe.color_formulas import color_lines
 from lucida.app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
-from lucida.app.instruments.probe.lens_program import lens_program
 from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from lucida.app.state.options.shared import Notation
-from lucida.app.ui.explaining.languages import julia
 from lucida.app.ui.explaining.notation import Line, number
 from lucida.app.ui.explaining.symbols import in_notation, program
 from lucida.renderer.camera.pixels import Indexing
@@ -82,14 +80,17 @@ def as_python(
     words or by the book's letters; for a pixel of the background, only origin, direction, color
     and rgb.
     """
-    return _in_notation(_program(reading, indexing), notation)
-
-
-def as_julia(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
-) -> str:
-    """Return the same program in Julia, using its standard library."""
-    return _in_notation(julia.program(_program(reading, indexing)), notation, in_julia=True)
+    code = _program(reading, indexing)
+    if notation == "code":
+        return code
+    # With letters, it has a camera: `cam.u`.
+    parts = (line.partition("#") for line in code.split("\n"))
+    lines = [program(text, notation) + mark + comment for text, mark, comment in parts]
+    fields = [line.partition("  #")[0].removeprefix("cam.") for line in lines[_CAMERA]]
+    fields = [field.replace(" = ", "=", 1) for field in fields]
+    lines[_CAMERA] = ["cam = SimpleNamespace(", *(f"    {field}," for field in fields), ")"]
+    lines[1:1] = ["from types import SimpleNamespace", ""]
+    return "\n".join(lines)
 
 
 def _program(reading: Reading, indexing: Indexing) -> str:
@@ -114,7 +115,8 @@ def _program(reading: Reading, indexing: Indexing) -> str:
     if reading.is_outside:
         return "\n".join([*lines, f"# {OUTSIDE}", "print(x, y)"]) + "\n"
     if camera.lens is not None:
-        lines += ["origin = eye", *lens_program(reading)]
+        told = "where the lens sees the pixel, found by Newton's method"
+        lines += ["origin = eye", f"direction = {_array(reading.direction)}  # {told}"]
     else:
         lines += [
             f"origin = {'eye + x * u + y * v' if parallel else 'eye'}",
@@ -128,22 +130,6 @@ def _program(reading: Reading, indexing: Indexing) -> str:
         "print(origin, direction, color, rgb)",
     ]
     return "\n".join(lines) + "\n"
-
-
-def _in_notation(code: str, notation: Notation, in_julia: bool = False) -> str:
-    """Return a program in code's words in a notation. With letters, it has a camera: `cam.u`."""
-    if notation == "code":
-        return code
-    parts = (line.partition("#") for line in code.split("\n"))
-    lines = [program(text, notation) + mark + comment for text, mark, comment in parts]
-    fields = [line.partition("  #")[0].removeprefix("cam.") for line in lines[_CAMERA]]
-    if in_julia:
-        lines[_CAMERA] = ["cam = (", *(f"    {field}," for field in fields), ")"]
-    else:
-        fields = [field.replace(" = ", "=", 1) for field in fields]
-        lines[_CAMERA] = ["cam = SimpleNamespace(", *(f"    {field}," for field in fields), ")"]
-        lines[1:1] = ["from types import SimpleNamespace", ""]
-    return "\n".join(lines)
 
 
 def _background_program(reading: Reading) -> list[str]:

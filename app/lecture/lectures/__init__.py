@@ -1,1 +1,1 @@
-"""Lecture files that travel with the program: data only. docs/lectures.md describes the format."""
+"""The built-in lectures: data only. docs/lectures.md describes the format."""

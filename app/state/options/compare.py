@@ -16,11 +16,11 @@ CompareMode = Literal["absolute", "signed", "wipe", "flip"]
 class CompareOptions(OptionPart):
     """The compare view.
 
-    gain: what the difference is multiplied with before it gets a colour.
-    divider: the wipe's, in parts of the image's width.
-    rise: how far the ray image has come up on its side of the wipe, over the raster image.
-    flipped: flip shows the ray image.
-    causes: differing pixels are marked in the colours of their causes.
+    gain: the factor of the difference before it is coloured.
+    divider: the wipe's place, as a fraction of the image's width.
+    rise: how far the ray image has risen on its side of the wipe, over the raster image.
+    flipped: show the ray image in `flip`.
+    causes: mark differing pixels in the colours of their causes.
     """
 
     mode: CompareMode = "wipe"

@@ -10,6 +10,6 @@ from lucida.app.state.bounds import OptionPart
 
 @dataclass(frozen=True)
 class CostOptions(OptionPart):
-    """against: the horizontal axis, which is what grows."""
+    """against: the quantity on the horizontal axis."""
 
     against: Literal["triangles", "pixels"] = "triangles"

@@ -1,4 +1,4 @@
-"""Which wrong lines are shown."""
+"""The options of the mistakes laboratory."""
 
 from __future__ import annotations
 

@@ -19,22 +19,26 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
 @dataclass(frozen=True)
 class OutsideOptions(OptionPart):
-    """The outside view. camera: the free camera that looks at the scene and the other camera;
-    None: one that shows both. turned: its degrees around the scene. bundle: rows and columns of the
-    bundle of viewing rays; (0, 0): none. gizmo: what the handles in the view do: move the eye or
-    the image plane, turn the basis, or turn up, from which the basis then follows.
-    target: a point to draw as **a**, and up as an arrow at the eye: what a lecture makes a basis
-    from; None: neither. formula:
-    how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None: it is not drawn.
-    pixels: the image plane in pixels, with K's
-    numbers, to be dragged.
+    """The outside view.
+
+    camera: the free camera that looks at the scene and the other camera;
+        None for one that shows both. turned: its degrees around the scene.
+    bundle: rows and columns of the bundle of viewing rays; (0, 0) for none.
+    gizmo: the action of the handles in the view: move the eye or the image plane, turn the basis,
+        or turn up, from which the basis then follows.
+    target: a point to draw as **a**, with up as an arrow at the eye, from which a lecture makes a
+        basis; None to draw neither.
+    formula: how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None to hide
+        it.
+    pixels: show the image plane in pixels, with K's numbers to drag.
 
     The numbers below are drawings of a lecture that grow: each counts the parts that are complete.
     points: points of the scene whose viewing rays are drawn; points_grown: their rays, then dots
-    where these pass the image plane. image_opacity: of the picture on the image plane. half_line:
-    the marked pixel's ray as p, d, the whole line with t = 1, 2, 3, and then without t < 0.
-    meetings: all t at which that ray meets objects, then the least t > 0. simple: what makes the
-    simple camera: its eye, where it looks, its viewport, the viewport's sides, d. basis_grown: of
+    where these pass the image plane. image_opacity: the opacity of the picture on the image plane.
+    half_line: the marked pixel's ray as p, d, the whole line with t = 1, 2, 3, and then without
+        t < 0.
+    meetings: all t at which that ray meets objects, then the least t > 0. simple: the parts of the
+    simple camera: its eye, its direction, its viewport, the viewport's sides, d. basis_grown: of
     a basis that is made from a target: w, up, u, v. numbers: write numbers in place of the
     formula's letters. to_parallel: how far the formula has turned from perspective to parallel.
     """

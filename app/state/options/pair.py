@@ -16,10 +16,10 @@ class PairOptions(OptionPart):
     """The drawings over both images.
 
     parallels: points of the world, through each of which a line is drawn in the direction `along`.
-    In perspective they meet in its vanishing point. vanishing: draw them; extended:
-    how far, from their near ends.
+    In perspective they meet in its vanishing point. vanishing: draw them; extended: how far,
+    starting from their near ends.
     straight_lines: a grid of straight lines around the eye, bent as the lens bends them.
-    footprint: an inset of the marked pixel's square, with the samples that its colour is made of.
+    footprint: an inset of the marked pixel's square, with the samples whose mean is its colour.
     """
 
     parallels: Annotated[tuple[Point, ...], AtMost(32)] = ()

@@ -15,7 +15,7 @@ class PosesOptions(OptionPart):
     file: of the set, an absolute path, as stored() of state/paths.py writes it, "" for none; in a
     lecture, a file or folder next to the lecture's.
     pose: the number of the selected camera, from 0; -1 for none.
-    length: of the frusta, relative to what suits the set.
+    length: of the frusta, relative to the length that suits the set.
     points: draw a reconstruction's points.
     reprojected: draw them on the photographs.
     """

@@ -1,4 +1,4 @@
-"""The user's options apart from scene and camera, as far as all instruments share them.
+"""The options that all instruments share, apart from scene and camera.
 
 Small immutable values with their bounds (bounds.py): panels, sessions and lectures take these from
 the fields. Each instrument's own are in a module next to this one; Options has them all.
@@ -43,7 +43,7 @@ Notation = Literal["book", "code"]
 
 @dataclass(frozen=True)
 class ImageOptions(OptionPart):
-    """How both images are drawn and shown.
+    """The options of both images.
 
     exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
     component: all of a colour, or one of its channels. resolution: (width, height) of both images,
@@ -52,10 +52,10 @@ class ImageOptions(OptionPart):
     pixels, None to fit the whole image into its window; center: the centre of the view then, as a
     fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
     if those are large enough.
-    values: how the numbers of a colour are written. samples: of the ray image's colour, once that
-    is full: its pixels show their mean. dissolved: how far both images have dissolved into flat
-    squares, of which there are 32 in a row in the end. lens_enlargement: texels along a side
-    per pixel, in the pinhole images in which the raster image of a lens is looked up.
+    values: the notation of a colour's numbers. samples: rays per pixel for the ray image's colour,
+    once the image is complete. dissolved: how far both images have dissolved into flat squares,
+    which finally are 32 in a row. lens_enlargement: texels along a side per pixel, in the pinhole
+    images in which the raster image of a lens is looked up.
     """
 
     channel: Channel = "color"
@@ -107,11 +107,12 @@ class SharedOptions:
     height) of the image that it was set in, so that it keeps its ray in an image of another size;
     None until an image of its size is shown.
 
-    shadows, mirrors: what only image order has. one_based: pixels are counted from 1, as in the
+    shadows, mirrors: effects that only image order has. one_based: pixels are counted from 1, as in
+    the
     lecture, or from 0, as in arrays. notation: the symbols of formulas and programs, see
     explaining/symbols.py. language: of the shown programs. presets_in_perspective:
-    presets of the camera are in perspective if they can be. pixel_origin: where K has whole
-    numbers, at pixels' centres or corners. bookmarks: in the order of their numbers.
+    presets of the camera are in perspective if they can be. pixel_origin: the place of K's whole
+    numbers, pixels' centres or corners. bookmarks: in the order of their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
@@ -129,5 +130,5 @@ class SharedOptions:
 
     @property
     def indexing(self) -> Indexing:
-        """How every shown or typed pixel's row and column are counted."""
+        """The numbering of rows and columns that the user reads and types."""
         return Indexing(int(self.one_based))

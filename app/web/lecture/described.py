@@ -1,4 +1,4 @@
-"""Describe what a picture of a step shows, with its numbers, for those who cannot see it."""
+"""Alternative texts for a step's pictures, with their numbers, for those who cannot see them."""
 
 from __future__ import annotations
 

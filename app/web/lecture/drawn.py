@@ -10,7 +10,7 @@ from lucida.renderer.camera.camera import Camera
 
 # Unit vectors along u, v and w on paper, x to the right and y down: looking ahead is to the right.
 AXES = np.array([[0.42, 0.30], [0.0, -1.0], [-1.0, 0.0]])
-BEYOND = 1.6  # of the way to the image plane: how far rays are drawn
+BEYOND = 1.6  # the length of drawn rays, relative to the way to the image plane
 
 
 def paper(camera: Camera) -> dict[str, Any]:

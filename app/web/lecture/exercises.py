@@ -1,4 +1,4 @@
-"""A step's exercise as a form, and the data that its answers are judged by.
+"""A step's exercise as a form, and the data to judge its answers.
 
 The replies are in templates, so that a page's script never makes HTML of a text.
 """
@@ -38,7 +38,7 @@ BOLD = frozenset("uvwepdx")
 
 
 def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
-    """Return what modules/exercise.js judges answers by; None for a step without an exercise.
+    """Return modules/exercise.js's data to judge answers; None for a step without an exercise.
 
     explained_by: the step before the exercise that explains it. size: of the step's images.
     """
@@ -144,7 +144,7 @@ def _vectors(task: VectorExercise) -> dict[str, Any]:
 
 
 def numbers(values: ArrayLike) -> list[float | None]:
-    """Return numbers as JSON has them: null for what is not finite."""
+    """Return numbers for JSON, which has null for those that are not finite."""
     return [one if math.isfinite(one) else None for one in np.ravel(values).astype(float).tolist()]
 
 

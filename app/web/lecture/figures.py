@@ -1,4 +1,4 @@
-"""The live figures of a lecture's steps, where a step shows what modules/figure.js can draw."""
+"""The live figures of those steps of a lecture that modules/figure.js can draw."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from lucida.renderer.files.views import view_table
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.errors import LucidaError
 
-IMAGE = 720, 480  # an image's size in pixels where the step says none: modules/figure.js's shape
-# What a figure shows of a view.
+IMAGE = 720, 480  # an image's size in pixels if the step has none, in modules/figure.js's shape
+# The parts of a figure, by view.
 SHOWN = {
     "raster": ("raster",),
     "ray": ("ray",),
@@ -39,8 +39,7 @@ DRAWN = (
 class Figures:
     """The figures of a page, and their scenes, each packed once.
 
-    scenes: packed, by their numbers, and in them the number of their shaders instead of these.
-    shaders: each once.
+    scenes: packed, by number; each has the number of its shaders. shaders: each once.
     """
 
     def __init__(self) -> None:
@@ -53,7 +52,7 @@ class Figures:
         """Return a step's figure as JSON; None if there is none to try.
 
         A figure that draws less than the step's pictures must have something to drag. state: the
-        step's. Its field "open": the step's exercise is answered in the figure.
+        step's. Its field "open" is true if the step's exercise is answered in the figure.
         """
         shows = [name for view in step.views for name in SHOWN.get(view, ())]
         outside = state.options.outside
@@ -111,7 +110,7 @@ class Figures:
 
 
 def _outside(step: Step, state: AppState) -> dict[str, Any]:
-    """Return the camera of a step's outside view, and what that draws, as JSON."""
+    """Return the camera of a step's outside view, and the parts to draw, as JSON."""
     options = state.options.outside
     drawn: dict[str, Any] = {
         "basis": options.basis,
@@ -140,7 +139,7 @@ def _photograph(state: AppState) -> dict[str, Any] | None:
 
 
 def is_live(view: str, shows: Sequence[str]) -> bool:
-    """Return True if a figure with these shows has a view."""
+    """Return True if a figure with these shows includes a view."""
     return SHOWN.get(view, ("",))[-1] in shows
 
 

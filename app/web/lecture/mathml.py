@@ -30,7 +30,7 @@ _WIDTH = re.compile(r"-?[\d.]+(?:em|ex)")
 _SPACE = '<mspace width="0.167em"></mspace>'  # around sin and cos
 _BOLD = 0x1D400  # of Unicode's bold letters, A to Z and then a to z
 _SANS = 0x1D5A0
-VECTORS = frozenset((*"uvwpdrx", "origin", "direction", "point"))  # that have colours
+VECTORS = frozenset((*"uvwpdrx", "origin", "direction", "point"))  # names that have colours
 
 
 @functools.lru_cache(2048)
@@ -52,7 +52,7 @@ def _math(latex: str, display: bool) -> str:
         return f"<code>{escape(latex)}</code>"
     style = ' displaystyle="true"' if display else ""
     if display and latex[:1] in "=+-" and (sign := root.find("mrow/mo")) is not None:
-        sign.set("form", "infix")  # it goes on with what stands before it
+        sign.set("form", "infix")  # it continues the row before it
     return f"<math{style}>{_content(root)}</math>"
 
 

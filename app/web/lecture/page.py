@@ -47,8 +47,8 @@ def page(
 ) -> str:
     """Return the page.
 
-    stills: of each build. answers: with answers and solutions. for_print: without live figures, and
-    without builds that are stages on the way to the next one.
+    stills: of each build. answers: include answers and solutions. for_print: leave out live
+    figures, and builds that are stages on the way to the next one.
     """
     steps: list[str] = []
     tasks: dict[str, Any] = {}
@@ -100,7 +100,7 @@ def is_printed(step: Step, after: Step | None) -> bool:
 
 
 def _settings(step: Step) -> dict[str, Any]:
-    """Return what a build's pictures depend on, by names."""
+    """Return the settings that a build's pictures depend on, by name."""
     tables = {"view": view_table(step.view)} | step.changes
     return {"scene": id(step.scene), "views": step.views, "pixel": step.pixel} | {
         f"{name}.{key}": value
@@ -116,10 +116,10 @@ def is_answer(step: Step, lecture: Lecture) -> bool:
 
 
 class _Step:
-    """Writes a step at a build. name: its address. kind: more classes of it.
+    """A step at a build, as HTML. name: its address. kind: additional CSS classes.
 
     task, figure: the data of its exercise and of its live figure, or None.
-    answers: with answers. figures: None for a print.
+    answers: include answers. figures: None for a print.
     """
 
     def __init__(

@@ -24,7 +24,7 @@ COLOR = re.compile(r'"(#[0-9a-f]{6})"')  # of an attribute
 def data_uri(pixels: Bytes, form: Form = "webp", is_exact: bool = False) -> str:
     """Return a picture, (height, width, 3).
 
-    form: PDF files take JPEG as it is. is_exact: with every pixel as it is, in WebP.
+    form: PDF files keep JPEG unchanged. is_exact: lossless, in WebP.
     """
     file = io.BytesIO()
     image = Image.fromarray(np.ascontiguousarray(pixels))

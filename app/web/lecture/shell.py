@@ -1,4 +1,4 @@
-"""Write what surrounds the steps of a lecture's page: the bar, the overview, answers, keys."""
+"""The parts of a lecture's page around its steps: the bar, the overview, answers, keys."""
 
 from __future__ import annotations
 

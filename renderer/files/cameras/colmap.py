@@ -18,7 +18,8 @@ import numpy as np
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import viewport_of
-from lucida.renderer.files.cameras import colmap_binary, colmap_lenses, colmap_text
+from lucida.renderer.files.cameras import colmap_lenses
+from lucida.renderer.files.cameras import colmap_records as records
 from lucida.renderer.files.cameras.colmap_lenses import model_for
 from lucida.renderer.files.cameras.distortion import lens_of
 from lucida.renderer.files.cameras.entries import in_image
@@ -38,8 +39,8 @@ BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder keeps its m
 FOLDERS_UP = 3  # from the model to the folder that holds images/
 _Content = TypeVar("_Content")
 _READERS = {
-    ".bin": (colmap_binary.cameras, colmap_binary.images, colmap_binary.points),
-    ".txt": (colmap_text.cameras, colmap_text.images, colmap_text.points),
+    ".bin": (records.binary_cameras, records.binary_images, records.binary_points),
+    ".txt": (records.text_cameras, records.text_images, records.text_points),
 }
 
 

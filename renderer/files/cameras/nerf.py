@@ -1,7 +1,9 @@
 """NeRF's cameras: transforms.json as the synthetic scenes, instant-ngp and nerfstudio write it.
 
-transform_matrix is camera-to-world, with OpenGL's axes: x right, y up, looking along -z.
-Sources: nerfstudio's documentation, "Data conventions"; instant-ngp, "NeRF dataset tips".
+transform_matrix is camera-to-world, with OpenGL's axes: x right, y up, looking along -z. A
+camera_model is the whole file's.
+Sources: nerfstudio's documentation, "Data conventions", and its
+Cameras._generate_rays_from_coords(); instant-ngp, "NeRF dataset tips" and common_device.cuh.
 """
 
 from __future__ import annotations
@@ -9,18 +11,18 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import listed
+from lucida.renderer.camera.checks import Floats, listed
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.intrinsics import check_for_lens, pixel_offset, viewport_of
-from lucida.renderer.files.cameras import nerf_lens
-from lucida.renderer.files.cameras.distortion import FileLens
+from lucida.renderer.camera.intrinsics import pixel_offset
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, lens_of
 from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
@@ -30,54 +32,42 @@ from lucida.renderer.files.cameras.entries import (
     size_of,
 )
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.nerf_lens import (
-    NAMES,
-    PANORAMA,
-    coefficients,
-    is_panorama,
-    lens_in,
-    model_for,
-)
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
 from lucida.renderer.files.cameras.rigid import pinhole, pose_of
-from lucida.renderer.files.cameras.unused import entries_of, notes_on
-from lucida.renderer.system.errors import LucidaError, errors_as, under
+from lucida.renderer.files.cameras.unused import notes_on
+from lucida.renderer.system.errors import LucidaError, under
 
 Table = Mapping[str, Any]
 
-LENSES = nerf_lens.LENSES
+# The coefficients of Lens by their names here: four radial and two tangential ones.
+_OPENCV = {"k1": "k1", "k2": "k2", "k3": "k3", "k4": "r8", "p1": "p1", "p2": "p2"}
+_FISHEYE = {name: name for name in FISHEYE_NAMES}
+PANORAMA = "EQUIRECTANGULAR"
+# The model of Lens by the name of a camera_model; "" if all angles are those of a pinhole's lens.
+_MODELS = {
+    **dict.fromkeys(("", "PERSPECTIVE", "PINHOLE", "SIMPLE_PINHOLE"), "brown"),
+    **dict.fromkeys(("SIMPLE_RADIAL", "RADIAL", "OPENCV"), "brown"),
+    **dict.fromkeys(("SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE", "FISHEYE"), "fisheye"),
+    "OPENCV_FISHEYE": "fisheye",
+    PANORAMA: "equirectangular",
+}
+# The camera_model that is written, by the model of Lens.
+_WRITTEN = {
+    "brown": "OPENCV",
+    "fisheye": "OPENCV_FISHEYE",
+    "equidistant": "OPENCV_FISHEYE",
+    "equirectangular": PANORAMA,
+}
+LENSES = tuple(_WRITTEN)
 
-# All entries that determine a camera's optics, as opposed to its pose.
-_OPTICAL = {
+_USED = {
+    *("frames", "transform_matrix", "file_path", "camera_model", "is_fisheye", "latlong"),
     *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
-    *("camera_model", "is_fisheye"),
-    *NAMES,
-}
-_USED = {"frames", "transform_matrix", "file_path"}
-_HARMLESS = """
-aabb* renderaabb* *filename* *filepath* *path up camera*id cameralabel colmapimid rotation sharpness
-sharpen* *depth* *mask* *semantic* orientationoverride nextralearnabledims *transparent fixpremult
-wantimportance image*id *bounds near far time timestamp split
-"""
-_APPLIED = "it was applied to the poses, which are shown as they are in the file"
-_OF_PROGRAM = "the program's own units; the poses are shown as they are in the file"
-_MEANINGS = {
-    "applied*": _APPLIED,
-    "scale": _OF_PROGRAM,
-    "offset": _OF_PROGRAM,
-    "fisheyecropradius": "pixels outside of it are masked; the whole image's camera is shown",
-    "?fov": "degrees from edge to edge; fl_x or camera_angle_x is used",
-}
-# instant-ngp's lenses and axes that are not in camera_model; its equirectangular one is Lambert's.
-_REFUSED = {
-    "equirectangular": "is a lens that is not supported",
-    "orthographic": "is a lens that is not supported",
-    "fthetap*": "is an f-theta lens's",
-    "frommitsuba": "turns the axes of the poses",
-    "rollingshutter": "takes the rows of an image from different places",
+    *_OPENCV,
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
 _SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
+_ANY_SIZE = (1000, 1000)  # of an image of which only the angle is known
 
 
 def recognises(given: Given) -> bool:
@@ -97,43 +87,31 @@ def read(given: Given, options: Options) -> CameraSet:
         raise LucidaError("frames", "is missing" if frames is None else "is no list", "give frames")
     if not frames:
         raise LucidaError("frames", "is empty", "give a frame with its transform_matrix")
-    folder = given.path and given.path.parent
-    size, sizing = _size_for_all(table, frames, folder, options)
-    origin = options.pixel_origin or "corner"
-    shared = {name: value for name, value in table.items() if name in _OPTICAL}
-    optics: dict[str, _Optics] = {}  # by all the values that determine them
-    disagree = False
-    cameras = []
     for i, frame in enumerate(frames):
         if not isinstance(frame, dict):
             raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
+    folder = given.path and given.path.parent
+    size, sizing = _size_for_all(table, frames, folder, options)
+    origin = options.pixel_origin or "corner"
+    cameras = []
+    for i, frame in enumerate(frames):
         try:
-            pose = _pose({**table, **frame})
-            own = {name: value for name, value in frame.items() if name in _OPTICAL}
-            key = repr(own) if own else ""
-            if key not in optics:
-                optical = {**shared, **own}
-                optics[key] = _optics(optical, size, origin, options)
-                disagree = disagree or _disagree(optical)
-            name = frame.get("file_path", table.get("file_path", ""))
-            cameras.append(_camera(pose, optics[key], name, folder))
+            cameras.append(_camera({**table, **frame}, size, folder, options))
         except LucidaError as error:
             inside = error.field in ("transform_matrix", *frame)
             raise error.within(f"frames[{i}]") if inside else error from None
-    told = ["transform_matrix takes the camera's points to the world"]
-    told += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
+    taken = ["transform_matrix takes the camera's points to the world"]
+    taken += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
-        told.append("transform_matrix is no rotation, and held as it is")
-    if disagree:
-        told.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
-    notes = notes_on(_unused(table, frames), _HARMLESS, _MEANINGS, _REFUSED)
-    notes = (sizing, *notes) if sizing else notes
-    return CameraSet("nerf", tuple(cameras), (*told, *notes), notes=notes)
+        taken.append("transform_matrix is no rotation, and held as it is")
+    unused = (name for part in (table, *frames) for name in part if name not in _USED)
+    notes = (*filter(None, [sizing]), *notes_on(unused))
+    return CameraSet("nerf", tuple(cameras), (*taken, *notes), notes=notes)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     origin = options.pixel_origin or "corner"
-    model, frames = model_for(cameras), []
+    model, frames = _model_for(cameras), []
     for i, posed in enumerate(cameras):
         with under(posed.name):
             frames.append(_frame(posed, i, options, origin, model))
@@ -149,21 +127,11 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
 
 
-def _unused(table: Table, frames: Sequence[Table]) -> Iterator[tuple[str, Any]]:
-    """Yield the values that are not used, of the file and of its frames."""
-    for part in (table, *frames):
-        for name, value in part.items():
-            if name not in _USED | _OPTICAL:
-                yield from entries_of({name: value})
-
-
 def _size_for_all(
-    table: Table, frames: Sequence[Any], folder: Path | None, options: Options
+    table: Table, frames: Sequence[Table], folder: Path | None, options: Options
 ) -> tuple[Size | None, str]:
     """Return the size for frames that have none, and its origin in words."""
-    lacking = [
-        frame for frame in frames if isinstance(frame, dict) and not {"w", "h"} & {*table, *frame}
-    ]
+    lacking = [frame for frame in frames if not {"w", "h"} & {*table, *frame}]
     if not lacking or options.size is not None:
         return options.size, ""
     image = _image(lacking[0].get("file_path", ""), folder)
@@ -197,86 +165,63 @@ def _image(name: object, folder: Path | None) -> str:
     return str(path if _ENDING.search(path.name) else path.with_name(f"{path.name}.png"))
 
 
-def _pose(table: Table) -> list[Any]:
-    """Return (u, v, w, eye) of one frame. Raises LucidaError."""
+def _camera(table: Table, size: Size | None, folder: Path | None, options: Options) -> PosedCamera:
+    """Return the camera of a frame. table: of the file and of the frame. Raises LucidaError."""
+    name = table.get("file_path", "")
+    image = _image(name, folder)
     if "transform_matrix" not in table:
         raise LucidaError("transform_matrix", "is missing", "give 4 x 4 numbers")
-    columns: list[Any] = affine("transform_matrix", table["transform_matrix"])[:3].T.tolist()
-    return columns
-
-
-class _Optics(NamedTuple):
-    """Everything about a frame but its pose.
-
-    viewport: at distance 1. signs: factors of u and v, -1 for a mirrored image.
-    """
-
-    size: Size | None
-    viewport: tuple[float, float, float, float]
-    signs: tuple[int, int] = (1, 1)
-    lens: FileLens = FileLens(None, None)
-
-
-def _camera(pose: list[Any], optics: _Optics, name: object, folder: Path | None) -> PosedCamera:
-    image = _image(name, folder)
-    u, v, w, eye = map(tuple, pose)
-    if optics.signs != (1, 1):
-        u, v = (
-            tuple(sign * part for part in axis)
-            for axis, sign in zip((u, v), optics.signs, strict=True)
-        )
+    world_from_camera = affine("transform_matrix", table["transform_matrix"])
+    if "w" in table or "h" in table:
+        for side in "wh":
+            if side not in table:
+                raise LucidaError(side, "is missing", "give w and h, or neither and --size WxH")
+        size = size_of("w", table["w"], table["h"])
+    is_panorama = table.get("camera_model") == PANORAMA or bool(table.get("latlong"))
+    if size is None and (is_panorama or "fl_x" in table or "camera_angle_x" not in table):
+        raise LucidaError("w", "is missing", "give w and h, or --size WxH")
+    pixels = size or _ANY_SIZE
+    K = _intrinsics(table, pixels, pixel_offset(options.pixel_origin or "corner"))
+    lens, ignored = _lens(table, is_panorama, options)
     try:
-        camera = Camera(eye, u, v, w, 1.0, optics.viewport, lens=optics.lens.used)
-    except LucidaError as error:
-        if error.field not in ("u", "v", "w"):
-            raise
+        with np.errstate(all="ignore"):
+            pose = np.linalg.inv(world_from_camera)
+        camera = Camera.from_intrinsics(
+            K, size=pixels, camera_from_world=pose, axes="opengl", pixel_origin="corner", lens=lens
+        )
+    except np.linalg.LinAlgError:
+        u, v, w, _ = world_from_camera[:3].T
         problem = f"has columns {listed(u)}, {listed(v)} and {listed(w)}: it has no inverse"
         raise LucidaError("transform_matrix", problem, "give a rotation") from None
-    name = str(name).removeprefix("./")
-    return PosedCamera(camera, optics.size, name, image, ignored=optics.lens.ignored)
+    except LucidaError as error:
+        field = "fl_x" if error.field == "K" else "transform_matrix"
+        raise LucidaError(field, error.problem, error.remedy) from None
+    return PosedCamera(camera, size, name.removeprefix("./"), image, ignored=ignored)
 
 
-def _optics(table: Table, size: Size | None, origin: str, options: Options) -> _Optics:
-    """Return the optics of a table.
+def _intrinsics(table: Table, size: Size, offset: float) -> Floats:
+    """Return K, from the image's corner. offset: of whole numbers in the file from there."""
+    width, height = size
 
-    table: optical entries only, so that frames with equal entries share their optics. size: for
-    tables without one. Raises LucidaError.
-    """
-    if "w" in table or "h" in table:
-        for name in "wh":
-            if name not in table:
-                raise LucidaError(name, "is missing", "give w and h, or neither and --size WxH")
-        size = size_of("w", table["w"], table["h"])
-    if size is None:
-        half = _half_of_square(table)
-        return _Optics(None, (-half, half, -half, half), lens=lens_in(table, options))
-    fx, fy, cx, cy = _intrinsics(table, size)
+    def entry(name: str, default: float) -> float:
+        return number_of(name, table[name]) if name in table else default
+
+    if table.get("latlong"):  # of the whole sphere
+        fx, fy = width / (2 * math.pi), height / math.pi
+        return np.array([[fx, 0, width / 2], [0, fy, height / 2], [0, 0, 1.0]])
+    if "fl_x" in table:
+        fx = fy = entry("fl_x", 0.0)
+    elif "camera_angle_x" in table:
+        fx = fy = width / 2 / _half_width(table, "camera_angle_x")
+        if "camera_angle_y" in table:
+            fy = height / 2 / _half_width(table, "camera_angle_y")
+    else:
+        raise LucidaError("fl_x", "is missing", "give fl_x or camera_angle_x")
+    fy = entry("fl_y", fy)
+    cx, cy = entry("cx", width / 2) + offset, entry("cy", height / 2) + offset
     if table.get("camera_model") == PANORAMA:
         fx, fy = fx / math.pi, fy / math.pi
-    with errors_as("fl_x"):
-        viewport = viewport_of(fx, fy, cx, cy, size, origin)
-    lens = lens_in(table, options)
-    signs = (-1 if fx < 0 else 1, -1 if fy < 0 else 1)
-    if lens.used is not None:
-        with errors_as("fl_x"):
-            check_for_lens(np.diag([fx, fy, 1.0]))
-    return _Optics(size, viewport, signs, lens)
-
-
-def _disagree(table: Table) -> bool:
-    """Return True if both forms of the focal length are given and differ by more than 1 %."""
-    angle = table.get("camera_angle_x")
-    if not isinstance(angle, float) or not 0 < angle < math.pi or not {"fl_x", "w"} <= table.keys():
-        return False
-    fx = table["w"] / 2 / math.tan(angle / 2)
-    return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
-
-
-def _half_of_square(table: Table) -> float:
-    """Return half the width, at distance 1, of an image of which only the angle is known."""
-    if is_panorama(table) or "fl_x" in table or "camera_angle_x" not in table:
-        raise LucidaError("w", "is missing", "give w and h, or --size WxH")
-    return _half_width(table, "camera_angle_x")
+    return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
 
 
 def _half_width(table: Table, name: str) -> float:
@@ -288,24 +233,42 @@ def _half_width(table: Table, name: str) -> float:
     return math.tan(angle / 2)
 
 
-def _intrinsics(table: Table, size: Size) -> tuple[float, float, float, float]:
-    """Return fx, fy, cx and cy."""
-    width, height = size
+def _lens(table: Table, is_panorama: bool, options: Options) -> FileLens:
+    given = PANORAMA if is_panorama else table.get("camera_model", "")
+    model = _MODELS.get(given) if isinstance(given, str) else None
+    if model is None:
+        problem = f"{given!r} is a lens that is not supported"
+        raise LucidaError("camera_model", problem, "give images of a camera with another lens")
+    if model == "brown" and table.get("is_fisheye") is True:
+        model = "fisheye"
+    names = {"brown": _OPENCV, "fisheye": _FISHEYE}.get(model, {})
+    found = {own: number_of(name, table[name]) for name, own in names.items() if name in table}
+    return lens_of(model, found, options)
 
-    if table.get("latlong"):  # of the whole sphere
-        return width / (2 * math.pi), height / math.pi, width / 2, height / 2
 
-    def entry(name: str, default: float) -> float:
-        return number_of(name, table[name]) if name in table else default
+def _model_for(cameras: Sequence[PosedCamera]) -> str:
+    """Return the camera_model of a file, which is for all of its frames. Raises LucidaError."""
+    lenses = [posed.camera.lens for posed in cameras]
+    kinds = {"PINHOLE" if lens is None else _WRITTEN[lens.model] for lens in lenses}
+    if kinds == {"PINHOLE", "OPENCV"}:
+        return "OPENCV"
+    if len(kinds) > 1:
+        problem = f"is {' and '.join(sorted(kinds))}, and a transforms.json has one for all frames"
+        raise LucidaError("camera_model", problem, "choose cameras with --frame or --image")
+    return kinds.pop() if kinds else "PINHOLE"
 
-    if not {"fl_x", "camera_angle_x"} & table.keys():
-        raise LucidaError("fl_x", "is missing", "give fl_x or camera_angle_x")
-    by_angle = "fl_x" not in table
-    fx = width / 2 / _half_width(table, "camera_angle_x") if by_angle else entry("fl_x", 0.0)
-    fy = fx
-    if by_angle and "camera_angle_y" in table and "fl_y" not in table:
-        fy = height / 2 / _half_width(table, "camera_angle_y")
-    return fx, entry("fl_y", fy), entry("cx", width / 2), entry("cy", height / 2)
+
+def _coefficients(lens: Lens | None, model: str) -> dict[str, float]:
+    """Return the lens's numbers in a frame. Raises LucidaError."""
+    known = {"OPENCV": _OPENCV, "OPENCV_FISHEYE": _FISHEYE}.get(model, {})
+    if lens is None:
+        return dict.fromkeys(known, 0.0)
+    for name, value in lens.coefficients.items():
+        if value and name not in known.values():
+            problem = f"{value:g} is a term that a transforms.json has not"
+            remedy = "leave it out, or give --ignore-distortion"
+            raise LucidaError(f"lens.{name}", problem, remedy)
+    return {written: lens.coefficient(name) for written, name in known.items()}
 
 
 def _frame(
@@ -313,7 +276,7 @@ def _frame(
 ) -> dict[str, Any]:
     camera, size = in_image(posed, options, "NeRF")
     camera, (fx, fy, cx, cy) = pinhole(camera, size, "NeRF")
-    offset, frame = pixel_offset(origin), coefficients(camera.lens, model)
+    offset, frame = pixel_offset(origin), _coefficients(camera.lens, model)
     if model == PANORAMA:
         fx, fy = math.pi * fx, math.pi * fy
     else:

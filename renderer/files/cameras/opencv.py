@@ -7,7 +7,6 @@ Source: OpenCV's documentation, "Camera calibration and 3D reconstruction".
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -36,7 +35,7 @@ from lucida.renderer.files.cameras.entries import (
     size_of,
 )
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.literals import NAME
+from lucida.renderer.files.cameras.literals import assigned
 from lucida.renderer.files.cameras.opencv_keys import Keys, are_cameras, bare, cameras_in
 from lucida.renderer.files.cameras.opencv_lens import lens_in, lens_table
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
@@ -50,16 +49,12 @@ from lucida.renderer.files.cameras.storage import (
     to_json,
     to_yaml,
 )
-from lucida.renderer.files.cameras.unused import entries_of, numbers_in
+from lucida.renderer.files.cameras.unused import entries_of, notes_on, numbers_in
 from lucida.renderer.system.errors import LucidaError
 
 LENSES = ("brown", "fisheye", "equidistant")
 _FOCAL = ("fx", "fy", "cx", "cy")
-_NAMED = re.compile(NAME + "[=:]", re.MULTILINE)
-# A matrix without a name in pasted text: its meaning is unknown.
-_NAMELESS = re.compile(r"(?:\A|[^\s=:,\[({][ \t]*\n)\s*(?:[A-Za-z_][\w.]*\()?[\[({]\s*[\[({]")
-_AGREE = 1e-4  # tolerance between poses, if a file has several for a camera
-
+_STRAIGHT = 1e-4  # tolerance of a rotation that is none
 _NO_POSE = 1e-9  # a smaller pose is rounding
 
 _Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
@@ -75,9 +70,7 @@ def recognises(given: Given) -> bool:
     elif given.is_text:
         if "<opencv_storage" in given.text or is_ini(given.text):
             return True
-        if given.path is None and _NAMELESS.search(given.text):
-            return False
-        names = _NAMED.findall(given.text)
+        names = list(assigned(given.text))
     else:
         return False
     return are_cameras({bare(name.rpartition(".")[2]) for name in names})
@@ -99,7 +92,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
         lens, ignored = lens_in(keys, options)
         intrinsics = _intrinsics(keys)
         size, sizing = _size(keys, intrinsics[1], options, origin)
-        poses, told = _poses(keys, pose)
+        poses, told, others = _poses(keys, pose)
         pose = poses[0][1]
         name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
         for called, pose_of_one in poses:
@@ -109,7 +102,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
         taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
         if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
             taken["R is no rotation, and held as it is"] = None
-        notes |= dict.fromkeys([sizing] if sizing else [])
+        notes |= dict.fromkeys([*filter(None, [sizing]), *notes_on(others)])
     notes |= dict.fromkeys(unused)
     return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
@@ -202,39 +195,33 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
     return size, told
 
 
-def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str]:
-    """Return the poses of a camera, and their origin in words.
+def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str, list[str]]:
+    """Return the poses of a camera, their origin in words, and the names of poses that are not
+    used.
 
-    previous: the pose of the camera before it. Raises LucidaError for two poses that disagree.
+    previous: the pose of the camera before it.
     """
     for role in ("from previous", "to previous"):
         if found := keys.get(role):
             change = affine(*found)
             if role == "to previous":
                 change = as_camera_from_world(change)
-            return [(found[0], change @ previous)], f"{found[0]} places it at the camera before it"
+            told = f"{found[0]} places it at the camera before it"
+            return [(found[0], change @ previous)], told, []
     poses = list(_single_poses(keys))
+    names = [name for name, _, _ in poses]
     if found := keys.get("views"):
         numbers = flat(*found)
         if not numbers.size or numbers.size % 6:
             problem = f"has {numbers.size} numbers"
             raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
-        if poses:
-            raise _disagreeing(poses[0][0], found[0])
         rows = numbers.reshape(-1, 6)
         views = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
-        return views, f"{found[0]}: rvec and tvec of each picture of the calibration"
+        return views, f"{found[0]}: rvec and tvec of each picture of the calibration", names
     if not poses:
-        return [("", np.eye(4))], "no pose: the camera stands at the origin"
+        return [("", np.eye(4))], "no pose: the camera stands at the origin", []
     first, pose, told = poses[0]
-    for name, other, _ in poses[1:]:
-        if np.abs(other - pose).max() > _AGREE * max(1.0, np.abs(pose).max()):
-            raise _disagreeing(name, first)
-    return [(first, pose)], told
-
-
-def _disagreeing(name: str, other: str) -> LucidaError:
-    return LucidaError(name, f"is another pose than {other}", "give one of the two")
+    return [(first, pose)], told, names[1:]
 
 
 def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
@@ -252,7 +239,7 @@ def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
     has_K, in_pair = not {"K", "fx"}.isdisjoint(keys), np.eye(4)
     if (found := keys.get("P")) and not (has_K and not numbers_in(found[1]).any()):
         pose = _projected(*found)[1]
-        if has_K and not moved and np.allclose(pose[:3, :3], np.eye(3), rtol=0, atol=_AGREE):
+        if has_K and not moved and np.allclose(pose[:3, :3], np.eye(3), rtol=0, atol=_STRAIGHT):
             # ROS: R rotates into the rectified image, which P is for.
             in_pair, rectified, turned = pose, rectified or turned, None
         else:
@@ -273,12 +260,8 @@ def _parts(turned: _Entry, vector: _Entry, moved: _Entry, what: str) -> tuple[st
     if turned:
         numbers = flat(*turned, 9, 3)
         R = numbers.reshape(3, 3) if numbers.size == 9 else from_vector(numbers)
-    if vector:
-        other = from_vector(flat(*vector, 3))
-        if turned and np.abs(other - R).max() > _AGREE:
-            problem = f"is another rotation than {turned[0]}"
-            raise LucidaError(vector[0], problem, "give one of the two")
-        R = R if turned else other
+    elif vector:
+        R = from_vector(flat(*vector, 3))
     t = flat(*moved, 3) if moved else np.zeros(3)
     used = [entry[0] for entry in (turned or vector, moved) if entry]
     lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"

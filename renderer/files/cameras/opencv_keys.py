@@ -15,8 +15,7 @@ import numpy as np
 
 from lucida.renderer.files.cameras.distortion import NAMES
 from lucida.renderer.files.cameras.storage import Table
-from lucida.renderer.files.cameras.unused import entries_of, notes_on, numbers_in, plain
-from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.files.cameras.unused import entries_of, notes_on, plain
 
 Keys = dict[str, tuple[str, Any]]  # by role: the file's name for it, and its value
 
@@ -67,25 +66,6 @@ _STEREO = re.compile(
 )
 _SIDES = {"1": "left", "2": "right"}
 _OF_FIRST = {"to world", "R to world", "t to world"}  # poses of the first of several cameras
-_HARMLESS = """
-r1 r2 p1 p2 q e f validpixroi* *points nrofframes nframes calibrationtime calibrationdate
-conventions board* *pattern* square* marker* flags *aspect* *reprojection* *rms* *err calibrat*
-write* show* input* *fps *rgb thdepth *.thdepth depthmapfactor *.depthmapfactor orbextractor.*
-viewer.* initializer.* tracking.* mapping.* mapper.* preprocessing.* pangolinviewer.* *publisher.*
-feature.* keyframe* loop* relocalizer.* system.* file.version camera.setup *colororder sensortype
-comment ratehz *topic* camoverlaps timeshiftcamimu header.* imu imu.freq* imu.insert* imu.rate
-estimate* output* max* min* freq* fthreshold equalize *noise* *walk* acc? gyr? gnorm td
-rollingshutter* solver* load* save* posegraph* numofcam cam?calib
-"""
-_MEANINGS = {
-    "*bf": "the stereo baseline times fx; only this camera is shown",
-    "*baseline*": "the stereo baseline; only this camera is shown",
-    "stereo.b": "the stereo baseline; only this camera is shown",
-    "*roi*": "the part of the sensor that was read; the whole image's camera is shown",
-    "binning*": "the pixels that were merged; the whole image's camera is shown",
-    "*new*width": "the size that the program scales images to; the calibrated size is shown",
-    "*new*height": "the size that the program scales images to; the calibrated size is shown",
-}
 
 
 def are_cameras(names: set[str]) -> bool:
@@ -99,7 +79,7 @@ def are_cameras(names: set[str]) -> bool:
 def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     """Return the keys of each camera, by its name, "" for one without; and notes on unused keys.
 
-    Raises LucidaError for an unused key that matters, and for two keys that disagree.
+    Of several keys with one role, the first counts.
     """
     entries, tables = list(entries_of(table)), dict[str, set[str]]()
     for name, _ in entries:
@@ -121,19 +101,16 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
             owner = ""
         if head == "projection_parameters" and last in ("k2", "k3", "k4", "k5"):
             role = f"k{int(last[1]) - 1}"  # Kannala and Brandt's k1 is the focal length
-        if role is None or (role in _NUMBERS and np.size(value) != 1):
-            unused.append((name, value))
-            continue
-        first, other = cameras.setdefault(owner, {}).setdefault(role, (name, value))
-        if first != name and not _same(value, other):
-            raise LucidaError(name, f"is not the same as {first}", "remove one of the two")
-    notes = notes_on(unused, _HARMLESS, _MEANINGS)
+        keys = cameras.setdefault(owner, {})
+        if role is None or role in keys or (role in _NUMBERS and np.size(value) != 1):
+            unused.append(name)
+        else:
+            keys[role] = name, value
     shared = cameras.pop("")
     if "right" in cameras:
         cameras["right"] |= {role: shared.pop(role) for role in ("R", "t") if role in shared}
     if cameras.get("Camera2", {}).keys() == {"to previous"}:
-        name, _ = cameras.pop("Camera2")["to previous"]
-        notes = (*notes, f"{name} is not used: the second camera's intrinsics are not given")
+        unused.append(cameras.pop("Camera2")["to previous"][0])
     for name in [name for name in cameras if name.lower() == "camera"]:
         if not _INTRINSIC & cameras[name].keys():  # it belongs to Camera1 and Camera2
             shared |= cameras.pop(name)
@@ -145,7 +122,7 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     for name in names[1:]:
         for role in _OF_FIRST & shared.keys():
             found[name].pop(role)
-    return found, notes
+    return found, notes_on(unused)
 
 
 def bare(name: str) -> str:
@@ -155,8 +132,3 @@ def bare(name: str) -> str:
 def _owner(name: str) -> str:
     """Return the name of the table that holds a key, without those for parts of a camera."""
     return _PART.sub("", name.rpartition(".")[0])
-
-
-def _same(one: Any, other: Any) -> bool:
-    a, b = numbers_in(one), numbers_in(other)
-    return np.array_equal(a, b) if a.size else bool(one == other)

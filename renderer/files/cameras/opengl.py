@@ -6,17 +6,16 @@ Source: Khronos, "OpenGL 3.3 core", Coordinate transformations.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, Vector, listed
-from lucida.renderer.camera.intrinsics import matrix
-from lucida.renderer.files.cameras.entries import in_image, single
+from lucida.renderer.files.cameras.entries import flat, in_image, single
 from lucida.renderer.files.cameras.given import Given, Options
+from lucida.renderer.files.cameras.literals import assigned, value_of
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
 from lucida.renderer.files.cameras.unused import notes_on
 from lucida.renderer.files.reading import check_bytes
@@ -32,16 +31,6 @@ FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far not the 
 _OURS = ("camera_from_world", "clip_from_camera")
 _VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
 _CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-_COMMENT = re.compile(r"(?:#|//)[^\n]*")
-_WORD = re.compile(r"\b[A-Za-z_]\w*")
-# A name, with the length of an array: "view[16] =", "view(" of one of the two, "model:".
-_ASSIGNED = re.compile(
-    rf"""\b(?!(?:elements|data|dtype)\b)(?:({"|".join((*_VIEW, *_CLIP))})\b["']?\s*"""
-    r"""(?:\[\s*\d*\s*\]\s*)?[=:(]|([A-Za-z_]\w*)["']?\s*(?:\[\s*\d*\s*\]\s*)?[=:])"""
-)
-# Other matrices that follow from the two, and the parts of a matrix in JSON.
-_HARMLESS = "*inverse *viewproj* *projview* *mvp vp pv normalmatrix *matrixworld"
 # Depths of the near and the far plane: OpenGL's; the same reversed; and both of other programs.
 _RANGES = ((-1, 1), (1, -1), (1, 0), (0, 1))
 _ENDLESS = 1e-7  # relative to near: float32's rounding of an infinite far
@@ -58,8 +47,10 @@ def has_matrices(text: str) -> bool:
     found = _assigned(text)
     if not found.keys().isdisjoint(_OURS):
         return True
-    names = (next(filter(found.get, known), "") for known in (_VIEW, _CLIP))
-    return all(len(found.get(name, ())) == 16 for name in names)
+    try:
+        return all(_matrix(found, names)[1].size for names in (_VIEW, _CLIP))
+    except LucidaError:
+        return False
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -68,8 +59,7 @@ def read(given: Given, options: Options) -> CameraSet:
     (view_name, view), (clip_name, clip) = (_matrix(found, known) for known in (_VIEW, _CLIP))
     names = (view_name, clip_name)
     camera, taken = _camera(names, view, clip, FITTED in given.text or CHOSEN in given.text)
-    others = ((name, x) for name, x in found.items() if name not in names and len(x) == 16)
-    notes = notes_on(others, _HARMLESS, {})
+    notes = notes_on(name for name in found if name not in names)
     return CameraSet("opengl", (PosedCamera(camera, options.size),), (*taken, *notes), notes=notes)
 
 
@@ -106,27 +96,19 @@ def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _assigned(text: str) -> dict[str, list[float]]:
-    """Return up to 16 numbers after each name in JSON, Python, C and the like, before the next."""
-    text = _COMMENT.sub(" ", text)
-    places = list(_ASSIGNED.finditer(text))
-    ends = [*(place.start() for place in places[1:]), len(text)]
-    found: dict[str, list[float]] = {}
-    for place, end in zip(places, ends, strict=False):
-        rest = _WORD.sub(" ", text[place.end() : end].partition(";")[0])
-        numbers = [float(number) for number in _NUMBER.findall(rest)[:16]]
-        found.setdefault(place[1] or place[2], numbers)
-    return found
+def _assigned(text: str) -> dict[str, str]:
+    """Return what follows each name, without the type that stands before it in C."""
+    return {name.rpartition(" ")[2]: value for name, value in assigned(text).items()}
 
 
-def _matrix(found: Mapping[str, list[float]], names: tuple[str, ...]) -> tuple[str, Floats]:
-    """Return the name that is present, and its numbers, four per row in the order of the text."""
+def _matrix(found: dict[str, str], names: tuple[str, ...]) -> tuple[str, Floats]:
+    """Return the name that is present, and its numbers, four per row in the order of the text,
+    regardless of a transposition there: _orders() finds the order out.
+    """
     name = next((name for name in names if name in found), None)
     if name is None:
         raise LucidaError(names[0], "is missing", "copy both matrices")
-    if len(found[name]) < 16:
-        raise LucidaError(name, f"has {len(found[name])} numbers", "give 16")
-    return name, matrix(name, found[name], (16,)).reshape(4, 4)
+    return name, flat(name, value_of(name, found[name].replace(".T", "")), 16).reshape(4, 4)
 
 
 @np.errstate(all="ignore")  # Camera's own checks reject what overflows
@@ -222,14 +204,11 @@ def _clip_planes(
         problem = f"its third row {listed(clip[2])} has no near before far"
         raise LucidaError(name, problem, "give depths from -1 to 1, or from 0 to 1")
     depths, near, far = planes[0]
-    told = []
-    if name != _OURS[1]:
-        others = "".join(
-            f"; if to {other[0]} and {other[1]}, they are {n:g} and {f:g}"
-            for other, n, f in planes[1:]
-        )
-        sides = f"near = {near:g} and far = {far:g}"
-        told = [f"{name} takes {sides} to depths {depths[0]} and {depths[1]}{others}"]
+    others = "".join(
+        f"; if to {other[0]} and {other[1]}, they are {n:g} and {f:g}" for other, n, f in planes[1:]
+    )
+    sides = f"near = {near:g} and far = {far:g}"
+    told = [f"{name} takes {sides} to depths {depths[0]} and {depths[1]}{others}"]
     if near <= 0:
         told.append(f"{name} has near = {near:g}, behind the eye: nothing behind the eye is seen")
     return near if near > 0 else None, far if 0 < far < np.inf else None, told

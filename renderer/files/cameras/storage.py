@@ -1,12 +1,11 @@
 """Tables of named values: OpenCV's FileStorage (YAML, JSON, XML), ROS's YAML, and pasted text.
 
-Parses the notations, and returns plain Python values: numbers, texts, lists and NumPy arrays.
+Parses the notations, and returns plain Python values: numbers, texts and lists.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import re
 from typing import Any
 from xml.etree import ElementTree
@@ -54,7 +53,8 @@ def table_in(given: Given) -> Table:
         table = values_in(text)
     if not isinstance(table, dict):
         raise LucidaError("", "holds no names with values", "give e.g. camera_matrix: ...")
-    return {str(name): _value(str(name), value) for name, value in table.items()}
+    values: Table = _value(table)
+    return values
 
 
 def is_ini(text: str) -> bool:
@@ -90,50 +90,24 @@ def _as_json(value: Any) -> Any:
     return {"type_id": "opencv-matrix", "rows": rows, "cols": cols, "dt": "d", "data": data}
 
 
-def _value(name: str, value: Any) -> Any:
-    """Return a matrix of sides and data as an array, within tables too; other values unchanged.
-
-    The sides are rows and cols, or the sizes of an array that has not two (OpenCV 5).
-    """
-    if isinstance(value, dict) and "data" not in value:
-        return {str(key): _value(f"{name}.{key}", part) for key, part in value.items()}
+def _value(value: Any) -> Any:
+    """Return a value in which a table that has data is only its data: a matrix, row by row."""
     if not isinstance(value, dict):
         return value
-    if value.keys() >= {"rows", "cols"}:
-        sides, told = [value["rows"], value["cols"]], "{!r} rows and {!r} columns"
-    elif "sizes" in value:
-        sides, told = np.ravel(value["sizes"]).tolist(), "sizes other than counts"
-    else:
-        return value
-    if not all(type(side) is int and side >= 0 for side in sides):
-        raise LucidaError(name, f"has {told.format(*sides)}", "give whole numbers")
-    try:
-        numbers = np.asarray(value["data"])
-    except (TypeError, ValueError):
-        numbers = np.array("")
-    if numbers.dtype.kind not in "iuf":
-        raise LucidaError(f"{name}.data", "is not a list of numbers", "give numbers")
-    count = math.prod(sides)
-    channels = numbers.size // max(count, 1)
-    if count * channels != numbers.size or (numbers.size == 0) != (count == 0):
-        problem = f"has {numbers.size} numbers for {' rows of '.join(map(str, sides))}"
-        raise LucidaError(f"{name}.data", problem, f"give {count}")
-    return numbers.astype(np.float64).reshape(sides + [channels] * (channels > 1))
+    if "data" in value:
+        return value["data"]
+    return {str(name): _value(part) for name, part in value.items()}
 
 
-def xml_root(text: str) -> ElementTree.Element:
+def _from_xml(text: str) -> Any:
     """Parse XML without declarations, which might expand without end. Raises LucidaError."""
     if "<!" in re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL):
         raise LucidaError("", "holds a declaration (<!)", "give the program's own XML")
     try:
-        return ElementTree.fromstring(text.encode())
+        root = ElementTree.fromstring(text.encode())
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         problem = f"is no XML: {error}"
         raise LucidaError("", problem, "correct it there") from None
-
-
-def _from_xml(text: str) -> Any:
-    root = xml_root(text)
     if root.tag != "opencv_storage":
         problem = f"is XML of another kind: {root.tag}"
         raise LucidaError("", problem, "give OpenCV's <opencv_storage>")

@@ -1,9 +1,8 @@
 """Memory for images, reused as soon as nothing refers to it.
 
-Keeps the blocks that are idle between two images. A live image has 10 to 100 MB. The system
-provides fresh memory page by page: thousands of page faults, which can take as long as the tracing.
-All channels of an image therefore share one block, which returns here when the last array in it is
-freed.
+Blocks are kept between two images. A live image has 10 to 100 MB. The system provides fresh memory
+page by page: thousands of page faults, which can take as long as the tracing. All channels of an
+image therefore share one block, which returns here when the last array in it is freed.
 """
 
 from __future__ import annotations

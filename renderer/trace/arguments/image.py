@@ -29,7 +29,7 @@ _LAYOUT: dict[str, tuple[tuple[int, ...], type, float]] = {
 class Rows(NamedTuple):
     """Some rows of an image of (width, height) `size`: from `first` up to, not including, `end`.
 
-    They have the bits that they have in the whole image if `first` is a multiple of BLOCK.
+    They equal those of the whole image, bit for bit, if `first` is a multiple of BLOCK.
     """
 
     size: tuple[int, int]

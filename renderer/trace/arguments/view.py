@@ -17,8 +17,8 @@ class KernelView(NamedTuple):
     last bit.
 
     back: distance * w in perspective, w in parallel projection. t_min, t_max: near and far as
-    ray parameters. directions: those of all pixels' rays, (height, width, 3), NaN outside of the
-    lens; without a lens there are none, and packets do not need them.
+    ray parameters. directions: of all pixels' rays, (height, width, 3), NaN outside the lens; empty
+    without a lens, and for packets.
     """
 
     eye: Vector

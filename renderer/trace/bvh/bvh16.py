@@ -61,10 +61,10 @@ class WideTree(NamedTuple):
 
     box: float32, for each node low x, y, z, high x, y, z, each of 16 children. The boxes of missing
         children are inside out.
-    child: int32, 16 per node: >= 0 for a node, NO_CHILD, or FIRST_LEAF - k for leaf k. corner:
-    float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles. face: int32, 16 per
-    leaf: the number of each triangle, -1 in unused places (whose corners are NaN).
-        A triangle's index in this array is called its slot.
+    child: int32, 16 per node: >= 0 for a node, NO_CHILD, or FIRST_LEAF - k for leaf k.
+    corner: float32, for each leaf x, y, z of the corners a, b, c, each of 16 triangles.
+    face: int32, 16 per leaf: the number of each triangle, -1 in unused places (whose corners are
+        NaN). A triangle's index in this array is called its slot.
     normal: float32, for each leaf x, y, z of 16 unit normals by the winding; 0 for no area.
     bounds: float64 (2, 3), lowest and highest corner.
     levels: number of nodes on the longest path from the root; it bounds a traversal's stack.
@@ -161,7 +161,7 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
     levels.
 
     First, compute the cost of each binary node: the least total surface of the wide nodes that its
-    subtree takes if the node above gives it 1 to WIDTH slots. In one slot: its own surface, plus
+    subtree takes if it has 1 to WIDTH slots in the node above. In one slot: its own surface, plus
     the cost of its children in WIDTH slots. In more: the same, or the cost of its children when
     they share these slots in the best way. Then create the wide nodes from the root on, according
     to the costs. below: scratch for the number of leaves below each binary node. row: the start of

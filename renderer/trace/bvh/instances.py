@@ -51,12 +51,12 @@ class World(NamedTuple):
 
     box, child, corner, face, normal: the nodes and leaves of all meshes, one after another.
     top_box, top_child: the upper tree; its leaf k is item k: instance k, or sphere k - instances.
-    top: the start of a traversal: node 0, or the leaf if there is only one item. root: int32, the
-    root node of an instance's tree. root_object: int32, its object. first_primitive: int32, the
-    offset from a triangle's face number to its primitive number. object_from_world: float64, 12 per
-    instance: the upper three rows of the matrix. normal_matrix: float32, 9 per instance, row by
-    row: transforms a normal to world space and keeps it
-        on the winding's side; its length changes only if the transform changes angles.
+    top: the start of a traversal: node 0, or the leaf if there is only one item.
+    root: int32, the root node of an instance's tree. root_object: int32, its object.
+    first_primitive: int32, the offset from a triangle's face number to its primitive number.
+    object_from_world: float64, 12 per instance: the upper three rows of the matrix.
+    normal_matrix: float32, 9 per instance, row by row: transforms a normal to world space and keeps
+        it on the winding's side; its length changes only if the transform changes angles.
     attributes: int32, HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE,
         IS_SINGLE_SIDED, HAS_HOLES.
     dark_cosine: float32, for each object the cosine below which its highlights are negligible.

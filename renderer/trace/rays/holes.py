@@ -1,4 +1,4 @@
-"""Holes that a single ray passes through: where a texture's opacity is below the cutout."""
+"""Holes that a single ray passes through, where a texture's opacity is below the cutout."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The image-order kernel: the picture, pixel by pixel, along one viewing ray each.
+"""The image-order kernel: it traces the image pixel by pixel, along one viewing ray each.
 
 Each thread of a team calls trace_image() with the same arguments; they share the blocks.
 """

@@ -170,13 +170,14 @@ def _place(scene, number, point, primitive, b1, b2):
 
 @inlined
 def passes(scene, direction, triangle, b1, b2):
-    """Return whether a ray passes a triangle that it meets: by its back, where that is not seen, or
-    through a hole."""
+    """Return True if a ray passes a triangle that it meets: by a back that is not seen, or through
+    a hole.
+    """
     number = scene.face_object[triangle]
     if scene.single_sided[number]:
         i, j, k = corners_of(scene.faces, triangle)
         a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)
-        # The back is that of the object's own space, also where that is seen in a mirror.
+        # The object's own space decides which side is the back, even if its transform mirrors it.
         matrix = scene.world_from_object[number]
         volume = dot(cross(row(matrix, FIRST), row(matrix, SECOND)), row(matrix, THIRD))
         normal = cross(turned(matrix, minus(b, a)), turned(matrix, minus(c, a)))
@@ -225,7 +226,7 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
 
 class LightAt(NamedTuple):
     """A light as a point sees it. to_light, half: the unit vectors l and h, 0 where there is none;
-    distance: to it, infinite where it is directional; n_dot_l, n_dot_h: cosines with the normal."""
+    distance: to it, infinite if it is directional; n_dot_l, n_dot_h: cosines with the normal."""
 
     to_light: tuple[float, float, float]
     distance: float
@@ -236,7 +237,7 @@ class LightAt(NamedTuple):
 
 @inlined
 def light_at(lamp, point, along, normal):
-    """Return the light `lamp`, of the scene's, at a point with a unit normal.
+    """Return the scene's light `lamp` as a point with a unit normal sees it.
 
     along: the unit vector from the viewer. The probe has the same terms
     (app/ui/explaining/shading.py).

@@ -1,4 +1,4 @@
-"""The colour of a texture at a hit: where of its image the hit is, and four texels' light there.
+"""The colour of a texture at a hit, interpolated from the four texels around it.
 
 The lookup is float64; shaders/chunks/texture.glsl has the same formulas.
 """
@@ -14,7 +14,7 @@ from lucida.renderer.scene import flat
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.reference.vectors import plus, times
 
-MOST = (1 << TEXEL_BITS) - 1  # what a texel's largest number is
+MOST = (1 << TEXEL_BITS) - 1  # a texel's largest number
 _WRAPS = (1 << WRAP_BITS) - 1
 PLACE = flat.CHECKER_DIFFUSE  # the material's row
 BASE, MORE = np.int64(0), np.int64(1)  # an object's rows of FlatScene.textures

@@ -29,9 +29,9 @@ class Tree(NamedTuple):
     order: int32 (n,), the primitive number of each shape.
     shapes: float64 (n, 9), corners a, b, c of a triangle, or centre and radius of a sphere.
     triangles: primitives from this number on are spheres.
-    stack_size: how many nodes can wait in a traversal.
+    stack_size: the number of nodes that can wait in a traversal.
     extent: the largest |coordinate| of bounds.
-    scene: FlatScene, which says what rays pass.
+    scene: FlatScene, which decides what rays pass.
     """
 
     middle: np.ndarray

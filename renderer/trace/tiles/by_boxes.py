@@ -31,7 +31,7 @@ from lucida.renderer.trace.vector.memory import store
 
 SMALL_PIXELS = np.float32(16)  # a rectangle with more is not small
 ROUND = 2  # pixels of each lane that are tested before hits are stored
-# Pixels: around a rectangle, as the edges of the triangle in it are rounded (footprint.py).
+# Pixels around a rectangle: the edges of the triangle in it are rounded (footprint.py).
 _MARGIN_PX = np.float32(1 / 64)
 # The tip of a triangle that is thinner, relative to its length, might be rounded farther.
 _THINNEST = np.float32(2.0**-10)
@@ -76,7 +76,7 @@ def pixel_boxes(view, tile, pa, pb, pc):
     across, down = right - left, bottom - top
     area = vabs(fma(bx - ax, cy - ay, -((by - ay) * (cx - ax))))
     is_sized = is_ahead & (area > _THINNEST * fma(across, across, down * down))
-    # Behind a lens, pixels are up to that much beside the grid.
+    # Behind a lens, pixels are up to that far from the grid.
     boxes = PixelBoxes(
         _first(left - (_MARGIN_PX + (tile.x_high - last))),
         _last(right + (_MARGIN_PX - tile.x_low)),
@@ -126,7 +126,7 @@ def sample_boxes(view, world, triangles, boxes, small, tile, scratch):
             hits &= hits - 1
             pixel, own = np.int64(scratch.pixels[i]), scratch.keys[i]
             slot, best = np.int32(leaf * WIDTH + (i & (LANES - 1))), scratch.best[pixel]
-            # Of equally near triangles, as in by_squares.py, the first.
+            # The first of equally near triangles wins, as in by_squares.py.
             is_nearer = own > best or (
                 own == best and slot < scratch.hit_slot[pixel] <= slot | (LANES - 1)
             )

@@ -1,7 +1,7 @@
 """A leaf's 16 triangles against the tile's squares, each a vector of 16 pixels.
 
-Triangles, and then their squares, are rejected by the largest values of their functions there. What
-is left costs eight multiply-adds for 16 pixels.
+Triangles, and then their squares, are rejected by the largest values of their functions there. A
+square that is left costs eight multiply-adds for its 16 pixels.
 
 Source: Greene, "Hierarchical Polygon Tiling with Coverage Masks", 1996.
 """

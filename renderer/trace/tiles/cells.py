@@ -1,10 +1,10 @@
 """A check whether float32 separates the borders of checker cells from the errors of packets' hits.
 
-view.py asks, and refine.py is the remedy.
+view.py calls it. refine.py then computes the hits in float64.
 
-A pattern is flattened with its object: on a plate of a thousandth of its width, cells are as thin.
-A hit that is off by a few of float32's last places is then in another cell, though by no part of a
-pixel in the image.
+A pattern is scaled with its object: on a plate that is a thousand times as wide as thick, the cells
+are as thin. A hit that is wrong by a few units in float32's last place is then in another cell,
+although its error is invisible in the image.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from lucida.renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
 from lucida.renderer.scene.boxes import world_boxes
 from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 
-# A face in a cell's border is looked up CELL_NUDGE beside it: hits must be known better than that.
+# A face in a cell's border is looked up CELL_NUDGE below it: hits must be more accurate than that.
 _KNOWN = CELL_NUDGE / 2
 
 

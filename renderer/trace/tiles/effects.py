@@ -1,7 +1,7 @@
-"""Shadows and mirrors: what image order buys, since any ray can be asked about.
+"""Shadows and mirrors, which image order allows because any ray can be traced.
 
-The secondary rays of a square are traced one after another, on the trees that packets walk. Off by
-default: a rasterizer has no such rays, so pictures with them cannot agree with its.
+The secondary rays of a square are traced one after another, on the trees that packets walk. They
+are off by default: a rasterizer has no such rays, so its images cannot agree with them.
 
 Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980.
 """
@@ -40,8 +40,10 @@ from lucida.renderer.trace.vector.memory import load, shifted, store
 
 
 class Effects(NamedTuple):
-    """shadows: whether there are any. mirror_depth: how often light is reflected; the reflectance
-    is the material's specular colour. away: how far from a surface rays start, world units."""
+    """shadows: True if objects cast shadows. mirror_depth: the number of reflections of a viewing
+    ray; the reflectance is the material's specular colour. away: the distance from a surface at
+    which rays start, in world units.
+    """
 
     shadows: bool
     mirror_depth: int
@@ -63,7 +65,7 @@ def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, sc
     """Return the mask of the pixels that see a light.
 
     point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
-    to the same, where it is a point (light[3] not 0).
+    to the same, if it is a point light (light[3] is not 0).
     """
     if not effects.shadows:
         return mask

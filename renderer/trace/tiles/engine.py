@@ -50,7 +50,7 @@ class _Seen(NamedTuple):
 
 
 class PacketEngine:
-    """Traces images of one scene by a team of threads. Raises LucidaError (see flatten).
+    """An engine that traces images of one scene in packets. Raises LucidaError (see flatten).
 
     shadows, mirror_depth: see effects.py.
     """
@@ -87,7 +87,7 @@ class PacketEngine:
         return self._seen(Camera.canonical(), _ONE_PIXEL, variant, lens)
 
     def set_scene(self, scene: Scene) -> None:
-        """Follow a changed scene; unchanged meshes (the same arrays) keep their trees."""
+        """Prepare another scene; unchanged meshes (the same arrays) keep their trees."""
         flat = flatten(scene, (self._scene, self._flat))
         # All at once: flatten() must find the scene with its own arrays if this fails.
         self._scene, self._flat, self._cells = scene, flat, cells_of(flat)

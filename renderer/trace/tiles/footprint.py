@@ -1,16 +1,16 @@
 """The footprints of a node's children in a tile: the pixel centres, and the squares, in their
 boxes.
 
-Tests a node's children against a tile, and makes footprints: one int32 for each child, by which it
-is dropped later, once all pixels of its squares see something nearer.
+A node's children are tested against a tile. Each has a footprint, an int32. The child is dropped as
+soon as all pixels of the footprint's squares see something nearer.
 
 A tile's side planes are functions that grow, from one pixel to the next, by a point's homogeneous
-coordinate H. Their largest values in a box show whether it reaches into the tile, and also how far:
-divided by the box's least H, they are pixels from the tile's sides, at most. Pixels are points:
-what lies between the centres is seen by none.
+coordinate H. Their largest values in a box show whether the box reaches into the tile. Divided by
+the box's least H, they are upper bounds, in pixels, of its distance from the tile's sides. Pixels
+are points: none sees what lies between the centres.
 
-The depth that a large packet of rays has in common is no bound as soon as one of its rays sees the
-background. So a box is compared with the depths where the box itself is, as in Greene's
+A depth that a large packet of rays has in common bounds nothing once one of its rays sees the
+background. A box is therefore compared with the depths at its own pixels, as in Greene's
 hierarchical depth buffer.
 
 Sources: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993; Fuetterling, Lojewski,
@@ -41,24 +41,24 @@ from lucida.renderer.trace.vector.memory import load
 # the last column, the first and the last row of the tile's pixels that it holds.
 WHOLE_TILE = np.int32(0xF0F0FFFF - (1 << 32))
 ANY_DEPTH = np.float32(-3e38)  # nearer than everything; finite, for products with it
-# Pixels: around a box, as the edges of the triangles in it are rounded (to 1/300 at most, view.py).
+# Pixels around a box: the edges of the triangles in it are rounded (by 1/300 at most, view.py).
 _MARGIN_PX = np.float32(1 / 64)
-# Relative: what is this much behind may be nearer, but for rounding: that of keys, which are wrong
-# by some of float32's last places (triangle.py, DOUBTFUL).
+# Relative slack of a depth: keys are wrong by a few units in float32's last place (triangle.py,
+# DOUBTFUL), so something that seems this much farther may be nearer.
 _ROUNDING = np.float32(1 + 2.0**-17)
 _LAST = np.float32(TILE - 1)
-# Pixels: a child that is larger takes most of the tile, and its footprint would tell little.
+# Pixels: a larger child covers most of the tile, and its footprint would exclude little.
 _SMALL_PX = np.float32(20)
 
 
 @emitted
 def footprints(view, depth, left, right, top, bottom):
-    """Return (footprints I32, mask: which hold a pixel's centre) of a node's children.
+    """Return (footprints I32, mask of those that hold a pixel's centre) of a node's children.
 
     depth: the least Z in each box, or less. left ...: the largest values of the tile's planes.
     """
     one = splat(np.float32(1))
-    # Behind the eye or around it: anywhere.
+    # A box behind the eye, or around it, may be seen anywhere.
     per_h = choose(view.parallel, lambda: one, lambda: one / vmax(depth, np.float32(1e-30)))
     first_column = np.int32(TILE - 1) - _pixels(right, per_h)
     last_column = _pixels(left, per_h)
@@ -110,7 +110,7 @@ def pixels_of(footprint):
 
 @emitted
 def _is_open(view, key, depth):
-    """Return whether something at `depth` may be nearer than what has the key."""
+    """Return True if something at `depth` may be nearer than a hit with the key."""
     return choose(view.parallel, lambda: key <= -depth, lambda: key * depth < _ROUNDING)
 
 
@@ -118,8 +118,8 @@ def _is_open(view, key, depth):
 def children_in_tile(view, box, node, z_far, scratch):
     """Return (mask, depths, footprints, flag): children that may be seen, nearer than z_far.
 
-    A depth is the least Z in the child's box, or a little less. The flag says whether there are
-    footprints: where all children are large, nothing is gained, and they are the whole tile.
+    A depth is the least Z in the child's box, or a little less. The flag is True if there are
+    footprints; if all children are large, these would exclude nothing, and are the whole tile.
     """
     at = node * (6 * WIDTH)
     depth = -largest_of_plane(box, at, BEHIND, scratch)
@@ -128,7 +128,7 @@ def children_in_tile(view, box, node, z_far, scratch):
     top = largest_of_plane(box, at, TOP, scratch)
     bottom = largest_of_plane(box, at, BOTTOM, scratch)
     inside = (depth < z_far) & (vmin(vmin(left, right), vmin(top, bottom)) >= np.float32(0))
-    # In perspective, the sides leave nothing behind the eye.
+    # In perspective, the sides exclude everything behind the eye.
     inside = choose(
         view.parallel | (view.z_near > np.float32(0)),
         lambda: inside & (largest_of_plane(box, at, AHEAD, scratch) >= view.z_near),

@@ -1,4 +1,4 @@
-"""The packet kernel: the picture, tile by tile.
+"""The packet kernel: it traces the image tile by tile.
 
 Still image order: for each packet of pixels, find the closest objects; then determine the colours,
 by a stage that is compiled on its own (write.py). Each thread of a team calls trace_packets() with
@@ -32,14 +32,14 @@ _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 def trace_packets(camera, world, writing, finished, stack_size, control):
     """Trace blocks of pixels until none are left, or the control array says to stop.
 
-    camera: PacketView. world: World. writing: what writes a tile. finished: as in Image.
+    camera: PacketView. world: World. writing: the stage that writes a tile. finished: as in Image.
     control: see thread_pool.py.
     """
     rows, columns = finished.shape
     room = room_before_scratch(camera.lens, camera.rows.size // ROWS)
     floats = np.empty(room + FLOATS + stack_size + 2 * LANES, np.float32)
     ints = np.empty(INTS + 2 * stack_size + 2 * LANES, np.int32)
-    # Vectors within cache lines: what is stored there can be loaded again at once.
+    # Keep vectors within cache lines: there, a stored vector can be loaded again at once.
     first_float, first_int = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
     camera, world = pointers(camera), pointers(world)
     while True:

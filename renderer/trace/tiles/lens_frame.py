@@ -30,7 +30,7 @@ def frames_of(lens, number):
 
 @emitted
 def set_frame(camera, frame, first, room, scratch):
-    """Choose a tile's frame, and compute the numbers of its rays."""
+    """Select a tile's frame, and compute the numbers of its rays."""
     if camera.lens is None:
         return
     scratch.frame[0], scratch.frame[1], scratch.frame[2] = frame, room, frame - first

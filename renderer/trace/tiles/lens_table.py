@@ -3,8 +3,8 @@
 A lens bends rays, but all of them start at the eye. Within a tile they differ little from the rays
 of a pinhole camera that looks at the tile's middle, and whose image is fitted to the tile's pixels:
 the tile's frame. In it, pixels lie next to a grid. Their exact places are stored, and edge
-functions are evaluated there, so that nothing of this is an approximation. A tile whose rays
-spread too far for one frame (in a small panorama) is divided among the six faces of a cube.
+functions are evaluated there, so the result is exact. A tile whose rays spread too far for one
+frame (in a small panorama) is divided among the six faces of a cube.
 
 The table does not depend on eye and basis: it is made once for a lens and a size.
 """
@@ -29,7 +29,7 @@ from lucida.renderer.trace.threads.thread_pool import CANCELLED, NEXT, Control
 TILE, SQUARE = 16, 4  # pixels, as in tile.py
 _PIXELS = TILE * TILE
 _STEEPEST = 0.35  # the least cosine between a frame's axis and its rays
-_BAND_PIXELS = 1 << 18  # whose rays are computed at once
+_BAND_PIXELS = 1 << 18  # pixels whose rays are computed at once
 _ALL = -1  # instead of a face of the cube
 _KEPT_BYTES = 1 << 28
 
@@ -63,7 +63,7 @@ class LensTable(NamedTuple):
     ahead: F32
 
 
-# A table with the types of all, to compile kernels for.
+# A table that has the types of every table, to compile kernels for.
 NO_FRAMES = LensTable(
     np.zeros(2, np.int64), *(np.empty(0, kind) for kind in ["f8"] * 2 + ["f4"] * 5)
 )
@@ -72,8 +72,8 @@ _lock = threading.Lock()
 
 
 def lens_table(camera: Camera, rows: Rows, control: Control) -> LensTable | None:
-    """Return the table of some rows of a camera with a lens; None if it was cancelled. The last
-    ones are kept.
+    """Return the table of some rows of a camera with a lens; None if it was cancelled. The latest
+    tables are kept.
 
     control: that of the image.
     """
@@ -176,10 +176,10 @@ def _axes(rays):
 
 
 class _Fit(NamedTuple):
-    """An affine map from a frame's plane to the tile's grid, of which the point (x, y) is at
-    (column, row):
+    """An affine map from a frame's plane to the tile's grid. It maps (x, y) to (column, row), and
+    any point (x', y') to
 
-    (column + a (x' - x) + b (y' - y), row + c (x' - x) + d (y' - y)) for a point (x', y').
+    (column + a (x' - x) + b (y' - y), row + c (x' - x) + d (y' - y)).
     """
 
     x: float

@@ -1,11 +1,11 @@
 """The hits of a square's 16 pixels, computed once more in float64.
 
-Computes the parameter t and the hit's point in views for which t's last place in float32 is too
+The parameter t and the hit's point are computed in views for which t's last place in float32 is too
 coarse: very far away, or so narrow that it moves the point by a part of a pixel (view.py decides).
 The visible primitives are known by then: the cost is a plane or sphere for each that a square sees.
 
-Few views are coarse, and a square takes some nanoseconds. So this is called, not inlined, where it
-would take registers from all views, and its results go through the scratch.
+Few views are coarse, and a square takes some nanoseconds. This code is therefore called rather than
+inlined, because it would take registers from all views; its results pass through the scratch.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def refine_square(view, world, tile, square, scratch):
 
 @emitted
 def packet_depths(view, square, scratch):
-    """Return Z of what a square's pixels see, as the packet found it."""
+    """Return the depths Z that the packet found at a square's pixels."""
     best = load(scratch.best, LANES * square)
     return key_at(view, best)
 
@@ -69,7 +69,7 @@ def _refine(view, world, tile, square, floats, ints):
 
 @inlined
 def _exact_parameters(view, world, points, z, square, scratch):
-    """Return t of a square's pixels, F64. z: what the packet found, F32."""
+    """Return t of a square's pixels, F64. z: the depths that the packet found, F32."""
     seen = load(scratch.hit_slot, LANES * square)
     owner = load(scratch.hit_instance, LANES * square)
     exact = to_f64(z)
@@ -113,7 +113,7 @@ def _plane_depths(view, corner, slot, space, points):
 
 @emitted
 def _sphere_depths(view, spheres, sphere, points, z):
-    """Return Z where the rays meet a sphere, F64; of the two, the one that was seen at z."""
+    """Return Z where the rays meet a sphere, F64: of the two, the hit that was seen at depth z."""
     f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     m = moment(f, d)
     column, row = to_f64(points.right), to_f64(points.down)
@@ -121,7 +121,7 @@ def _sphere_depths(view, spheres, sphere, points, z):
     a, b, c = dot_lanes(d, d), -dot_lanes(f, d), dot_lanes(f, f) - 1.0
     discriminant = a - dot_lanes(m, m)
     root = vsqrt(select(discriminant > 0.0, discriminant, 0.0))
-    # The root that cancels is a quotient, as in sphere.py.
+    # Compute the root that would cancel as a quotient, as in sphere.py.
     ahead = b >= 0.0
     q = b + select(ahead, root, -root)
     near, far = select(ahead, c / q, q / a), select(ahead, q / a, c / q)

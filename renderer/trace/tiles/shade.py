@@ -64,7 +64,7 @@ def shade_square(view, world, scene, effects, pixels, points, t, point, surface,
     """Return the colours of a square: three F32; the background's where there is no object.
 
     scene: SceneArrays. effects: Effects, or None. points: as for find_surfaces. t: ray parameters;
-    None where `points` is. point: where they are hit. surface, objects: what the pixels see.
+    None if `points` is. point: the hits. surface, objects: of the hits.
     """
     color = splat_lanes(triple(scene.background, 0))
     left = bits(objects >= np.int32(0))
@@ -90,7 +90,7 @@ def shade_square(view, world, scene, effects, pixels, points, t, point, surface,
 def add_reflections(
     view, world, scene, effects, pixels, square, point, surface, objects, color, scratch
 ):
-    """Return the colours of a square with those that its surfaces mirror."""
+    """Return the colours of a square, plus the light that its surfaces reflect."""
     if effects.mirror_depth == 0:
         return color
     weight = times_gloss(scene.textures, surface.gloss, reflectance(scene, objects))
@@ -133,7 +133,7 @@ def _albedo(view, scene, m, points, t, point, geometric, tint, scratch):
 def is_other_cell(view, cells, m, points, t, point, geometric, scratch):
     """Return the mask of pixels that see an odd cell, just below the surface.
 
-    In float64, along the ray: what a pixel covers may be small against the cell's coordinates.
+    Compute in float64, along the ray: a pixel may be small compared with the cell's coordinates.
     """
     across = normalized_lanes(
         (

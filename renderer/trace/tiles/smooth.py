@@ -44,7 +44,7 @@ def vertices_of(faces, primitive):
 def barycentrics(view, corner, slot, space, points, scratch):
     """Return (b0, b1, b2) of a slot's triangle at a square's pixels, F32.
 
-    points: the pixels', see tile.py.
+    points: the pixels' image points (tile.py).
 
     Each is an edge function over the sum of the three. They are set up in float64 and around the
     square, so that small triangles and narrow views keep their digits. The last triangle's are kept

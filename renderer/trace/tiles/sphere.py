@@ -37,7 +37,7 @@ from lucida.renderer.trace.vector.lanes import (
 from lucida.renderer.trace.vector.math import fma_lanes, normalized_lanes, splat_lanes
 from lucida.renderer.trace.vector.memory import load
 
-_CHORD = np.float32(5e-7)  # relative: more than z and the chord's middle are rounded by
+_CHORD = np.float32(5e-7)  # relative: above the rounding errors of z and of the chord's middle
 
 
 @emitted
@@ -120,8 +120,8 @@ def affine(p, x, y):
 def sphere_depths(equation, x, y):
     """Return (near, far, mask): Z of the sphere's two points on each ray; mask: there are any.
 
-    Each root in the form in which nothing cancels: with q = b +- sqrt(discriminant), of b's sign,
-    the roots are c / q and q / a (Haines et al., Ray Tracing Gems, 2019, ch. 7).
+    Each root is computed in the form without cancellation: with q = b +- sqrt(discriminant), with
+    the sign of b, the roots are c / q and q / a (Haines et al., Ray Tracing Gems, 2019, ch. 7).
     """
     a, c = quadratic(equation[0], x, y), quadratic(equation[2], x, y)
     b, discriminant = affine(equation[1], x, y), quadratic(equation[3], x, y)
@@ -165,8 +165,8 @@ def intersect_sphere(view, spheres, sphere, tile, least, scratch):
 
 @emitted
 def _at_square(view, spheres, sphere, equation, points, dx, dy):
-    """Return a sphere's equation and where a square's pixels are in it: the tile's; behind a lens,
-    whose frames may span half of a small image, the square's own.
+    """Return a sphere's equation, and the square's pixels relative to its origin. The equation is
+    the tile's; behind a lens, whose frames may span half of a small image, it is the square's own.
     """
     if view.lens is None:
         return equation, points.right + dx, points.down + dy
@@ -184,8 +184,8 @@ def key_at(view, z):
 def sphere_normal(view, spheres, sphere, points, z):
     """Return outward unit normals of a sphere at a square's pixels, F32; z: the depths seen.
 
-    From the ray's point nearest to the centre, d x (f x d) / a, half a chord back or forth: no
-    difference of large numbers, however far away the sphere is.
+    Start at the ray's point nearest to the centre, d x (f x d) / a, and go half a chord back or
+    forth: no large numbers are subtracted, however far away the sphere is.
     """
     f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     m = moment(f, d)

@@ -56,7 +56,7 @@ SINGLES = 3  # triangles that are taken one by one before the rest gather
 
 
 class SceneArrays(NamedTuple):
-    """Hold the arrays of a FlatScene that shading reads. textures: PacketTextures."""
+    """The arrays of a FlatScene that shading reads. textures: PacketTextures."""
 
     faces: Any
     normals: Any
@@ -99,7 +99,7 @@ class Surface(NamedTuple):
     multiplies the material's: the vertices', times the texture's; and gloss, which multiplies the
     specular colour. Three F32 each; 0, and gloss 1, where nothing is hit.
 
-    Passed in registers: from memory, a vector of which some lanes were just stored is slow to load.
+    It is passed in registers: a vector is slow to load if some of its lanes were just stored.
     """
 
     geometric: Any
@@ -124,7 +124,7 @@ def square_rays(view, points):
 
 @emitted
 def points_on(pixels, t):
-    """Return the points of rays at t, relative to what the origins are."""
+    """Return the points of rays at t, relative to the same point as the origins."""
     return fma_lanes(t, pixels.direction, pixels.origin)
 
 
@@ -138,11 +138,11 @@ def _ray_lanes(ray, start, x, y):
 def find_surfaces(
     view, world, scene, points, pixels, square, depth, wants_tint, wants_primitives, scratch
 ):
-    """Return (Surface, objects, primitives) of a square's pixels; the numbers I32, -1: none.
+    """Return (Surface, objects, primitives) of a square's pixels; the numbers are I32, -1 for none.
 
     scene: SceneArrays. points: the pixels' image points; None for rays that are not the
-    view's. depth: of what the pixels see, Z; for other rays, t. Primitives are left out where they
-    are not wanted.
+    view's. depth: of the hits, Z; for other rays, t. wants_primitives: False to leave the
+    primitives out.
     """
     seen = load(scratch.hit_slot, LANES * square)
     owner = load(scratch.hit_instance, LANES * square)
@@ -217,7 +217,7 @@ def triangle_normals(world, slots, at, mask, scratch):
         left &= ~bits(same)
         if left == 0:
             return x, y, z
-    # The rest at once.
+    # Gather the rest at once.
     rest = mask_of(left)
     n = (slots >> np.int32(4)) * np.int32(3 * WIDTH) + (slots & np.int32(15))
     return (
@@ -231,8 +231,8 @@ def triangle_normals(world, slots, at, mask, scratch):
 def instance_surface(
     view, world, scene, space, slots, at, points, pixels, depth, mask, wants_tint, scratch
 ):
-    """Return the Surface of one instance, but for its texture and gloss, and where of its texture
-    its pixels are; only the lanes of the mask count.
+    """Return the Surface of one instance without its texture and gloss, and the pixels' texture
+    coordinates; only the lanes of the mask are valid.
 
     slots: what the pixels see, also in memory as scratch.hit_slot[at :].
     """

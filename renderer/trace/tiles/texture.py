@@ -36,15 +36,15 @@ from lucida.renderer.trace.vector.lanes import (
 from lucida.renderer.trace.vector.math import atan2_lanes, select_lanes
 
 _MOST = (1 << TEXEL_BITS) - 1
-# The bits of a texel's colours, where they are; and what makes their squares light.
+# The bits of a texel that hold each colour, and the factors that turn their squares into light.
 _RED, _GREEN, _BLUE = (np.int32(_MOST << shift) for shift in (0, TEXEL_BITS, 2 * TEXEL_BITS))
 _PER_RED, _PER_GREEN, _PER_BLUE = (np.float32(float(bits) ** -2) for bits in (_RED, _GREEN, _BLUE))
-_REPEAT = 0  # neither of the shared ones
+_REPEAT = 0  # the wrap that is neither CLAMP nor MIRROR
 _U_WRAP = (1 << WRAP_BITS) - 1
 _PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
-_SMALL = 1 << 22  # texels: of an image that stays in the caches
-_FAR_APART = np.float32(8)  # texels: nearer to one another, the next ones were loaded with these
-_PER_NEXT = np.float32(4 / 3)  # a square's width, of what its first and last columns are apart
+_SMALL = 1 << 22  # texels of an image that stays in the caches
+_FAR_APART = np.float32(8)  # texels: the next ones were loaded with these if they are nearer
+_PER_NEXT = np.float32(4 / 3)  # a square's width, per distance of its first and last columns
 _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
 
 
@@ -115,8 +115,9 @@ def textured(textures, number, places, tint, is_wanted):
 
 @emitted
 def glossy(textures, number, places, mask, gloss):
-    """Return what multiplies the specular colours: the gloss, with the light of an object's metal
-    at its pixels' places, in the lanes of the mask."""
+    """Return the gloss, multiplied in the lanes of the mask by the light of an object's metal
+    texture at its pixels' places.
+    """
     texels, images, at = textures.texels, textures.textures, 8 * i64(number)
     if texels is None:
         return gloss
@@ -173,7 +174,7 @@ def _corner(images, at, first, places):
     width, height, wraps = images[at + 1], images[at + 2], images[at + 3]
     column, right = _texel(places[0], f32(width), wraps & _U_WRAP)
     row, down = _texel(places[1], f32(height), wraps >> WRAP_BITS)
-    stride = i32(width) + np.int32(1)  # beyond its last texel, a row goes on with what follows
+    stride = i32(width) + np.int32(1)  # each row repeats the texel that follows its last one
     left, up = _ONE - right, _ONE - down
     weights = left * up, right * up, left * down, right * down
     return row * stride + column + i32(first), stride, weights

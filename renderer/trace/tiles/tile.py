@@ -70,7 +70,7 @@ _FLOATS = {
 _INTS = {
     "hit_slot": _PIXELS,  # what each pixel sees: a slot, FIRST_SPHERE - k for sphere k, or NOTHING
     "hit_instance": _PIXELS,
-    "farthest": 32,  # where each plane finds the coordinates that it needs of a box
+    "farthest": 32,  # the columns of a box that each plane needs
     "covered": LANES,  # the squares that each of a leaf's triangles may cover
     "footprints": LANES,  # of a node's children
     "pixels": 2 * LANES,  # those; or the few that a leaf covers (by_pixels.py)
@@ -95,8 +95,8 @@ LEFT, RIGHT, TOP, BOTTOM, BEHIND, AHEAD = range(6)
 
 
 class Tile(NamedTuple):
-    """Hold the image point of the first pixel, and a rectangle around the pixels' centres; behind
-    a lens also the number of the first pixel in the lens's arrays.
+    """A tile's place: the image point of the first pixel, and a rectangle around the pixels'
+    centres; behind a lens also the number of the first pixel in the lens's arrays.
 
     Behind a lens, the tile's frame is the image (lens.py), and pixels are next to their grid.
     """
@@ -244,7 +244,7 @@ def nearest_key_of(view, pixel, scratch):
 
 @emitted
 def depth_range(view, square, scratch):
-    """Return what Z must be above and below, for a square's pixels."""
+    """Return the bounds between which Z must be, for a square's pixels."""
     if view.lens is None:
         return splat(view.z_near), splat(view.z_far)
     z_near = splat(np.float32(1)) / load(scratch.key_near, LANES * square)
@@ -275,7 +275,7 @@ def set_hits(scratch, square, hit, key, slot, instance):
 
 @emitted
 def set_space(view, space, tile, scratch):
-    """Set up what the tile needs of a space: its planes, and rows from the first pixel."""
+    """Set up a space for the tile: its planes, and rows from the first pixel."""
     _set_planes(view, space, tile, scratch)
     exact, at = view.rows_exact, space * ROWS
     for i in range(ROWS):
@@ -353,7 +353,7 @@ def keep_hits(world, leaf, changed, scratch):
     changed: a bit for each square with a new hit.
     """
     if changed != 0:
-        # Ask for what will be read of a hit, when all of the tile's are known.
+        # Prefetch the data of a hit that shading will read.
         prefetch(world.face, leaf * WIDTH)
         for line in range(0, 3 * WIDTH, LANES):
             prefetch(world.normal, leaf * 3 * WIDTH + line)

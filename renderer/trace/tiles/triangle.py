@@ -28,17 +28,17 @@ from lucida.renderer.trace.tiles.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from lucida.renderer.trace.vector.lanes import bits, fma, select, splat, to_f32, to_f64, vabs, vmax
 from lucida.renderer.trace.vector.math import load3, select_lanes
 
-# A triangle's volume is a sum of terms that can be far larger than it: where the triangle is seen
-# edge-on, or is a vast plain seen from just above. Where they are larger by DOUBTFUL, float32 has
-# too few digits left for t, and its key is computed anew in float64: of one leaf in three to
-# seven. Seen exactly edge-on, the volume is rounding and nothing else, and would be hit at any
-# depth: below EDGE_ON of its terms it counts as 0.
+# A triangle's volume is a sum of terms that can be far larger than the sum, if the triangle is seen
+# edge-on, or is a vast plain seen from just above. If they are larger by DOUBTFUL, float32 has too
+# few digits left for t, and the key is computed again in float64; this happens in one leaf out of
+# three to seven. If the triangle is seen exactly edge-on, its volume is only rounding, and it would
+# be hit at any depth: a volume below EDGE_ON of its terms counts as 0.
 DOUBTFUL = np.float32(8)
 EDGE_ON = np.float64(1e-13)
-# Of a thin triangle, nh is a small difference of large terms, but its rounding hardly moves the key
-# on the triangle: both nh and the volume, by which it is divided, have it.
+# The nh of a thin triangle is a small difference of large terms, but its rounding hardly moves the
+# key on the triangle: nh and the volume, by which it is divided, have the same error.
 SLIVER = np.float32(1 / 8)
-# An edge function of corners that are `x` pixels from the image's middle is that much of x wrong.
+# The error of an edge function, relative to its corners' distance from the image's middle.
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
 
 
@@ -175,8 +175,8 @@ def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
 
     The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
     float32 makes one point of two of its corners, or one line of all three. pa, pb, pc: its corners
-    as edge_function() takes them, which then is 0 everywhere, or nothing but rounding: the triangle
-    would cover a line, or all of the image.
+    as for edge_function(), whose result then is 0 everywhere or only rounding: the triangle would
+    cover a line, or all of the image.
     """
     a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
     one = to_f64(splat(np.float32(1)))
@@ -221,7 +221,8 @@ def _differ(p, q):
 
 @emitted
 def triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, wanted):
-    """Return (coefficients of x, y and 1 of the keys, signs of the volumes), where wanted.
+    """Return (coefficients of x, y and 1 of the keys, signs of the volumes) in the lanes of
+    `wanted`.
 
     The key is -inf for a back that is not seen.
     """

@@ -38,12 +38,12 @@ ORIGIN, ROW_X, ROW_Y, ROW_Z, EXTENT, ROWS = 0, 3, 7, 11, 15, 16
 # to the right and a pixel down add to it; then the other, which all pixels share.
 VARYING, ACROSS, DOWN, SHARED = np.array([0, 3, 6, 9])
 
-# float32 has digits for this many pixels: where a space's extent would be seen larger than that,
-# its corners go to camera coordinates in float64. Three roundings then are 1/300 of a pixel.
+# float32 has digits for this many pixels: the corners of a space whose image would be larger are
+# transformed in float64. Three roundings then amount to 1/300 of a pixel.
 _FLOAT32_PX = 16384.0
 _SLACK_PX = 1e-2  # around the outlines of spheres
-# What a packet's t may be wrong by, relatively: a few of float32's last places. That may move a hit
-# along its ray by this many pixels, or by this part of the scene's size, but not by more.
+# The relative error of a packet's t: a few units in float32's last place. It may move a hit along
+# its ray by this many pixels, or by this part of the scene's size, but not by more.
 _T_ROUNDING = 2.0**-22
 _HIT_PX, _HIT_OF_SCENE = 1 / 512, 2.0**-17
 
@@ -55,7 +55,7 @@ class PacketView(NamedTuple):
     that are traced, which may be some rows of the image.
     slack_px: tests that only reject take tiles to be larger by this much, which covers rounding.
     key_far < K < key_near counts as a hit; z_near, z_far: the same as Z. scale: t / Z.
-    coarse: float32 is too coarse for where hits are (refine.py).
+    coarse: True if float32 is too coarse for hits (refine.py).
     rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, whether to use them.
     ray: float64, 12 numbers in world space (VARYING ...).
     near_point: float64, 3: the world's point that float32 points are relative to (near_point()).
@@ -97,13 +97,13 @@ def packet_view(
     cells: Cells,
     lens: LensTable | None = None,
 ) -> PacketView:
-    """Return the numbers for some rows of an image of a scene with such cells.
+    """Return the numbers for some rows of an image of a scene with these cells.
 
     near_point, lens: see PacketView.
     """
     width, height = rows_seen.size
     eye, u, v, back = (np.array(vector) for vector in (view.eye, view.u, view.v, view.back))
-    # What a pixel to the right, and one down, are on the image plane.
+    # The steps on the image plane to the next pixel to the right, and down.
     per_px = (view.right - view.left) / width, (view.bottom - view.top) / height
     middle = (view.left + view.right) / 2, (view.bottom + view.top) / 2
 
@@ -169,7 +169,7 @@ def _rows(
     parallel: bool,
     instances: Instances,
 ) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
-    """Return ROWS numbers for each space, (n, ROWS), and where float32 is not enough for them."""
+    """Return ROWS numbers for each space, (n, ROWS), and which spaces need float64."""
     matrix, bounds = instances.world_from_space, instances.bounds
     to_eye = eye - matrix[:, :3, 3]
     eye_in_space = np.linalg.solve(matrix[:, :3, :3], to_eye[..., None])[..., 0]
@@ -184,7 +184,7 @@ def _rows(
     part[..., 3] = from_eye @ linear.T + shift
     reach = np.maximum(bounds[:, 1] - origin, origin - bounds[:, 0])
     rows[:, EXTENT] = reach.max(1)
-    # How many pixels the space's extent would take, at its nearest.
+    # The size of the space's extent in pixels, at its nearest.
     lengths = np.linalg.norm(part[..., :3], axis=-1)
     pixels = lengths[:, :2].max(1)
     extent = np.linalg.norm(reach, axis=-1)

@@ -1,8 +1,8 @@
-"""A tile's way through the two levels of trees.
+"""The traversal of the two levels of trees by a tile's rays.
 
 The nodes that wait are a stack with the nearest on top, each with the least depth that anything in
-it can have, and with its footprint; a node that begins behind all that the pixels of its squares
-see is dropped.
+it can have, and with its footprint; a node is dropped if it begins behind everything that the
+pixels of its squares see.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from lucida.renderer.trace.vector.memory import store
 
 @emitted
 def farthest_seen(view, least):
-    """Return Z of what has the key `least`."""
+    """Return the Z of the key `least`."""
     return choose(view.parallel, lambda: -least, lambda: np.float32(1) / least)
 
 
@@ -65,7 +65,7 @@ def push_children(view, children, child, node, top, scratch):
             squares = scratch.footprints[lane]
             if open_squares(view, squares, z, scratch) == 0:
                 continue
-        # By insertion: there are few.
+        # Insertion sort: there are few.
         i = top
         while i > base and scratch.waiting_depths[i - 1] < z:
             node_below, footprint_below = scratch.waiting[2 * i - 2], scratch.waiting[2 * i - 1]
@@ -110,7 +110,7 @@ def walk_world(view, world, tile, least, scratch):
 
 @emitted
 def _prefetch_next(world, base, top, scratch):
-    """Ask for the memory that visits of the next two entries will read."""
+    """Prefetch the memory that the visits to the next two entries will read."""
     for entry in top - 1, top - 2:
         choose(entry >= base, partial(_prefetch, world, scratch.waiting, entry), lambda: None)
 

@@ -7,15 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from copied_views import cameras, vectors
-from hypothesis import assume, given, settings
+from any_camera import cameras, vectors
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lucida.app.cameras.animation import INVISIBLE_PX, Passage
+from lucida.app.cameras.animation import Passage
 from lucida.app.cameras.presets import PRESETS, preset_view
-from lucida.app.state.app_state import is_orthonormal
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.navigation import depth_of, switched_projection
+from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene.focus import scene_focus
 from lucida.renderer.scene.model import View
@@ -24,7 +23,6 @@ PRESET = {preset.name: preset for preset in PRESETS}
 
 SIZE = (960, 540)
 FOCUS = (0.0, 0.5, -0.5)
-BOUNDS = np.array([[x, y, z] for x in (-2, 2) for y in (-1, 2) for z in (-3, 2)], float)
 INSIDE = np.stack(
     np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-1, 2, 7), np.linspace(-3, 2, 11)), axis=-1
 ).reshape(-1, 3)
@@ -45,9 +43,8 @@ def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
     one: Camera, two: Camera, part: float, fit_one: bool, fit_two: bool
 ) -> None:
     start, end = View(one, fit_one), View(two, fit_two)
-    passage = Passage(start, end, FOCUS, BOUNDS, SIZE)
-    assert passage.at(0.0) == start
-    assert passage.at(1.0) == end
+    passage = Passage(start, end, FOCUS, SIZE)
+    assert passage.at(0.0) == start and passage.at(1.0) == end
     between = passage.at(part).camera
     assert replace(between) == between  # checks itself again
     if passage.possible:
@@ -55,42 +52,6 @@ def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
     else:
         assert one.determinant * two.determinant < 0
         assert passage.at(0.01) == end
-
-
-@given(cameras(), cameras(), st.booleans())
-def test_it_leaves_and_arrives_without_a_jump(one: Camera, two: Camera, fit: bool) -> None:
-    """The bound: s = 3 part^2 = 3e-14 of the way is gone, and 1 + ln F times that of what passes by
-    factors up to F. F is at most 1e13: half sizes of 0.025 to 2 at 1e-6 to 1e5 distances.
-
-    Between the focus and the eye there are less than 36, along u, v and w thus 50 * 36 lengths of
-    each at either end, and these lengths differ by up to 52: the eye moves by less than
-    2 * 3 * 50 * 36 * 52 * 31 * s = 5e-7.
-    """
-    passage = Passage(View(one, fit), View(two, fit), FOCUS, BOUNDS, SIZE)
-    assume(passage.possible)
-    for part, end, other in ((1e-7, one, two), (1 - 1e-7, two, one)):
-        camera = passage.at(part).camera
-        np.testing.assert_allclose(camera.basis, end.basis, atol=1e-9)
-        if camera.projection != end.projection:
-            continue  # parallel rays, as they look from far off
-        assert camera.eye == pytest.approx(end.eye, rel=0, abs=1e-6)
-        assert camera.viewport == pytest.approx(end.viewport, rel=1e-5, abs=1e-5)
-        assert camera.distance == pytest.approx(end.distance, rel=1e-5)
-        if end.near is not None and other.near is not None:
-            assert camera.near == pytest.approx(end.near, abs=1e-5)
-        if end.far is not None and other.far is not None:
-            assert camera.far == pytest.approx(end.far, abs=1e-5)
-        else:
-            assert camera.far is None
-
-
-@given(lookers(), lookers(), parts)
-def test_between_orthonormal_cameras_the_basis_stays_orthonormal(
-    one: Camera, two: Camera, part: float
-) -> None:
-    camera = Passage(View(one), View(two), FOCUS, BOUNDS, SIZE).at(part).camera
-    assert is_orthonormal(camera)
-    assert camera.determinant > 0
 
 
 def seen(camera: Camera, point: np.ndarray) -> np.ndarray:
@@ -102,120 +63,119 @@ def seen(camera: Camera, point: np.ndarray) -> np.ndarray:
 def test_between_the_projections_the_plane_of_the_focus_stands_still(
     camera: Camera, part: float, back: bool, fit: bool
 ) -> None:
-    """The eye draws back, and so does an image plane before the focus; one behind it comes no
-    nearer than the focus. What is as far off as the focus keeps its size.
-    """
+    """The eye draws back; what is as far off as the focus keeps its size."""
     other = switched_projection(camera, FOCUS)
     ends = (other, camera) if back else (camera, other)
-    passage = Passage(View(ends[0], fit), View(ends[1], fit), FOCUS, BOUNDS, SIZE)
-    plane = np.asarray(FOCUS) + np.array(
-        [np.zeros(3), np.asarray(camera.u), -0.5 * np.asarray(camera.v)]
-    )
-    between = passage.at(part)
-    assert np.allclose(
-        seen(between.for_size(SIZE), plane),
-        seen(View(camera, fit).for_size(SIZE), plane),
-        atol=1e-4,
-    )
-    drawn = between.camera
-    if not drawn.is_parallel:
-        drawn_back = np.linalg.norm(np.subtract(drawn.eye, FOCUS))
-        assert drawn_back >= np.linalg.norm(np.subtract(camera.eye, FOCUS)) - 1e-9
-        assert drawn.distance >= min(camera.distance, depth_of(camera, FOCUS)) - 1e-9
+    between = Passage(View(ends[0], fit), View(ends[1], fit), FOCUS, SIZE).at(part)
+    across = np.array([np.zeros(3), camera.u, -0.5 * np.asarray(camera.v)])
+    plane = across + FOCUS
+    was = seen(View(camera, fit).for_size(SIZE), plane)
+    np.testing.assert_allclose(seen(between.for_size(SIZE), plane), was, atol=1e-3)
+    if not between.camera.is_parallel:
+        away = [np.linalg.norm(np.subtract(c.eye, FOCUS)) for c in (between.camera, camera)]
+        assert away[0] >= away[1] - 1e-9
 
 
 @given(lookers(), st.booleans())
 @settings(max_examples=30)
 def test_the_step_to_parallel_rays_is_invisible(camera: Camera, fit: bool) -> None:
-    start = View(camera, fit)
-    end = View(switched_projection(camera, FOCUS), fit)
-    passage = Passage(start, end, FOCUS, BOUNDS, SIZE)
+    ends = View(camera, fit), View(switched_projection(camera, FOCUS), fit)
+    passage = Passage(*ends, FOCUS, SIZE)
     low, high = 0.0, 1.0
     for _ in range(60):  # the moment at which the rays become parallel
         middle = (low + high) / 2
-        if passage.at(middle).camera.is_parallel:
-            high = middle
-        else:
-            low = middle
+        low, high = (low, middle) if passage.at(middle).camera.is_parallel else (middle, high)
     before, after = (passage.at(part).for_size(SIZE) for part in (low, high))
-    assert not before.is_parallel
-    assert after.is_parallel
+    assert not before.is_parallel and after.is_parallel
     a, b = seen(before, INSIDE), seen(after, INSIDE)
     inside = ((b > -1) & (b < np.array([SIZE[1], SIZE[0]]))).all(axis=1)
     assert inside.any()
-    assert np.abs(a - b)[inside].max(initial=0.0) < 0.25
-    assert INVISIBLE_PX < 0.25
+    assert np.abs(a - b)[inside].max(initial=0.0) < 0.5
 
 
-@pytest.mark.parametrize("fit", [True, False])
 @pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
-def test_no_point_of_the_scene_jumps(preset, fit: bool) -> None:
-    """In 1000 steps, nothing that is in front of the eye moves far in any of them."""
+def test_no_point_of_the_scene_jumps(preset) -> None:
+    """In 500 steps, nothing moves far in any of them, and all stays in front of the eye."""
     scene = load_scene("still-life")
     focus = scene_focus(scene)
-    start = View(scene.view.camera, fit)
+    start = View(scene.view.camera, True)
     end = preset_view(preset, start, focus.framed, focus.bounds, 16 / 9)
-    passage = Passage(start, end, focus.center, focus.bounds, SIZE)
-    points = focus.framed
-    last = None
-    for part in np.linspace(0, 1, 1001):
-        now = seen(passage.at(float(part)).for_size(SIZE), points)
-        assert np.isfinite(now).all()  # all in front of the eye, all the way
-        if last is not None:
-            assert np.abs(now - last).max() < 12
-        last = now
+    passage = Passage(start, end, focus.center, SIZE)
+    places = np.array(
+        [
+            seen(passage.at(float(part)).for_size(SIZE), focus.framed)
+            for part in np.linspace(0, 1, 501)
+        ]
+    )
+    assert np.isfinite(places).all()
+    assert np.abs(np.diff(places, axis=0)).max() < 24
 
 
 def test_what_lies_behind_the_first_eye_is_not_seen_while_the_eye_draws_back() -> None:
-    camera = Camera(eye=(0.0, 0.0, 1.0))  # the scene reaches to z = 2
+    camera = Camera(eye=(0.0, 0.0, 1.0))
     end = switched_projection(camera, (0, 0, -1))
-    passage = Passage(View(camera), View(end), (0, 0, -1), BOUNDS, SIZE)
+    passage = Passage(View(camera), View(end), (0, 0, -1), SIZE)
     for part in (0.1, 0.4, 0.7):
         between = passage.at(part).camera
         assert between.near is not None
         assert between.eye[2] - between.near == pytest.approx(1.0)
-    nothing_behind = replace(camera, eye=(0.0, 0.0, 5.0))
-    end = switched_projection(nothing_behind, (0, 0, -1))
-    passage = Passage(View(nothing_behind), View(end), (0, 0, -1), BOUNDS, SIZE)
-    assert passage.at(0.5).camera.near is None
 
 
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_a_plane_before_which_nothing_is_seen_comes_and_goes(projection: str) -> None:
-    """Evenly where it cuts something off; where it does not, no perspective needs it on its way."""
-    one = Camera(eye=(0, 0, 5), projection=projection)
-    two = replace(one, near=2.0)
-    middle = [
-        Passage(View(one), View(two), (0, 0, 0), b, SIZE).at(0.5) for b in (BOUNDS, 2 * BOUNDS)
-    ]
-    parallel = projection == "parallel"
-    expected = pytest.approx([1.0 if parallel else None, 1.0])
-    assert [view.camera.near for view in middle] == expected
-    for ends in ((one, two), (two, two), (one, one)):
-        empty = Passage(*map(View, ends), (0, 0, 0), np.zeros((0, 3)), SIZE).at(0.5).camera.near
-        needed = 2.0 if ends[0] is two else 1.0 if parallel and two in ends else None
-        assert empty == pytest.approx(needed)
+@pytest.mark.parametrize("eye", [(3.0, 0.5, -0.49999), (0.0, 0.5, -4.0), (-40.0, 3.0, 60.0)])
+def test_with_the_same_basis_the_eye_and_all_planes_go_evenly(eye: tuple) -> None:
+    """Wherever the focus is, also behind an eye: slowly at first and in the end."""
+    two = Camera((0.0, 0.5, 3.0), viewport=(-0.01, 0.02, -0.01, 0.01), near=0.5, far=90.0)
+    one = replace(two, eye=eye, near=0.25, far=30.0)
+    passage = Passage(View(one), View(two), FOCUS, SIZE)
+    for part, s in ((0.1, 0.028), (0.5, 0.5), (0.9, 0.972)):
+        camera = passage.at(part).camera
+        assert camera.viewport == pytest.approx(two.viewport)
+        assert camera.eye == pytest.approx(np.array(one.eye) * (1 - s) + np.array(two.eye) * s)
+        assert (camera.near, camera.far) == pytest.approx((0.25 + 0.25 * s, 30 + 60 * s))
+    assert passage.at(0.5, eased=False) == passage.at(0.5)
+    assert passage.at(0.25, eased=False).camera.near == pytest.approx(0.25 + 0.25 * 0.25)
 
 
-def test_of_a_near_plane_a_millionth_of_the_depth_is_none() -> None:
-    for near, between in ((9.0, None), (11.0, 11.0)):
-        one = Camera(eye=(0, 0, 1e7), near=near)
-        two = replace(one, viewport=(-1, 1, -1, 1))
-        found = Passage(View(one), View(two), (0, 0, 0), BOUNDS, SIZE).at(0.5).camera.near
-        assert found == pytest.approx(between)
+def test_to_parallel_rays_the_angle_of_view_narrows_evenly() -> None:
+    one = Camera((0, 0, 2))
+    for factor in (0.01, 1.0, 100.0):
+        viewport = (-factor, factor, -factor, factor)
+        two = replace(one, viewport=viewport, projection="parallel")
+        passage = Passage(View(one), View(two), (0, 0, 0), SIZE)
+        for part, s in ((0.1, 0.028), (0.5, 0.5), (0.9, 0.972)):
+            _, right, _, top = passage.at(part).camera.viewport
+            assert right / passage.at(part).camera.distance == pytest.approx(0.5 * (1 - s))
+            assert right == top
 
 
-def test_beyond_what_a_camera_can_be_the_nearer_end_is_seen() -> None:
-    start = View(Camera(eye=(0, 0, 8e11)))
-    end = View(switched_projection(start.camera, (0, 0, 0)))
-    passage = Passage(start, end, (0, 0, 0), BOUNDS, SIZE)
-    assert passage.at(0.1).camera.eye[2] == pytest.approx(8e11 / 0.972)
-    assert passage.at(0.45) is start
-    assert passage.at(0.55) is end
+def test_half_a_turn_goes_about_the_upright_axis() -> None:
+    end = Camera((0, 0, -5), (-1, 0, 0), (0, 1, 0), (0, 0, -1))
+    passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), SIZE)
+    for part in (0.2, 0.5, 0.9):
+        assert passage.at(part).camera.v == pytest.approx((0, 1, 0))
+    assert passage.at(0.5).camera.w == pytest.approx((1, 0, 0))
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.5])
+def test_half_way_is_half_of_the_turn_and_the_mean_of_the_stretch(scale: float) -> None:
+    """About one axis, evenly; lengths pass in their logarithm."""
+    axis = np.array([1.0, 2.0, -2.0]) / 3
+    cross = np.cross(np.eye(3), -axis)
+
+    def turn(angle: float) -> np.ndarray:
+        return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+    for angle in (0.0, 1e-9, 5e-8, 0.4, 1.8, 3.1):
+        u, v, w = (scale * turn(angle)).T
+        end = Camera(tuple(5 * w / scale), tuple(u), tuple(v), tuple(w))
+        passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), SIZE)
+        for part, way in ((0.25, 0.15625), (0.5, 0.5)):
+            basis = passage.at(part).camera.basis
+            np.testing.assert_allclose(basis, scale**way * turn(way * angle), atol=1e-9)
 
 
 def test_between_a_view_that_is_fitted_and_one_that_is_not_nothing_is_fitted() -> None:
     one, two = Camera(eye=(0, 0, 5)), Camera(eye=(0, 0, 4))
     for fits in ((True, True), (True, False), (False, True), (False, False)):
         ends = (View(camera, fit) for camera, fit in zip((one, two), fits, strict=True))
-        assert Passage(*ends, (0, 0, 0), BOUNDS, SIZE).at(0.5).fit is all(fits)
+        assert Passage(*ends, (0, 0, 0), SIZE).at(0.5).fit is all(fits)

@@ -1,20 +1,30 @@
-"""Wrong rays by name: one mistake, two at once, never another; right rays never."""
+"""Wrong answers by name: one mistake, two at once, never another; right answers never."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from asked_rays import KINDS, TASKS, asked_cases, made_camera
+from asked_rays import KINDS as CAMERAS
+from asked_rays import TASKS as RAY_TASKS
+from asked_rays import asked_cases, made_camera, made_case, made_cases, whole_image
 from numpy.typing import NDArray
 
+from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.candidates import LOOSE, candidates
+from lucida.app.checking.mistakes.diagnosis import MOST, diagnosis
 from lucida.app.checking.mistakes.program import Mistakes, Program
-from lucida.app.checking.mistakes.ray_trial import RayCase, RayTrial
+from lucida.app.checking.mistakes.programs import known_values, program_of, programs
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
+from lucida.app.checking.mistakes.trials import RayTrial
+from lucida.renderer.camera.camera import Camera
 
-PROJECTIONS = ("perspective", "parallel")
+TASKS = {task.name: task for task in BUILTIN}
+VALUES = [task for task in BUILTIN if task.kind != "viewing-ray"]
+LOOPS = 30  # mistakes in the lines of both loops; the others are those of rays
 
 
 class KeptTrial(RayTrial):
@@ -48,23 +58,10 @@ def same(trial: RayTrial, rays: NDArray[np.float64], others: NDArray[np.float64]
     )
 
 
-def as_student(rays: NDArray[np.float64], how: str) -> NDArray[np.float64]:
-    """In another form that is as right: normalised, longer, in float32."""
-    if how == "float32":
-        return rays.astype(np.float32).astype(float)
-    made = rays.copy()
-    length = np.linalg.norm(made[:, 1], axis=1)
-    factor = np.where(length > 0, 1 / np.where(length > 0, length, 1), 0)
-    made[:, 1] *= factor[:, None] if how == "unit" else np.linspace(0.1, 10, len(made))[:, None]
-    return made
-
-
-@pytest.mark.parametrize("name", TASKS)
-def test_each_mistake_is_named(name):
-    """Use 52 cameras together, with rays of any length in float64, and of length 1, in float32,
-    too.
-    """
-    task = TASKS[name]
+@pytest.mark.parametrize("name", RAY_TASKS)
+def test_each_mistake_in_rays_is_named(name):
+    """Use 52 cameras together, with rays of length 1, every fourth mistake in float32."""
+    task = RAY_TASKS[name]
     program = ray_program(task)
     trial = KeptTrial(asked_cases(task, 52), np.zeros((1, 2, 3)), task)
     everywhere = np.ones(trial.count, bool)
@@ -74,13 +71,16 @@ def test_each_mistake_is_named(name):
         if same(trial, rays, trial.right):
             continue
         named += 1
-        for how in ("unit", "long") if named % 4 else ("unit", "float32"):
-            trial.given = as_student(rays, how)
-            found = candidates(program, trial, everywhere)
-            assert (mistake,) in found, (mistake.name, how)
-            for others in found:
-                assert len(others) == 1
-                assert same(trial, rays, alone(trial, program, others)), (mistake.name, others)
+        trial.given = rays.copy()
+        length = np.linalg.norm(rays[:, 1:], axis=2, keepdims=True)
+        trial.given[:, 1:] /= np.where(length > 0, length, 1)
+        if named % 4 == 0:
+            trial.given = trial.given.astype(np.float32).astype(float)
+        found = candidates(program, trial, everywhere)
+        assert (mistake,) in found, mistake.name
+        for others in found:
+            assert len(others) == 1
+            assert same(trial, rays, alone(trial, program, others)), (mistake.name, others)
     assert named >= len(program.mistakes) - 3
 
 
@@ -89,7 +89,7 @@ def test_two_mistakes_at_once_are_named(name, first):
     """Every other pair, of eight cameras together: by their names, or by those of what is the
     same.
     """
-    task = TASKS[name]
+    task = RAY_TASKS[name]
     program = ray_program(task)
     trial = KeptTrial(asked_cases(task, 8), np.zeros((1, 2, 3)), task)
     everywhere = np.ones(trial.count, bool)
@@ -108,29 +108,204 @@ def test_two_mistakes_at_once_are_named(name, first):
     assert len(pairs) > 200 and exactly > 0.85 * len(pairs)
 
 
-@pytest.mark.parametrize("projection", PROJECTIONS)
-@pytest.mark.parametrize(("form", "count"), [(np.float32, 5_000), (np.float64, 500)])
-def test_right_answers_of_10_000_cameras_have_no_name(projection, form, count):
-    """5,000 cameras in each projection, a pixel each, computed in float32; fewer in float64: of any
-    length, nothing is told of them, even if they were handed over as wrong."""
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_right_answers_of_5_000_cameras_have_no_name(projection):
+    """A pixel of each, computed in float32: even if they were handed over as wrong."""
     random = np.random.default_rng(7)
     task = RayTask(projection)
     program = ray_program(task)
     cases = []
-    for number in range(count):
-        camera = made_camera(random, KINDS[number % len(KINDS)], projection)
+    for number in range(5_000):
+        camera = made_camera(random, CAMERAS[number % len(CAMERAS)], projection)
         width, height = random.integers(2, 2000, 2).tolist()
         pixel = (int(random.integers(height)), int(random.integers(width)))
-        cases.append(RayCase(camera, (width, height), pixel))
+        cases.append(made_case(camera, (width, height), pixel))
     trial = RayTrial(cases, np.zeros((1, 2, 3)), task)
-    known = {key: np.asarray(value, form) for key, value in trial.known.items()}
-    origin, direction = program.run(known)
-    assert origin.dtype == direction.dtype == form
-    length = random.uniform(1e-3, 1e3, len(cases)).astype(form)
-    given = np.empty((len(cases), 2, 3))
-    given[:, 0], given[:, 1] = origin, direction * length[:, None]
+    origin, direction = program.run({k: np.float32(value) for k, value in trial.known.items()})
+    assert origin.dtype == direction.dtype == np.float32
+    length = random.uniform(1e-3, 1e3, len(cases)).astype(np.float32)
+    given = np.stack([origin, direction * length[:, None]], axis=1).astype(float)
     assert trial.apart(given, trial.right, np.arange(len(cases))).max() < LOOSE / 4
     for first in range(0, len(cases), 500):
         chosen = slice(first, first + 500)
         part = RayTrial(cases[chosen], given[chosen], task)
         assert candidates(program, part, np.ones(500, bool)) == ()
+
+
+def answers(task, cases, mistakes):
+    """Return what a program with mistakes answers, in the kind's own form."""
+    made = []
+    for case in cases:
+        program = program_of(task, case.camera.projection if case.camera else "")
+        (answer,) = program.run(known_values(task, case), mistakes)
+        if isinstance(answer, tuple):
+            answer = [np.ravel(part) for part in answer]
+        made.append(np.reshape(np.asarray(answer, float), np.shape(case.right)))
+    return made if task.kind in ("render", "to-gray", "to-bitmap") else np.array(made)
+
+
+@pytest.mark.parametrize("task", VALUES, ids=lambda task: task.name)
+def test_each_classic_mistake_is_wrong_and_named(task):
+    task = replace(task, projections=task.projections[:1], count=max(task.count, 20))
+    task = task if task.kind != "render" else replace(task, count=4, cameras=("off-axis",))
+    kind, (program,) = KINDS[task.kind], programs(task)
+    cases, missed = kind.cases(task), []
+    mistakes = program.mistakes
+    for mistake in mistakes if task.kind != "render" else mistakes[:LOOPS] + mistakes[LOOPS::20]:
+        given = answers(task, cases, (mistake,))
+        wrong = kind.wrong(task, cases, given)
+        if not wrong.any():
+            missed.append(mistake.name)
+        elif len(np.unique(np.concatenate([np.ravel(one) for one in given]))) > 1:
+            found = diagnosis(task, cases, given, wrong)
+            assert (mistake,) in found.candidates, (mistake.name, found)
+            for others in found.candidates:
+                for pair in zip(given, answers(task, cases, others), strict=True):
+                    assert np.allclose(*pair, 1e-5, equal_nan=True), (mistake.name, others)
+    assert len(missed) <= (4 if task.kind == "render" else 0), missed
+
+
+@pytest.mark.parametrize("name", ["basis", "hit-sphere", "memory-offset"])
+def test_two_mistakes_in_values_at_once(name):
+    task = TASKS[name]
+    kind, (program,) = KINDS[task.kind], programs(task)
+    cases, pairs = kind.cases(task), list(program.pairs())
+    for number in np.random.default_rng(1).choice(len(pairs), 8, replace=False):
+        given = answers(task, cases, pairs[number])
+        wrong = kind.wrong(task, cases, given)
+        if np.isnan(given).any() or not wrong.any():
+            continue
+        found = diagnosis(task, cases, given, wrong)
+        assert found.candidates or "All your answers" in found.sentences[0]
+        for others in found.candidates:
+            assert np.allclose(given, answers(task, cases, others), 1e-9)
+
+
+def diagnosed(make, cases=None, **conventions):
+    """Return the diagnosis of a function from a ray and its case to origin and direction."""
+    task = TASKS["viewing-ray"]
+    task = replace(task, conventions=replace(task.conventions, **conventions), notation="code")
+    cases = cases or made_cases(5, 6)
+    given = np.array([make(*case.right, case) for case in cases], float)
+    return diagnosis(task, cases, given, KINDS[task.kind].wrong(task, cases, given))
+
+
+def names(found):
+    return [{one.name for one in candidate} for candidate in found.candidates]
+
+
+def upside_down(o, d, case):
+    return case.camera.ray(case.size[1] - 1 - case.pixel[0], case.pixel[1], case.size)
+
+
+def transposed(o, d, case):
+    return case.camera.ray(*case.pixel[::-1], case.size)
+
+
+def test_one_mistake():
+    found = diagnosed(upside_down)
+    assert names(found) == [{"rows count upwards"}]
+    assert found.sentences == (
+        "Rows count downwards, `camera.v` points up: `y` needs its minus sign.",
+        "As if it read `y = camera.bottom + (i + 0.5) / height * (camera.top - camera.bottom)`, "
+        "not `y = camera.top - (i + 0.5) / height * (camera.top - camera.bottom)`.",
+        "Read again: From pixel to (u, v).",
+    )
+
+
+def test_all_mistakes_with_the_same_numbers_are_named():
+    """In square images of a square viewport, the image transposed and rows for columns."""
+    cases = whole_image(Camera((1, 2, 3), distance=2.0), (5, 5))
+    found = diagnosed(transposed, cases)
+    assert names(found) == [{"row and column exchanged"}, {"the image transposed"}]
+    assert any(sentence.startswith("Or, with the same numbers:") for sentence in found.sentences)
+    # One of them explains other images in the other projection.
+    found = diagnosed(transposed, cases + made_cases(6, 4, "parallel"))
+    assert names(found) == [{"row and column exchanged"}]
+
+
+def test_each_projection_has_its_own_mistake():
+    def ray(o, d, case):
+        return (case.camera.eye, d) if case.camera.is_parallel else upside_down(o, d, case)
+
+    found = diagnosed(ray, made_cases(5, 4) + made_cases(6, 4, "parallel"))
+    assert names(found) == [{"rows count upwards"}, {"all rays start at the eye"}]
+    places = [sentence for sentence in found.sentences if sentence.startswith("In ")]
+    assert places == ["In perspective:", "In parallel projection:"]
+
+
+def test_any_point_of_the_ray():
+    """An origin further on is no mistake where any is allowed; another mistake is reported."""
+
+    def moved(o, d, case):
+        origin, direction = transposed(o, d, case)
+        return origin + 0.7 * direction, direction
+
+    found = diagnosed(moved, any_origin=True)
+    assert names(found)[0] == {"row and column exchanged"}
+
+
+def test_of_a_large_image_some_rays_are_looked_at():
+    cases = whole_image(Camera.look_at((3, 2, 4), (0, 0, 0)), (64, 48))
+    assert len(cases) > MOST
+    # Of one symmetric camera, other mistakes look the same.
+    assert {"rows count upwards"} in names(diagnosed(upside_down, cases))
+
+
+def bent_unless(is_right):
+    return lambda o, d, case: (o, d + (not is_right(case)) * np.sin(case.pixel[0] + 1))
+
+
+SQUARE = [
+    case
+    for camera in (one.camera for one in made_cases(5, 40)[::25])
+    for size in ((3, 3), (3, 4))
+    for case in whole_image(camera, size)
+]
+SAID = {
+    "All your rays are the same: they do not depend on i and j.":
+        (lambda o, d, case: ((1, 2, 3), (4, 5, 6)), None),
+    "162 of 162 rays have NaN or inf: look for a division by 0.":
+        (lambda o, d, case: ((np.nan, 0, 0), (0, 0, 0)), None),
+    "Your rays are correct in square images, and wrong elsewhere.":
+        (bent_unless(lambda case: case.size == (3, 3)), SQUARE),
+    "Your origins are correct, your directions are not.": (bent_unless(lambda case: False), None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("said", SAID)
+def test_what_is_said_without_a_name(said):
+    found = diagnosed(*SAID[said])
+    assert said in found.sentences and not found.candidates
+
+
+def test_an_image_with_one_right_ray_is_not_elsewhere():
+    bent = bent_unless(lambda case: case.size == (3, 3) or case.pixel == (0, 0))
+    found = diagnosed(bent, [*SQUARE, *whole_image(SQUARE[0].camera, (4, 3))])
+    assert "Your rays are correct in square images, and wrong elsewhere." in found.sentences
+    bent = bent_unless(lambda case: case.size != (3, 4) or case.pixel == (0, 0))
+    found = diagnosed(bent, [*SQUARE, *whole_image(SQUARE[0].camera, (4, 3))])
+    assert not any("elsewhere" in sentence for sentence in found.sentences)
+
+
+def test_right_directions_that_are_not_of_unit_length():
+    task = replace(TASKS["viewing-ray"], count=3)
+    task = replace(task, conventions=replace(task.conventions, unit=True))
+    cases = KINDS[task.kind].cases(task)
+    given = np.array([case.right for case in cases]) * [[1], [2]]
+    found = diagnosis(task, cases, given, np.ones(len(cases), bool))
+    assert found.sentences[0].endswith("not of length 1: normalise them.")
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "said"),
+    [
+        ("hit-sphere", np.inf, "You never find a hit."),
+        ("closest-hit", [-1, np.inf], "You never find a hit."),
+        ("hit-triangle", 2.5, "All your answers are 2.5, whatever is asked."),
+    ],
+)
+def test_one_answer_to_everything(name, answer, said):
+    cases = KINDS[name].cases(TASKS[name])
+    found = diagnosis(TASKS[name], cases, np.array([answer] * len(cases)), np.ones(len(cases)) > 0)
+    assert found.sentences == (said,)

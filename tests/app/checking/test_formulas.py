@@ -17,12 +17,10 @@ from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.calls import Failure
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.mistakes.diagnosis import AS_IF
 from lucida.app.checking.mistakes.program import Mistake, Program
-from lucida.app.checking.mistakes.rays import ray_values
-from lucida.app.checking.mistakes.value_programs import value_case
-from lucida.app.checking.own_words import functions, in_the_tasks_words, own_names, programs
-from lucida.app.checking.ray_words import ray_task
+from lucida.app.checking.mistakes.programs import case_values, known_values, programs
+from lucida.app.checking.mistakes.rays import ray_task
+from lucida.app.checking.own_words import AS_IF, functions, in_the_tasks_words, own_names
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.starter import starter
 from lucida.app.checking.task_file import load_tasks
@@ -128,13 +126,11 @@ def _known(task: CheckTask, case: CheckCase) -> dict[str, Any]:
     known: dict[str, Any] = {}
     exec(OTHERS, known)
     if case.camera is None:
-        return known | dict(value_case(task.kind, case.values, 0, 0, 0).known) | known
+        return known_values(task, case) | known
     size = case.size
     assert size is not None
     i, j = case.pixel or (np.arange(size[1])[:, None], np.arange(size[0]))
-    rays = ray_values(case.camera, i, j, size, ray_task(task.conventions))
-    vectors = {"target": np.asarray(case.target), "up": np.asarray(case.up)}
-    return known | rays | vectors | case.values.get("scene", {})
+    return known | case_values(case, i, j, ray_task(task)) | case.values.get("scene", {})
 
 
 def _flat(value: Any) -> Any:

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from asked_rays import made_cases
+from asked_rays import made_case, made_cases
 
 import lucida.app.lecture.lectures
+from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.mistakes.program import Mistake, Program
-from lucida.app.checking.mistakes.ray_trial import known_values
+from lucida.app.checking.mistakes.programs import programs
 from lucida.app.checking.mistakes.rays import (
     WORDS,
     RayTask,
@@ -21,12 +22,12 @@ from lucida.app.checking.mistakes.rays import (
     ray_values,
     run_rays,
 )
-from lucida.app.checking.mistakes.value_programs import value_program
+from lucida.app.checking.mistakes.trials import RayTrial
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
 
 PROJECTIONS = ("perspective", "parallel")
-BASIS = value_program("basis")
+(BASIS,) = programs(next(task for task in BUILTIN if task.name == "basis"))
 CAMERA_PARTS = {"eye", "distance", "left", "right", "bottom", "top"}
 FRAME = {"u", "v", "w"}
 PIXEL = {"i", "j", "width", "height"}
@@ -55,9 +56,7 @@ def asked(words: str):
             high = camera.viewport[3]
             wide = high * case.size[0] / case.size[1]
             camera = replace(camera, viewport=(-wide, wide, -high, high))
-        target = tuple(np.asarray(camera.eye) - 2.5 * np.asarray(camera.w))
-        up = tuple(1.5 * np.asarray(camera.v) + 0.4 * np.asarray(camera.w))
-        made.append(replace(case, camera=camera, target=target, up=up))
+        made.append(made_case(camera, case.size, case.pixel))
     return made
 
 
@@ -86,7 +85,7 @@ def test_the_right_program_in_a_task_s_words(words, projection):
     for indexing in Indexing:
         for from_top in (True, False):
             task = RayTask(projection, indexing, from_top, frozenset(TASKS[words]))
-            known = known_values(cases, task)
+            known = RayTrial(cases, np.zeros(0), task).known
             needed = {"eye", *(WORDS if words == "in other words" else TASKS[words])}
             given = {name: known[name] for name in needed & known.keys()}
             origin, direction = run_rays(ray_program(task), given)

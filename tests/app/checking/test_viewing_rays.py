@@ -125,26 +125,6 @@ def test_kinds_of_cameras_are_what_they_say(kind):
         assert shot.size[0] != shot.size[1]
 
 
-def test_one_call_for_all_pixels():
-    task = replace(TASK, vectorised=True, count=4)
-    cases = KIND.cases(task)
-    calls = KIND.calls(task, cases)
-    assert len(calls) == 4 and all(call.vectorised for call in calls)
-    right = KIND.right(cases)
-    ends = np.cumsum([len(dict(call.arguments)["i"]) for call in calls])
-    parts = np.split(right, ends[:-1])
-    values = [[part[0, 0].tolist(), part[:, 1].tolist()] for part in parts]
-    origin, directions = values[0]
-    height_by_width = [origin, np.reshape(directions, (-1, cases[0].size[0], 3)).tolist()]
-    as_dict = {"origin": origin, "direction": directions}
-    for first in (values[0], height_by_width, as_dict):
-        made, problems = KIND.given(task, cases, [first, *values[1:]])
-        assert not problems and not KIND.wrong(task, cases, made).any()
-    _, problems = KIND.given(task, cases, [values[0][1], *values[1:]])
-    assert "shape" in problems[0] and "pixels" in problems[0]
-    assert KIND.given(task, cases, [None, *values[1:]])[1][0].startswith("returned None")
-
-
 @pytest.mark.parametrize("part", ["origin", "direction"])
 def test_one_part_of_a_ray_in_camera_space(part):
     """A part that is not asked for counts as right, whatever space it is in."""

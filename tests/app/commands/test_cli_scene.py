@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 import numpy as np
-import pytest
 
 from lucida.app.cli import main
 from lucida.renderer.files import load_scene
@@ -40,15 +39,6 @@ def test_a_scene_is_told_whole(capsys):
     text = capsys.readouterr().out
     assert "still life: 11 objects, 9638 triangles, 2 lights" in text
     assert "4   torus 'torus': 9216 triangles" in text and "odd" not in text
-
-
-@pytest.mark.parametrize(
-    ("words", "problem"), [(["no.toml"], "does not exist"), ([], "required"), (["--x"], "required")]
-)
-def test_a_mistake_is_one_line_and_status_2(words, problem, capsys):
-    assert main(["scene", *words]) == 2
-    error = capsys.readouterr().err
-    assert problem in error and error.count("\n") == 1
 
 
 def test_sound_shapes_are_not_odd():

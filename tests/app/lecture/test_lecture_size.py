@@ -12,11 +12,9 @@ from typing import Any
 
 import pytest
 
-from lucida.app.lecture import reading
 from lucida.app.lecture import text as texts
 from lucida.app.lecture.reading import PIECES, lecture_from_toml
 from lucida.app.lecture.text import Math, Paragraph, Words, parse
-from lucida.renderer.files.places import Places
 from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.system.errors import LucidaError
 
@@ -94,22 +92,6 @@ def test_what_nothing_closes_is_looked_for_once(line: str) -> None:
     assert work.searches < 50
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "\n".join(f"key{k} = {k}" for k in range(SMALL // 16)),
-        "[[steps]]\n" * (SMALL // 10),
-        "a = [\n" + "1,\n" * (SMALL // 3) + "]\n",
-    ],
-    ids=["keys", "steps", "numbers"],
-)
-def test_lines_are_found_in_linear_time(text: str) -> None:
-    with Work() as work:
-        places = Places(text)
-    assert work.lines <= 20 * len(text)
-    assert places.line("") == 1
-
-
 def test_a_lecture_of_the_largest_size_is_read() -> None:
     """Prose, with as many formulas as a lecture may have."""
     formulas = "Here is $x_1$ and **bold**.\n\n" * (PIECES // 1000 // 8)
@@ -146,14 +128,6 @@ def test_a_lecture_of_more_pieces_than_anybody_shows_is_refused_at_once(line, mo
     assert laid_out < PIECES * len(line) * 2 + 10_000
 
 
-def test_formulas_keep_their_lines() -> None:
-    text = 'title = "L"\n' + STEP.format(
-        "An x is\n> asked: $a\n> + b$ $x$\n\n$$\nw\n$$\n\n- an item\n  $y$ goes on\n\n**$z$**\n"
-    )
-    found = {entry.latex: entry.line - 4 for entry in lecture(text).formulas}
-    assert found == {"a + b": 2, "x": 3, "w": 6, "y": 10, "z": 12}
-
-
 def test_signs_that_are_never_closed_stand_as_they_are() -> None:
     assert parse("a *b *c d") == (Paragraph((Words("a *b *c d"),)),)
     assert parse("*a* *b $x$ *c") == (
@@ -165,16 +139,3 @@ def test_signs_that_are_never_closed_stand_as_they_are() -> None:
         ),
     )
     parse("*" * 40_000)  # no depth of calls
-
-
-def test_all_scenes_together_have_a_bound(tmp_path: Path, monkeypatch) -> None:
-    """Each by itself would do; a few lines can name many."""
-    monkeypatch.setattr(reading, "TRIANGLES", 30)
-    text = 'title = "L"\n'
-    for number in range(3):
-        (tmp_path / f"s{number}.toml").write_text("objects = [{ type = 'box' }]\n")
-        text += f"[[steps]]\ntitle = 'T'\nscene = 's{number}.toml'\n"
-    with pytest.raises(LucidaError) as caught:
-        lecture_from_toml(text, tmp_path, "x.toml")
-    assert "steps[2].scene" in str(caught.value)
-    assert "brings the lecture's scenes to more than 30 triangles; divide it" in str(caught.value)

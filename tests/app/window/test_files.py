@@ -1,12 +1,8 @@
-"""Recent files, folders, pictures, clipboard: what the window does with files, without a window."""
+"""Recent files, folders, pictures: what the window does with files, without a window."""
 
 from __future__ import annotations
 
-import io
 import json
-import os
-import subprocess
-import sys
 import threading
 
 import numpy as np
@@ -15,10 +11,10 @@ from opened_things import found
 from PIL import Image
 from waiting import wait_for
 
-from lucida.app.ui.folders import read_folder, starting_points
+from lucida.app.ui.dialog import read_folder
 from lucida.app.ui.recent import LONGEST, MOST, Recent, RecentFiles
 from lucida.app.ui.surface import Target
-from lucida.app.window import capture, clipboard
+from lucida.app.window import capture
 from lucida.app.window.capture import Captures, cut, free_path
 from lucida.app.window.files import Files
 from lucida.app.window.opening import OpenedScene, OpenedView, open_sources
@@ -87,28 +83,6 @@ def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
         assert json.loads((tmp_path / "recent.json").read_bytes()) == newest[:MOST]
 
 
-def test_what_was_found_before_a_file_was_added_does_not_take_it_away(tmp_path, monkeypatch):
-    """The disk tells what was in the list after one more came in, and falls asleep again."""
-    (tmp_path / "recent.json").write_text('["/old.obj"]')
-    awake = {"/old.obj": threading.Event(), "/new.obj": threading.Event()}
-    asked = {name: threading.Event() for name in awake}
-
-    def exists(path):
-        asked[path].set()
-        return awake[path].wait(PATIENT_S)
-
-    monkeypatch.setattr("lucida.app.ui.recent._exists", exists)
-    recent = RecentFiles(tmp_path, lambda: None)
-    assert asked["/old.obj"].wait(PATIENT_S)
-    recent.add("/new.obj")
-    awake["/old.obj"].set()
-    assert asked["/new.obj"].wait(PATIENT_S)  # the thread has told of the old list
-    assert paths(recent) == ["/new.obj"]
-    awake["/new.obj"].set()
-    wait_for(lambda: paths(recent) == ["/new.obj", "/old.obj"])
-    recent.close()
-
-
 def test_two_windows_share_the_list(tmp_path):
     one, other = RecentFiles(tmp_path, lambda: None), RecentFiles(tmp_path, lambda: None)
     one.add("/a.obj")
@@ -155,15 +129,6 @@ def test_of_the_list_s_file_only_usable_paths_are_taken(tmp_path):
     assert Recent("/a/b").folder == "/a"
 
 
-def test_a_list_that_is_only_looked_at_is_not_written(tmp_path):
-    listed = b'[ "/b" ]'
-    (tmp_path / "recent.json").write_bytes(listed)
-    recent = RecentFiles(tmp_path, lambda: None)
-    wait_for(lambda: bool(recent.entries))
-    recent.close()
-    assert (tmp_path / "recent.json").read_bytes() == listed
-
-
 # Folders.
 
 
@@ -173,10 +138,7 @@ def test_a_folder_is_listed_folders_first(tmp_path):
     (tmp_path / "Zoo").mkdir()
     listing = read_folder(tmp_path, (".obj", ".toml"))
     assert (listing.folders, listing.files) == (("Zoo",), ("a.toml", "b.OBJ"))
-    assert read_folder(tmp_path).files == ("a.toml", "b.OBJ", "c.txt")
-    assert read_folder(tmp_path / "nowhere").error != ""
-    assert read_folder(tmp_path / "a.toml").error != ""
-    assert all(folder.exists() for _, folder in starting_points())
+    assert read_folder(tmp_path / "nowhere", ("",)).error != ""
 
 
 # Several sources at once.
@@ -271,42 +233,6 @@ def test_a_cut_has_a_pixel_at_least():
     assert cut(PIXELS, (-9, -9, 99, 99)).shape == (5, 7, 3)
     assert cut(PIXELS, (3, 3, 3, 3)).shape == (1, 1, 3)
     assert cut(PIXELS, (99, 99, 120, 120)).shape == (1, 1, 3)
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the programs are Linux's")
-def test_a_picture_goes_to_the_clipboards_program(tmp_path, monkeypatch):
-    buffer = io.BytesIO()
-    Image.fromarray(PIXELS).save(buffer, format="PNG")
-    program = tmp_path / "xclip"
-    program.write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/arguments\n/bin/cat > {tmp_path}/data\n')
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setenv("DISPLAY", ":9")
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    clipboard.copy_png(buffer.getvalue())
-    assert (tmp_path / "data").read_bytes() == buffer.getvalue()
-    assert "image/png" in (tmp_path / "arguments").read_text()
-    program.unlink()
-    with pytest.raises(LucidaError, match="install xclip"):
-        clipboard.copy_png(buffer.getvalue())
-    monkeypatch.setenv("WAYLAND_DISPLAY", "wayland-0")
-    with pytest.raises(LucidaError, match="install wl-clipboard"):
-        clipboard.copy_png(buffer.getvalue())
-    program.write_text("#!/bin/sh\nexit 3\n")
-    program.chmod(0o755)
-    with pytest.raises(LucidaError, match="xclip failed"):
-        clipboard.copy_png(buffer.getvalue())
-
-
-def test_macos_is_asked_by_its_own_program(monkeypatch):
-    asked = []
-    monkeypatch.setattr(clipboard.sys, "platform", "darwin")
-    monkeypatch.setattr(
-        subprocess, "run", lambda command, **_: asked.append(command) or os.path.exists("/")
-    )
-    clipboard.copy_png(b"png")
-    assert asked[0][0] == "osascript"
-    assert "PNGf" in asked[0][2]
 
 
 def test_a_scene_that_is_cancelled_is_not_built_to_its_end(tmp_path, monkeypatch):

@@ -18,8 +18,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import is_unicode, restored, stored
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from lucida.app.ui.background import Background
-from lucida.app.ui.dialog import FOLDER, FileDialog, FileQuestion
-from lucida.app.ui.folders import read_folder
+from lucida.app.ui.dialog import FOLDER, FileDialog, FileQuestion, read_folder
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.toasts import Toasts
 from lucida.app.window import process

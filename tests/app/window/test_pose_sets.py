@@ -32,7 +32,7 @@ def step():
     frames.append(1)
     if view.poses is not None and POSES in run.window.shell.stage.rects and run.window.settled:
         if mode == "named" and run.window.state.options.poses.pose < 0:
-            run.window.transition.instant = True
+            run.window.motions.transition.instant = True
             view.take(run.window, 2)
             return
         same = run.window.state.view == view.poses.view(2)

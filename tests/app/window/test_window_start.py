@@ -12,8 +12,7 @@ from test_window import LIMIT_S, run
 
 from lucida.app.state.session import Arrangement, session_of, to_bytes
 from lucida.app.window.session_store import take_place
-from lucida.app.window.start import begin_scene
-from lucida.renderer.files.models.subprocess_reader import is_large
+from lucida.app.window.start import begin_scene, is_large
 
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 

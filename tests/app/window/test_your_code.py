@@ -31,7 +31,7 @@ def step():
         if len(waited) > 60:
             print(view.report, YOUR_CODE in run.window.shell.stage.rects)
             run.params.app_shall_exit = True
-    elif view.runs.progress > 0.5:  # it hangs, in the last row
+    elif view.runs.running_s > 0.5:  # it hangs, in the last row
         print(" ".join(sorted(children())))
         run.params.app_shall_exit = True
 

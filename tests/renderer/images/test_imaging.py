@@ -48,8 +48,6 @@ def test_a_resolution_is_seen_whole():
     assert imaging.resolution_text(state.images) == "64 x 36"
     many = with_options(state, images={"samples": 16})
     assert imaging.resolution_text(many.images) == "64 x 36, 16 samples"
-    names = [imaging.samples_text(samples) for samples in (1, 64)]
-    assert names == ["Ray: 1 sample per pixel", "Ray: mean of 64 samples"]
 
 
 def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
@@ -58,14 +56,6 @@ def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
     assert closer == with_options(state, images={"magnification": 8.0})
     whole = imaging.with_magnification(closer, None)
     assert whole == with_options(state, images={"center": (0.5, 0.5)})
-
-
-def test_one_component_and_back():
-    state = AppState.for_scene(Scene(()))
-    red = imaging.with_component(state, "red")
-    assert red.images.component == "red"
-    assert imaging.with_component(red, "red") == state
-    assert imaging.with_component(red, "blue").images.component == "blue"
 
 
 def frame() -> Frame:

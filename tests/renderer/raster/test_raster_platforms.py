@@ -69,22 +69,6 @@ def test_both_platforms_draw_the_same(scene):
     np.testing.assert_allclose(frames[0].color, frames[1].color, atol=1e-5)
 
 
-@on_each_platform
-def test_each_may_be_used_inside_the_other(gl_backend):
-    with Rasterizer(painted(1), backend=gl_backend) as outer:
-        for backend in ("egl", "osmesa"):
-            try:
-                inner = Rasterizer(painted(2), backend=backend)
-            except LucidaError as error:
-                pytest.skip(str(error))
-            with inner, outer.current() as gl:
-                texture = gl.texture((2, 2), 4, bytes(range(16)))
-                assert color_of(inner) == 2
-                assert color_of(outer) == 1
-                assert texture.read() == bytes(range(16))
-                assert gl.error == "GL_NO_ERROR"
-
-
 def test_a_windows_context_is_drawn_in_and_left_as_it_was(foreign):
     picture = foreign.framebuffer([foreign.texture((4, 4), 4)])
     picture.use()

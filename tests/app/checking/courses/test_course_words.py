@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from lucida.app.checking.cases import shots
+from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import check
 from lucida.app.checking.conventions import Conventions
 from lucida.app.checking.courses import course_names, task_path
+from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.candidates import candidates
-from lucida.app.checking.mistakes.ray_trial import RayCase, RayTrial
-from lucida.app.checking.mistakes.rays import WORDS, RayTask, ray_program
-from lucida.app.checking.ray_words import ray_task
+from lucida.app.checking.mistakes.rays import WORDS, ray_program, ray_task
+from lucida.app.checking.mistakes.trials import RayTrial
 from lucida.app.checking.reports.told import told
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.task_file import load_tasks
-from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 TASKS = [
     pytest.param(task, id=f"{name}: {task.name}")
@@ -29,30 +28,7 @@ TASKS = [
     if task.kind == "viewing-ray"
 ]
 CAMERAS = 50
-PIXELS = 4  # of each image
-
-
-def cases_of(task: CheckTask) -> tuple[list[RayCase], RayTask]:
-    """A few pixels of 50 cameras, as the course's words ask for them."""
-    made = []
-    random = np.random.default_rng(7)
-    for shot in shots(replace(task, count=CAMERAS)):
-        width, height = shot.size
-        for number in sorted(random.choice(width * height, PIXELS, replace=False).tolist()):
-            pixel = divmod(number, width)
-            made.append(RayCase(shot.camera, shot.size, pixel, shot.target, shot.up))
-    asked = replace(ray_task(task.conventions), projection=task.projections[0])
-    return made, asked
-
-
-@pytest.mark.parametrize("task", TASKS)
-def test_the_right_lines_are_right(task: CheckTask) -> None:
-    cases, asked = cases_of(task)
-    program = ray_program(asked)
-    trial = RayTrial(cases, np.zeros((len(cases), 2, 3)), asked)
-    made = trial.made(program, [()], np.arange(len(cases)))
-    assert (trial.apart(trial.right, made[0], np.arange(len(cases))) < 1e-13).all()
-
+RAYS = 200
 
 SYMMETRIC = {"as far to the left as to the right", "the viewport's middle at 0"}
 SQUARE_PIXELS = {"rows as far apart as columns", "columns as far apart as rows"}
@@ -67,7 +43,7 @@ SQUARE_IMAGES = {
 }
 
 
-def unseen(cases: list[RayCase]) -> set[str]:
+def unseen(cases: list[CheckCase]) -> set[str]:
     """The mistakes that no ray shows: those of a length that does not count, and those of what all
     cameras of the task are by its words."""
     names = {"normalised"}
@@ -83,18 +59,17 @@ def unseen(cases: list[RayCase]) -> set[str]:
 
 @pytest.mark.parametrize("task", TASKS)
 def test_every_mistake_is_known_by_name(task: CheckTask) -> None:
-    """And with it only what gives the same rays."""
-    cases, asked = cases_of(task)
-    program = ray_program(asked)
-    everything = np.arange(len(cases))
-    plain = RayTrial(cases, np.zeros((len(cases), 2, 3)), asked)
-    rays = {
-        mistakes: plain.made(program, [mistakes], everything)[0]
-        for mistakes in ((mistake,) for mistake in program.mistakes)
-    }
+    """And with it only what gives the same rays. The right lines are right."""
+    every = KINDS[task.kind].cases(replace(task, count=CAMERAS))
+    chosen = np.random.default_rng(7).choice(len(every), RAYS, replace=False)
+    cases, asked = [every[number] for number in chosen], ray_task(task, task.projections[0])
+    program, everything = ray_program(asked), np.arange(RAYS)
+    trial = RayTrial(cases, np.zeros((RAYS, 2, 3)), asked)
+    tried = [(), *((mistake,) for mistake in program.mistakes)]
+    rays = dict(zip(tried, trial.made(program, tried, everything), strict=True))
+    assert (trial.apart(trial.right, rays.pop(()), everything) < 1e-13).all()
     unnamed = set()
     for (mistake,), given in rays.items():
-        trial = copy.copy(plain)  # whose values are the same
         trial.given = given
         wrong = ~(trial.apart(trial.right, given, everything) < 1e-9)
         if not wrong.any():
@@ -128,5 +103,6 @@ def test_letters_are_told_as_the_course_calls_them(tmp_path) -> None:
 
 def test_words_without_lines_of_their_own_are_told_by_the_contract() -> None:
     words = (("p", "xy11"), ("q", "top_left"), ("camera", "camera"))
-    asked = ray_task(Conventions(arguments=words, camera=(("z", "forward"),)))
+    conventions = Conventions(arguments=words, camera=(("z", "forward"),))
+    asked = ray_task(replace(BUILTIN[3], conventions=conventions))
     assert asked.words == WORDS - {"i", "j"} | {"x11", "y11"}

@@ -43,7 +43,7 @@ def answered(camera: Camera, answer, kind: str = RAY, last: int | None = None) -
     cases = cases_for(asked, camera, SIZE)
     calls: list[Call] = KINDS[kind].calls(asked, cases)
     values = [answer(dict(call.arguments)) for call in calls[:last]]
-    return rays_of(asked, camera, SIZE, cases, Run(tuple(values)), 0.5)
+    return rays_of(asked, camera, SIZE, cases, Run(tuple(values)))
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,6 @@ def test_a_right_ray_is_right_on_the_window_s_camera(camera):
     assert rays.result.status == "right"
     assert not rays.wrong.any()
     assert rays.came.all()
-    assert rays.seconds == 0.5
     ray = camera.ray(3, 5, SIZE)
     assert np.allclose(rays.right_origins[3, 5], ray.origin)
     assert np.allclose(rays.right_directions[3, 5], ray.direction)

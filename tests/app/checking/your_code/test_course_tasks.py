@@ -28,7 +28,7 @@ from lucida.app.checking.your_code.model import (
     tasks_of,
     why_not_asked,
 )
-from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.words import told_of, verdict_of
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
@@ -116,7 +116,7 @@ def test_the_tasks_are_the_file_s(tmp_path: Path) -> None:
     assert for_camera(tasks[0], PARALLEL, tasks) == tasks[0]  # and none of the built-in ones
     with pytest.raises(LucidaError, match=r"hw2\.toml"):
         asked_of(str(tmp_path / "away" / "hw2.toml"))
-    report = CodeReport(CodeQuestion("rays.py", 1, "", CAMERA, SIZE), asked=tasks)
+    report = CodeReport(CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE), asked=tasks)
     (line,) = told_of(report, None, Indexing.LECTURE)
     assert "my_ray" in line.text and "viewing_ray" not in line.text
 
@@ -136,7 +136,7 @@ def test_what_the_course_keeps_back_is_not_shown(
     assert is_of_camera(task) == seen
     assert chosen_of([task], "") == task
     result = TaskResult(task, "right", 1.0, 10)
-    question = CodeQuestion("rays.py", 1, "", CAMERA, SIZE)
+    question = CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE)
     report = CodeReport(question, (task,), task, results={task.name: result}, asked=(task,))
     assert verdict_of(report, task) == verdict
     lines = told_of(report, None, Indexing.LECTURE)

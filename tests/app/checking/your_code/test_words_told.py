@@ -13,7 +13,7 @@ from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
 from lucida.app.checking.your_code.model import RAY, cases_for, rays_of
-from lucida.app.checking.your_code.report import CodeQuestion, CodeReport
+from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.words import told_of, verdict_of
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
@@ -23,7 +23,7 @@ CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
 TASK = next(task for task in BUILTIN if task.kind == RAY)
 PARALLEL = next(task for task in BUILTIN if task.projections == ("parallel",))
 RIGHT = TaskResult(TASK, "right", 3.0, 379)
-QUESTION = CodeQuestion("rays.py", 1, "", CAMERA, SIZE)
+QUESTION = CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE)
 
 
 def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> CodeReport:

@@ -15,7 +15,6 @@ from lucida.app.instruments.outside.frustum import (
     has_plane,
     ideal_point,
     image_point,
-    pixel_seen,
     ways,
 )
 from lucida.app.instruments.outside.growing import grown_diagram, growth, stages_of
@@ -74,16 +73,6 @@ def test_the_border_is_where_the_viewport_or_the_lens_ends(name):
     ends = ~on_frame.any(axis=1)
     assert ends.any() == (name == "circle")
     assert np.isnan(ways(lens, *(1.001 * places[ends]).T)).all()
-
-
-@each
-def test_the_pixel_under_the_mouse_is_the_one_that_is_drawn_there(name):
-    lens = CAMERAS[name]
-    for pixel in ((16, 24), (9, 13), (22, 31)):
-        at = image_point(lens, *lens.image_point(*pixel, SIZE))
-        outside = at + 0.4 * (at - np.asarray(lens.eye)) + (0.0, 1e-3, 0.0)
-        assert pixel_seen(lens, SIZE, outside, at - outside) == pixel
-        assert pixel_seen(lens, SIZE, outside, at - outside, lambda: 0.5) is None
 
 
 @each

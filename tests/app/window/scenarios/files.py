@@ -5,15 +5,13 @@ from __future__ import annotations
 import os
 import sys
 import threading
-from pathlib import Path
 from typing import Any
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from option_changes import with_options
 from window_driver import PATIENT_S, Driver, Key, changed
 
-from lucida.app.ui import folders, messages
-from lucida.app.ui.folders import FolderContent
+from lucida.app.ui import messages
 from lucida.app.window.palette_entries import entries
 from lucida.app.window.viewer import IDLE_FPS, WAITING_FPS
 from lucida.renderer.camera.camera import Camera
@@ -121,27 +119,6 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
 
 
-def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
-    window = d.window
-    scene = d.folder / "edited.toml"
-    scene.write_text("[[objects]]\ntype = 'box'\n")
-    window.open(str(scene))
-    d.until(lambda: window.state.scene.name == "edited")
-    d.agreeing_images()
-    scene.write_text("[[objects]]\ntype = 'bok'\n")
-    d.until(lambda: "bok" in window.files.message)
-    assert len(window.state.scene.objects) == 1
-    before = window.state
-    scene.write_text("[[objects]]\ntype = 'box'\n[[objects]]\ntype = 'cone'\n")
-    d.until(lambda: len(window.state.scene.objects) == 2)
-    assert window.files.message == ""
-    assert window.history.undo().present == before
-    d.ctx.yield_(3)
-    assert window.shell.toasts.texts == ["edited was read again: its file was saved."]
-    window.shell.toasts.clear()
-    d.agreeing_images()
-
-
 def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     files = d.window.files
     folder = d.folder / "scenes"
@@ -174,42 +151,6 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
     d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
     assert files.recent.entries == ()
-
-
-def drive_a_name_is_meant_for_the_folder_that_was_typed_before_it(d: Driver) -> None:
-    """A slow disk has not answered for that folder yet."""
-    dialog, folder = d.window.files.dialog, d.folder / "slow"
-    folder.mkdir()
-    gate, read = threading.Event(), folders.read_folder
-
-    def slow(where: Path, endings: tuple[str, ...]) -> FolderContent:
-        assert gate.wait(60)
-        return read(where, endings)
-
-    folders.read_folder = slow
-    try:
-        d.press(CTRL | SHIFT | int(Key.s))
-        d.ctx.key_chars_replace_enter(str(folder))
-        d.ctx.yield_(2)
-        assert dialog.is_open and dialog.folder == folder and not dialog.listing.files
-        d.ctx.key_chars_replace_enter("typed")
-        d.until(lambda: (folder / "typed.toml").exists())
-    finally:
-        folders.read_folder = read
-        gate.set()
-    d.settle()
-    d.window.shell.toasts.clear()
-
-
-def drive_several_files_are_dropped(d: Driver) -> None:
-    view = load_scene("canonical").view
-    save_view(d.folder / "dropped.toml", view)
-    d.drop([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
-    d.until(lambda: d.window.state.scene.name == "spheres")
-    assert d.window.state.view == view
-    d.ctx.yield_(2)
-    d.press(CTRL | int(Key.z))
-    assert d.window.state == d.start  # one step
 
 
 def drive_loading_is_told_and_cancelled(d: Driver) -> None:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
 from window_driver import SIZE, Key
 
+from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.raster import Display
 
 
@@ -125,12 +123,12 @@ def drive_resolutions_are_fixed_and_fitted(d):
     d.ctx.key_chars_replace_enter("nonsense")
     d.ctx.yield_(3)
     assert both.size == (1280, 720)
-    assert window.boxes.size is not None and "nonsense" in window.boxes.size.problem
+    assert window.box is not None and "nonsense" in window.box.problem
     d.ctx.key_chars_replace_enter("37x23")
     d.ctx.yield_(3)
     d.settle()
     assert both.size == (37, 23)
-    assert window.boxes.size is None
+    assert window.box is None
     d.ctx.key_press(ALT | int(Key.w))
     d.settle()
     assert window.state.images.resolution is None
@@ -140,33 +138,18 @@ def drive_resolutions_are_fixed_and_fitted(d):
     assert window.state == d.start
 
 
-def drive_single_channels_and_linear_light(d):
-    window, (plain, _) = d.window, d.agreeing_images()
-    for index, (key, name) in enumerate(((Key.r, "red"), (Key.g, "green"), (Key.b, "blue"))):
-        d.ctx.key_press(ALT | int(key))
-        d.settle()
-        assert window.state.images.component == name
-        gray, ray = d.images()
-        assert (np.abs(gray - plain[..., index : index + 1]) <= 1).all()
-        assert (np.abs(gray - ray).max(axis=2) > 3).mean() < 0.002
-    d.ctx.key_press(ALT | int(Key.b))
-    d.ctx.key_press(ALT | int(Key.l))
-    d.settle()
-    assert window.state.images.component == "rgb"
-    linear = d.images()[0]
-    frame = window.renderers.agreement.pair[1]
-    assert np.abs(linear - np.clip(frame.color, 0, 1) * 255).max() <= 1.01
-    assert linear.mean() < plain.mean() - 20
-
-
 def drive_the_strip_does_the_same(d):
     d.ctx.set_ref(f"//###{RASTER}")
     for name, item, check in (
         ("channel", "Depth", lambda images: images.channel == "depth"),
         ("resolution", "160 x 90", lambda images: images.resolution == (160, 90)),
         ("magnification", "16x", lambda images: images.magnification == 16),
-        ("transfer", "linear", lambda images: images.transfer == "linear"),
-        ("component", "Red", lambda images: images.component == "red"),
+        (
+            "transfer",
+            LINEAR.name,
+            lambda images: images.transfer == "linear",
+        ),
+        ("component", "Red only", lambda images: images.component == "red"),
     ):
         d.ctx.item_click(f"**/##{name}")
         d.ctx.yield_(2)
@@ -192,17 +175,3 @@ def drive_nothing_is_drawn_twice(d):
     read = counting(rasterizer, "read")
     d.ctx.yield_(10)
     assert [count() for count in (shown, drawn, read)] == [0, 0, 0]
-
-
-def drive_a_lens_is_looked_up_in_a_finer_image(d):
-    camera = replace(d.window.state.camera, lens=Lens("fisheye", {"k1": 0.05}))
-    d.window.change(d.window.state.with_camera(camera))
-    d.settle()
-    assert d.window.renderers.verdict(d.window.state).unexplained == 0
-    lookup = []
-    for texels in (1, 4):
-        name = f"look up, {texels} x {texels} texels per pixel"
-        d.ctx.menu_click(f"//##MainMenuBar/Image/Lens in the raster image/Lens: {name}")
-        d.settle()
-        lookup.append(d.window.renderers.verdict(d.window.state).comparison.explained["lookup"])
-    assert lookup[0] > lookup[1]

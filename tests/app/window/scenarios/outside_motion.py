@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-from unittest import mock
-
 import numpy as np
 from held_clock import Clock
 from option_changes import with_options
@@ -47,31 +44,13 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     d.settle()
 
 
-def drive_the_placed_picture_has_smooth_edges_once_nothing_moves(d: Driver) -> None:
-    enter(d)
-    tools, drawn = view(d).tools, list[bool]()
-    assert tools is not None
-    draw = tools.overlay.draw
-
-    def noted(*values: Any, moves: bool, **more: Any) -> Any:
-        drawn.append(moves)
-        return draw(*values, moves=moves, **more)
-
-    with mock.patch.object(tools.overlay, "draw", noted):
-        d.drag_field("eye.x", 40)
-        assert any(drawn)
-        d.until(lambda: not drawn[-1])
-        d.settle()
-        assert not drawn[-1]
-
-
 def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:
     enter(d)
     window, clock = d.window, Clock(d)
     start = looks_from(d)
     assert window.state.options.outside.camera is None
     d.ctx.item_click(f"//###{OUTSIDE}/axis x##outside")
-    d.until(lambda: window.transition.under_way)
+    d.until(lambda: window.motions.transition.under_way)
     inner, turned = window.state.view, []
     for part in (0.25, 0.5, 0.75):
         clock.s = 10.0 + part * DURATION_S
@@ -86,7 +65,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     assert 0 < turned[0] < turned[1] < turned[2] < whole
     assert abs(turned[1] - whole / 2) < 0.02  # half of the way after half of the time
     clock.s += DURATION_S
-    d.until(lambda: not window.transition.under_way)
+    d.until(lambda: not window.motions.transition.under_way)
     d.ctx.yield_(2)
     assert np.allclose(looks_from(d), (1, 0, 0))
     assert len(window.history.past) == 1
@@ -94,7 +73,8 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     # Back to the view of all, which the state leaves to the view: at the end, without a step.
     press(d, "fit all")
     clock.s += 0.999 * DURATION_S
-    d.until(lambda: window.state.options.outside.camera is not None and window.transition.under_way)
+    moving = window.motions.transition
+    d.until(lambda: window.state.options.outside.camera is not None and moving.under_way)
     d.ctx.yield_(2)
     near_end = looks_from(d)
     clock.s += DURATION_S
@@ -118,12 +98,12 @@ def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
     d.ctx.mouse_teleport_to_pos((at.origin.x + float(column), at.origin.y + float(row)))
     d.ctx.yield_(3)
     d.ctx.key_press(int(Key.f))
-    d.until(lambda: window.transition.under_way)
+    d.until(lambda: window.motions.transition.under_way)
     clock.s += 0.5 * DURATION_S
     d.until(lambda: window.state.options.outside.camera not in (None, at.camera))
     half = window.state.options.outside.camera
     clock.s += DURATION_S
-    d.until(lambda: not window.transition.under_way)
+    d.until(lambda: not window.motions.transition.under_way)
     end = window.state.options.outside.camera
     way = np.subtract(end.eye, at.camera.eye)
     assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way

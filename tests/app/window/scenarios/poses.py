@@ -106,7 +106,6 @@ def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
     poses = opened(d, transforms(d))
     # In a world of its own, seen by its first camera.
     assert chosen(d) == 0 and stands_at(d, poses, 0) and not d.window.state.scene.objects
-    assert poses.found == f"{COUNT - 1} of {COUNT} photographs found"
     d.window.undo()
     assert d.window.state.scene is d.start.scene and view(d).chosen(d.window.state) == -1
     d.window.redo()
@@ -200,7 +199,7 @@ def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
     poses = opened(d, transforms(d))
     steps = len(d.window.history.past)
     start = d.window.state
-    transition = d.window.transition
+    transition = d.window.motions.transition
     transition.instant, clock = False, transition.now_s
     time_s = 100.0
     transition.now_s = lambda: time_s

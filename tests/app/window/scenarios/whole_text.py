@@ -12,6 +12,7 @@ from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
 from window_driver import Driver, Key
 
+from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.ui import layout
 
 SIZES, LARGEST = ((1080, 1920), (1024, 768)), 2.0
@@ -27,7 +28,7 @@ def boxes(d: Driver) -> Iterator[str]:
         "palette": shell.toggle_palette,
         "shortcut sheet": shell.toggle_help,
         "go to pixel": lambda: d.press(CTRL | int(Key.g)),
-        "resolution": d.window.ask_resolution,
+        "resolution": lambda: ask_resolution(d.window),
         "open": lambda: d.press(CTRL | int(Key.o)),
         "save": lambda: d.press(CTRL | SHIFT | int(Key.s)),
         "question": lambda: files.ask("house.obj: add the model to the scene?", answers),

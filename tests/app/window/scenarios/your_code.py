@@ -169,7 +169,7 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
     assert runs is not None
-    d.until(lambda: runs.progress > 0.1)
+    d.until(lambda: runs.running_s > 0.1)
     frames = 0
     while frames < 30:  # the window goes on meanwhile
         d.ctx.yield_()
@@ -183,17 +183,17 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     d.until(lambda: not runs.busy)
     d.until(lambda: not (children() & processes))
     d.picture()
-    version = view(d).report.question.version
+    version = view(d).report.question.content.version
     camera = d.window.state.camera
     d.window.change(d.window.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.ctx.yield_(10)
     assert not runs.busy  # not by itself
-    assert view(d).report.question.version == version
+    assert view(d).report.question.content.version == version
     d.window.change(with_options(d.window.state, your_code={"canvas": (4, 3)}))
     until_told(d, "Every ray is correct.")  # it has no fourth row
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
-    d.until(lambda: view(d).report.question.version > version)
+    d.until(lambda: view(d).report.question.content.version > version)
     leave(d)
 
 
@@ -202,7 +202,7 @@ def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
     assert runs is not None
-    d.until(lambda: runs.progress > 0.1)
+    d.until(lambda: runs.running_s > 0.1)
     processes = children()
     assert processes
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)

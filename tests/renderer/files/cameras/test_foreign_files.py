@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,8 +12,6 @@ from lucida.renderer.files.cameras import Options, read_cameras
 from lucida.renderer.system.errors import LucidaError
 
 FOCAL = "fx: 500\nfy: 500\ncx: 320\ncy: 240\nwidth: 640\nheight: 480\n"
-K = [[500, 0, 320], [0, 500, 240], [0, 0, 1]]
-POSE = np.eye(4).tolist()
 # As ROS prints a message: with tables within the table, and lists of a number a line.
 ECHO = """header:
   stamp:
@@ -48,18 +44,6 @@ roi:
   do_rectify: false
 ---
 """
-
-
-@pytest.mark.parametrize(
-    "table",
-    [
-        {"K": K, "RadialDistortion": [-0.2, 0.1]},
-        {"K": K, "dist_params": [[0.0], [0.1]]},
-    ],
-)
-def test_a_lens_under_another_name_is_never_dropped(table: dict[str, Any]) -> None:
-    with pytest.raises(LucidaError, match="distortion"):
-        pasted(json.dumps(table))
 
 
 @pytest.mark.parametrize(
@@ -103,17 +87,3 @@ def test_a_message_of_ros_is_read_as_it_is_printed(tmp_path: Path) -> None:
     assert found.size == (640, 480)
     made = found.camera.intrinsics((640, 480))[0]
     np.testing.assert_allclose(made, np.array([[655.5, 0, 319.5], [0, 655.5, 239.5], [0, 0, 1]]))
-
-
-@pytest.mark.parametrize("field", ["equirectangular", "orthographic", "ftheta_p0", "from_mitsuba"])
-def test_other_lenses_and_axes_of_instant_ngp_are_told(field: str) -> None:
-    table = {"camera_angle_x": 0.7, "frames": [{"transform_matrix": POSE}], field: 1}
-    with pytest.raises(LucidaError, match=field):
-        pasted(json.dumps(table))
-
-
-@pytest.mark.parametrize(("angle", "told"), [(0.6911, True), (1.5708, False), (4.0, False)])
-def test_two_focal_lengths_that_disagree_are_told(angle: float, told: bool) -> None:
-    table = {"camera_angle_x": angle, "fl_x": 50, "w": 100, "h": 100}
-    found = pasted(json.dumps(table | {"frames": [{"transform_matrix": POSE}]}))
-    assert any("camera_angle_x" in phrase for phrase in found.taken) == told

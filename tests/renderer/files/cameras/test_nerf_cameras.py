@@ -106,7 +106,7 @@ def test_nerfstudio_s_frames_have_intrinsics_of_their_own() -> None:
     assert (one.size, two.size) == ((3008, 2000), (640, 2000))
     K = two.camera.intrinsics(two.size, "corner").K
     assert (K[0, 0], K[1, 1], K[0, 2]) == pytest.approx((900, 1068, 1504))
-    assert any("applied_transform is not used: it was" in phrase for phrase in found.taken)
+    assert found.notes == ("not used: applied_transform",)
     assert "axes x right, y up, looking along -z (OpenGL)" in found.taken
 
 
@@ -146,8 +146,6 @@ def turned(row: int, column: int, number: object) -> list:
         (first({}, transform_matrix=turned(0, 0, 1e308)), "too large"),
         (first({}, transform_matrix=np.diag([1, 1, 0, 1]).tolist()), "no inverse"),
         (first({}, file_path=3), r"frames\[0\].file_path: 3 is no text"),
-        (first({}, rolling_shutter=[0, 1, 0]), "rolling_shutter: takes the rows"),
-        (first({}, rolling_shutter=["a"]), "rolling_shutter: takes the rows"),
         (first({"fl_x": "1072"}), "fl_x: '1072' is not a number"),
         (first({"fl_x": 0}), "fl_x: its focal lengths"),
         (first({"w": 0}), "w: 0 is no count"),
@@ -205,8 +203,6 @@ def test_a_frame_among_others_is_what_it_is_alone(table: dict, frames: list) -> 
     together = read(*frames)
     alone = [read(frame) for frame in frames]
     assert together.cameras == tuple(one.cameras[0] for one in alone)
-    told = "fl_x is taken: camera_angle_x is another angle than fl_x and w make"
-    assert (told in together.taken) == any(told in one.taken for one in alone)
 
 
 @given(table_of("w", "h"))

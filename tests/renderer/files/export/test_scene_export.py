@@ -16,11 +16,10 @@ from lucida.renderer.files.cameras import read_cameras
 from lucida.renderer.files.export import export_scene
 from lucida.renderer.files.export.checkers import with_checker_uv
 from lucida.renderer.files.export.meshes import arrays_of, unit_sphere, wound
-from lucida.renderer.files.models.subprocess_reader import CancelledError
 from lucida.renderer.scene import Scene, shapes
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Checker, DirectionalLight, Mesh, SceneObject
-from lucida.renderer.system.cancelling import cancelled_by
+from lucida.renderer.system.cancelling import CancelledError, cancelled_by
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import Tracer
 

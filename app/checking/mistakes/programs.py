@@ -1,0 +1,130 @@
+"""The program for each kind of task, and the values that its lines use."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from lucida.app.checking.mistakes.catalogue import part
+from lucida.app.checking.mistakes.hits import SHAPES
+from lucida.app.checking.mistakes.program import Program
+from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_task, ray_values
+from lucida.app.checking.tasks import WITH_CAMERAS, CheckCase, CheckTask
+
+
+def programs(task: CheckTask) -> list[Program]:
+    """Return the programs whose mistakes are looked for: one, or one for each projection."""
+    projections = task.projections if task.kind in WITH_CAMERAS else ("",)
+    return [program_of(task, projection) for projection in projections]
+
+
+def program_of(task: CheckTask, projection: str) -> Program:
+    """Return the program of a task. projection: of the cameras, if the task has any."""
+    if task.kind == "viewing-ray":
+        return ray_program(ray_task(task, projection))
+    if task.kind == "render":
+        return _render_program(ray_task(task, projection))
+    return _value_program(task)
+
+
+@functools.lru_cache(32)
+def _render_program(task: RayTask) -> Program:
+    """Return the ray's lines, then both loops. Pairs in the ray are left to its task."""
+    rays, (lines, mistakes) = ray_program(task), part("render")
+    others = (one for one in rays.mistakes if one.name != "normalised")
+    paired = frozenset(line.key for line in lines)
+    return Program((*rays.lines, *lines), (*mistakes, *others), ("answer",), paired)
+
+
+def _value_program(task: CheckTask) -> Program:
+    values: dict[str, str] = {}
+    facts: set[str] = set()
+    match task.kind:
+        case "basis":
+            values, facts = {"back": "eye - target"}, {"target"}
+        case "to-gray":
+            weights = (f"{weight:g}" for weight in task.weights)
+            values = dict(zip(("red", "green", "blue"), weights, strict=True))
+        case "to-bitmap":
+            signs = (">=", ">", "<", "<=") if task.inclusive else (">", ">=", "<=", "<")
+            values = dict(zip(("sign", "other", "inverse", "darker"), signs, strict=True))
+            at = "is white as well: at least" if task.inclusive else "is black: more than"
+            values["at_threshold"] = at
+        case "memory-offset":
+            values, facts = _offset_values(task)
+    lines, mistakes = part(task.kind, values, facts)
+    if task.kind == "basis":
+        answer, more = part("answer")
+        lines, mistakes = lines + answer, mistakes + more
+    return Program(tuple(lines), tuple(mistakes), (lines[-1].code.partition(" ")[0],))
+
+
+def _offset_values(task: CheckTask) -> tuple[dict[str, str], set[str]]:
+    base, stride = task.conventions.base, task.stride
+    i, j = ("i", "j") if base == 0 else (f"(i - {base})", f"(j - {base})")
+    place, other = f"{i} * width + {j}", f"{j} * height + {i}"
+    values = {"i": i, "j": j, "base": str(base), "stride": str(stride)}
+    values |= {"place": place, "other": other, "order": "row after row"}
+    values["scaled"] = f" * {stride}" if stride != 1 else ""
+    if task.column_major:
+        values |= {"place": other, "other": place, "order": "column after column"}
+    holds = {"base": base != 0, "column-major": task.column_major, "stride": stride != 1}
+    return values, {fact for fact, is_true in holds.items() if is_true}
+
+
+def known_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
+    """Return the values that the lines use in a case, by name: numbers, vectors (3,), arrays."""
+    if task.kind == "render":
+        return _image_values(task, case)
+    known = {
+        name: np.asarray(value, float) if isinstance(value, list) and name != "objects" else value
+        for name, value in case.values.items()
+    }
+    if task.kind == "to-gray":
+        known |= dict(zip(("red", "green", "blue"), np.moveaxis(known["rgb"], -1, 0), strict=True))
+    return known | SHAPES
+
+
+def _image_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
+    """Return the values for all pixels of an image, whose rows count as in the task."""
+    assert case.camera is not None and case.size is not None
+    rays = ray_task(task, case.camera.projection)
+    width, height = case.size
+    i, j = np.arange(height)[:, None], np.arange(width)
+    known = case_values(case, i if rays.from_top else i[::-1], j, rays)
+    known |= {name: _remembered(function) for name, function in SHAPES.items()}
+    known |= {"far_away": _far_away, "plain": _plain}
+    return known | case.values["scene"]
+
+
+def case_values(case: CheckCase, i: Any, j: Any, task: RayTask) -> dict[str, Any]:
+    """Return the values of a case's camera and of its pixels (i, j)."""
+    assert case.camera is not None and case.size is not None
+    vectors = {"target": np.asarray(case.target, float), "up": np.asarray(case.up, float)}
+    return ray_values(case.camera, i, j, case.size, task) | vectors
+
+
+def _remembered(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Cache intersections: many mistakes leave the rays unchanged, so each object is asked only
+    once.
+    """
+    answers: dict[tuple[bytes, bytes, int], Any] = {}
+
+    def asked(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
+        key = np.asarray(origin).tobytes(), np.asarray(direction).tobytes(), id(shape)
+        if key not in answers:
+            answers[key] = function(origin, direction, shape)
+        return answers[key]
+
+    return asked
+
+
+def _far_away(width: float, height: float) -> Any:
+    return np.full((int(height), int(width)), np.inf)
+
+
+def _plain(color: Sequence[float], width: float, height: float) -> Any:
+    return np.broadcast_to(np.asarray(color, float), (int(height), int(width), 3)).copy()

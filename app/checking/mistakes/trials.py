@@ -1,0 +1,146 @@
+"""The distances between answers: those of programs, the given ones and the correct ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lucida.app.checking.kinds.viewing_ray import largest_number
+from lucida.app.checking.mistakes.candidates import LOOSE, Numbers, Trial
+from lucida.app.checking.mistakes.program import Mistakes, Program
+from lucida.app.checking.mistakes.programs import case_values, known_values
+from lucida.app.checking.mistakes.rays import RayTask, ray_task, run_rays
+from lucida.app.checking.tasks import CheckCase, CheckTask
+
+Floats = NDArray[np.float64]
+
+EXACT = ("to-bitmap", "memory-offset")
+
+
+def trial_of(
+    task: CheckTask, projection: str, cases: Sequence[CheckCase], given: Sequence[Any]
+) -> Trial:
+    """Return the trial of given answers. projection: of all of the cases' cameras, if any."""
+    if task.kind == "viewing-ray":
+        rays = ray_task(task, projection)
+        return RayTrial(cases, np.asarray(given, float), rays, task.conventions.any_origin)
+    return ValueTrial(task, cases, given)
+
+
+class RayTrial:
+    """Rays, given and correct, (N, 2, 3) each: the lines run for all cases at once.
+
+    any_origin: any point of the ray may be its origin.
+    """
+
+    def __init__(
+        self,
+        cases: Sequence[CheckCase],
+        given: Floats,
+        task: RayTask,
+        any_origin: bool = False,
+    ) -> None:
+        self.count, self.given, self.any_origin = len(cases), given, any_origin
+        self.right = np.array([case.right for case in cases], float)
+        made, scale = [], []
+        for case in cases:
+            assert case.camera is not None and case.pixel is not None
+            made.append(case_values(case, *case.pixel, task))
+            scale.append(largest_number(case.camera))
+        self.scale = np.array(scale)
+        self.known = {
+            name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]
+        }
+
+    def errors(
+        self, program: Program, tried: Sequence[Mistakes], cases: Numbers
+    ) -> tuple[Floats, Floats]:
+        made = self.made(program, tried, cases)
+        given = self.apart(self.given[cases], made, cases)
+        return given, self.apart(self.right[cases], made, cases)
+
+    def made(self, program: Program, tried: Sequence[Mistakes], cases: Numbers) -> Floats:
+        """Return the rays with each of these mistakes, (tried, cases, 2, 3)."""
+        known = {name: value[cases] for name, value in self.known.items()}
+        return np.array([run_rays(program, known, one) for one in tried]).swapaxes(1, 2)
+
+    def apart(self, rays: Floats, made: Floats, cases: Numbers) -> Floats:
+        """Return the distance between rays, relative to the largest intermediate result: (...,
+        cases).
+
+        It is 0 if neither is finite: both divide by zero in the same place.
+        """
+        with np.errstate(all="ignore"):
+            origins, directions = made[..., 0, :], made[..., 1, :]
+            length = np.linalg.norm(directions, axis=-1)
+            own = np.linalg.norm(rays[..., 1, :], axis=-1)
+            scale = self.scale[cases] + np.linalg.norm(origins, axis=-1) + length
+            along = directions / length[..., None]
+            moved = rays[..., 0, :] - origins
+            if self.any_origin:
+                moved = moved - np.sum(moved * along, axis=-1)[..., None] * along
+            turned = np.linalg.norm(rays[..., 1, :] / own[..., None] - along, axis=-1) * length
+            no_way = (own == 0) | (length == 0)
+            turned = np.where(no_way, np.maximum(own, length), turned)
+            apart = np.maximum(np.linalg.norm(moved, axis=-1), turned) / scale
+        numbers = [np.isfinite(one).all(axis=(-2, -1)) for one in (rays, made)]
+        return np.where(numbers[0] | numbers[1], apart, 0.0)
+
+
+class ValueTrial:
+    """Numbers or arrays: the lines run for one case after another."""
+
+    def __init__(self, task: CheckTask, cases: Sequence[CheckCase], given: Sequence[Any]) -> None:
+        self.count, self._cases, self._given = len(cases), cases, given
+        self._known = [known_values(task, case) for case in cases]
+        self._is_exact = task.kind in EXACT
+
+    def errors(
+        self, program: Program, tried: Sequence[Mistakes], cases: Numbers
+    ) -> tuple[Floats, Floats]:
+        """Return the errors of each mistake, up to the first case that it does not explain. Stop
+        there, because running an image takes long.
+        """
+        given, right = np.full((2, len(tried), len(cases)), np.inf)
+        for row, mistakes in enumerate(tried):
+            for column, number in enumerate(cases):
+                made = self._made(program, number, mistakes)
+                if made is None:
+                    break
+                given[row, column] = self._apart(number, self._given[number], made)
+                right[row, column] = self._apart(number, self._cases[number].right, made)
+                if given[row, column] > LOOSE:
+                    break
+        return given, right
+
+    def _made(self, program: Program, number: int, mistakes: Mistakes) -> Floats | None:
+        """Return the program's answer in the shape of the correct one; None if the shapes do not
+        match.
+        """
+        shape = np.shape(self._cases[number].right)
+        (answer,) = program.run(self._known[number], mistakes)
+        if isinstance(answer, tuple):
+            answer = np.stack([np.asarray(part, float).reshape(-1) for part in answer])
+        made = np.asarray(answer, float)
+        return made.reshape(shape) if made.size == np.prod(shape, dtype=int) else None
+
+    def _apart(self, number: int, answer: Any, made: Floats) -> float:
+        """Return the distance between two answers, scaled so that LOOSE is the limit.
+
+        The limit is the tolerance, or LOOSE of the largest number. Equal NaN and inf count as
+        equal: both divide by zero in the same places.
+        """
+        case, found = self._cases[number], np.asarray(answer, float)
+        judged = case.values.get("judged", ...)  # of an image: the pixels that count
+        found, made = found[judged], made[judged]
+        if self._is_exact:
+            return 0.0 if np.array_equal(found, made, equal_nan=True) else np.inf
+        finite = made[np.isfinite(made)]
+        near = max(case.tolerance, LOOSE * float(np.abs(finite).max(initial=0.0)), 1e-300)
+        with np.errstate(invalid="ignore"):
+            same = (found == made) | (np.isnan(found) & np.isnan(made))
+            apart = np.where(same, 0.0, np.abs(found - made) / near * LOOSE)
+        return float(apart.max(initial=0.0))
