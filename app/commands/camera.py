@@ -1,6 +1,6 @@
 """`lucida camera`: describe a camera of any format in the lecture's words, or convert it.
 
-Quick to import.
+It is quick to import.
 """
 
 from __future__ import annotations
@@ -107,7 +107,6 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.pixel_origin,
         arguments.size,
         arguments.ignore_distortion,
-        ending=Path(arguments.output or "").suffix.lower(),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)

@@ -1,6 +1,6 @@
 """A session as the text of its file, and back.
 
-Defines the file's format: versioned JSON of the state and of the arrangement of the windows.
+The file's format is versioned JSON of the state and of the arrangement of the windows.
 session_store.py has its place. Options that an older session does not hold have their defaults.
 """
 

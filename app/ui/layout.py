@@ -19,6 +19,7 @@ MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"
 RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
+STACKED_SPACE = "StackedSpace"  # below a lecture's first picture, whose LOWER_SPACE is next to it
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
@@ -125,6 +126,7 @@ LAYOUTS = (
         (
             (MAIN, RIGHT_SPACE, RIGHT, 0.33),
             (MAIN, LOWER_SPACE, RIGHT, 0.5),
+            (MAIN, STACKED_SPACE, DOWN, 0.5),
             (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
@@ -287,16 +289,11 @@ def _docking(
 def _splits(
     layout: Layout, window_px: tuple[float, float], em_px: float
 ) -> list[hello_imgui.DockingSplit]:
-    camera, stacked = camera_width_px(window_px[0], em_px) / window_px[0], {LEFT: UP, RIGHT: DOWN}
+    turned, camera = {}, camera_width_px(window_px[0], em_px) / window_px[0]
     if is_upright(window_px):
-        return [
-            _split(
-                _own(layout, space), _own(layout, new), stacked.get(to, to), part or UPRIGHT_CAMERA
-            )
-            for space, new, to, part in layout.splits
-        ]
+        turned, camera = {LEFT: UP, RIGHT: DOWN}, UPRIGHT_CAMERA
     return [
-        _split(_own(layout, space), _own(layout, new), to, part or camera)
+        _split(_own(layout, space), _own(layout, new), turned.get(to, to), part or camera)
         for space, new, to, part in layout.splits
     ]
 

@@ -16,7 +16,6 @@ from trace_reference import ball
 from lucida import Camera, Rasterizer, Tracer
 from lucida.renderer.compare.raster_and_ray import CHANNELS
 from lucida.renderer.scene import shapes
-from lucida.renderer.scene.focus import scene_focus
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     Checker,
@@ -25,7 +24,6 @@ from lucida.renderer.scene.model import (
     PointLight,
     Scene,
     SceneObject,
-    View,
 )
 
 SIZE = (96, 64)
@@ -162,15 +160,3 @@ def test_single_rays_start_anywhere():
     assert same.mean() > 0.99
     seen = same & (primitive >= 0)
     np.testing.assert_allclose(t[seen], frame.depth.ravel()[seen], rtol=1e-4)
-
-
-def test_what_a_scene_is_about_reaches_no_farther_where_it_is_far():
-    """Flying, zooming and the fields of the eye go by it."""
-    by = 1e6 * ODD
-    scene, there = crowd(), moved(crowd(), by)
-    here, far = (
-        scene_focus(replace(s, view=View(camera_of("perspective", shift))))
-        for s, shift in ((scene, 0.0 * by), (there, by))
-    )
-    assert far.reach == pytest.approx(here.reach, rel=0.02)
-    np.testing.assert_allclose(np.array(far.center) - by, here.center, atol=1e-6)

@@ -39,7 +39,7 @@ from lucida.renderer.system.memo import Memo
 
 Operation = imguizmo.im_guizmo.OPERATION
 
-LENGTH_PX, MOST_PART = 52.0, 0.24  # at 100 %: of a handle; of the view's height at most
+LENGTH_PX, MOST_PART = 52.0, 0.24  # of a handle: at 100 %; its most, in parts of the shorter side
 WIDE_PART = 0.08  # of the view's width, where that is longer
 HEAD_PART = 0.12  # of a handle: its arrow's head at most
 # ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
@@ -178,7 +178,8 @@ def length_px(image: ImVec2, room: ImVec2) -> float:
     image: the size of the whole image, which may be larger than the view.
     """
     width, height = min(image.x, room.x), min(image.y, room.y)
-    return max(1.0, min(max(theme.px(LENGTH_PX), WIDE_PART * width), MOST_PART * height))
+    wanted = max(theme.px(LENGTH_PX), WIDE_PART * width)
+    return max(1.0, min(wanted, MOST_PART * min(width, height)))
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:

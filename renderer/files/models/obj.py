@@ -34,11 +34,10 @@ Floats = NDArray[np.float64]
 Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
 
 
-def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
+def read_obj(path: Path, images: ModelImages) -> list[Part]:
     """Return the parts of an .obj file: one for each object and material, in the file's order.
 
     images: for the textures of its materials.
-    is_mapped: all parts with texture coordinates.
     """
     lines = Lines(read_text_bytes(path))
     if not len(lines.numbers("f")):
@@ -49,30 +48,26 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
     try:
         if len(last) < 3 or len({corner.count("/") for corner in last}) > 1:
             raise ValueError
-        (vertices, most), (normals, _) = _rows(lines, "v"), _rows(lines, "vn")
+        vertices, normals = _rows(lines, "v", images), _rows(lines, "vn", images)
         columns, counts = _corners(lines)
         if vertices.shape[1] < 3 or not _are_within(columns[0], len(vertices)):
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
-    _note_vertices(vertices, most, images)
     places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
     if normals.shape[1] != 3:
         normals = np.zeros((0, 3))
     normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
-    textured = [is_mapped or bool(material and material.texture) for _, _, material in named]
-    coordinates = _coordinates(lines) if any(textured) else np.zeros((0, 0))
-    if corners[1] is not None and any(textured):
+    coordinates = _coordinates(lines, images)
+    if corners[1] is not None:
         has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
         named = list(_by_coordinates(named, has_uv, images))
     parts = []
     for name, which, material in named:
         mine = [a if a is None else a[which] for a in corners]
-        is_textured = is_mapped or (material is not None and material.texture is not None)
-        uvs = coordinates if is_textured else np.zeros((0, 0))
-        source, faces, uv, normal = _merged(mine, len(uvs), len(normals) - 1)
+        source, faces, uv, normal = _merged(mine, len(coordinates), len(normals) - 1)
         parts.append(
             Part(
                 name,
@@ -81,20 +76,10 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
                 None if normal is None else normals[normal],
                 linear_colors(vertices[source, 3:6]) if vertices.shape[1] >= 6 else None,
                 material=material,
-                uv=None if uv is None else uvs[uv, :2],
+                uv=None if uv is None else coordinates[uv, :2],
             )
         )
     return parts
-
-
-def _note_vertices(vertices: Floats, most: int, images: ModelImages) -> None:
-    """Note numbers behind the coordinates of vertices that are not used: colours that only some
-    have, and weights, which are for curves. most: numbers that a vertex has.
-    """
-    if vertices.shape[1] < 6 <= most:
-        images.note("not read: colours, which only some vertices have", "OBJ")
-    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
-        images.note("not read: the weights of vertices", "OBJ")
 
 
 def _by_coordinates(
@@ -115,28 +100,29 @@ def _by_coordinates(
         yield f"{name}_plain", bare, replace(material, texture=None)
 
 
-def _coordinates(lines: Lines) -> Floats:
+def _coordinates(lines: Lines, images: ModelImages) -> Floats:
     """Return texture coordinates, of two numbers or more; none if they cannot be read."""
     with contextlib.suppress(ValueError):
-        found, _ = _rows(lines, "vt")
+        found = _rows(lines, "vt", images)
         if found.shape[1] >= 2:
             return found
     return np.zeros((0, 0))
 
 
-def _rows(lines: Lines, kind: str) -> tuple[Floats, int]:
-    """Return the numbers of all lines of a kind, as many of each as the shortest line has; and how
-    many the longest one has.
+def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
+    """Return the numbers of all lines of a kind, as many of each as the shortest line has. Note
+    that there are more, such as colours that only some vertices have.
     """
     text = lines.of(kind)
     begins, counts = numerals.words(text)
     values = numerals.floats(text, begins)
     if not len(counts):
-        return np.zeros((0, 0)), 0
+        return np.zeros((0, 0))
     width, most = int(counts.min()), int(counts.max())
     if width == most:
-        return values.reshape(-1, width), most
-    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)], most
+        return values.reshape(-1, width)
+    images.note(f"not read: numbers that only some lines of the kind {kind} have", "OBJ")
+    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)]
 
 
 def _corners(lines: Lines) -> tuple[list[Ints], Ints]:

@@ -65,17 +65,6 @@ def test_what_is_wrong_with_a_mesh_is_found():
     assert ("flat-faces", 0) in kinds(flat)
 
 
-def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
-    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn nan 0 1\nvn 0 0 1\n"
-    faces = "f 1//2 2//2 3//2\nf 2//2 3//2 1//2\nf 2//2 1//1 4//2\nf 1//2 1//2 4//2\n"
-    (tmp_path / "bad.obj").write_text(corners + faces)
-    (odd, *rest) = told(capsys, tmp_path / "bad.obj")["odd"]
-    assert odd["kind"] == "repaired" and "faces without an area, left out: 1" in odd["text"]
-    assert "faces with another one's corners, left out: 1" in odd["text"]
-    assert "normals NaN or infinite, flat there: 1" in odd["text"]
-    assert [entry["kind"] for entry in rest] == ["open"]
-
-
 ODD_LIGHTS = """\
 [[objects]]
 type = "box"

@@ -102,15 +102,6 @@ def test_of_a_scene_from_no_file_the_first_built_in_one_is_kept(scene, tmp_path)
         assert session_of(state, Arrangement()).scene == kept
 
 
-def test_options_keep_their_places_in_the_file(state):
-    """Shared ones and the instruments' side by side: sessions of other versions are read."""
-    options = json.loads(to_bytes(session_of(state, ARRANGEMENT)))["options"]
-    names = "images preferences marked shadows mirrors one_based language bookmarks"
-    rooms = "compare outside stepper costs laboratory"
-    assert set(options) >= {*names.split(), *rooms.split(), "presets_in_perspective"}
-    assert options["stepper"]["canvas"] == [16, 12] and options["outside"]["bundle"] == [3, 4]
-
-
 def test_what_an_older_session_lacks_has_its_default(state):
     data = to_bytes(session_of(state, ARRANGEMENT))
     table = json.loads(data)

@@ -125,14 +125,14 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
 def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     saved = {
-        "OpenCV (.yml, .json)...": d.folder / "saved.json",
+        "OpenCV (.yml)...": d.folder / "saved.yml",
         "COLMAP (a folder)...": d.folder / "model",
     }
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
         d.until(lambda path=path: str(path) in said(d))  # type: ignore[misc]
         assert not d.window.files.message
-    for path in (d.folder / "saved.json", d.folder / "model"):
+    for path in (d.folder / "saved.yml", d.folder / "model"):
         posed = read_cameras(path).cameras[0]
         assert posed.size == size
         assert same_camera(posed.camera, shown, size)

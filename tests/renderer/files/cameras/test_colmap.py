@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import PosedCamera, read_cameras, written
 from lucida.renderer.files.cameras.given import Options
 
@@ -140,41 +139,11 @@ def test_a_photograph_is_never_looked_for_outside_of_its_folder(tmp_path, name):
     assert (found.cameras[0].name, found.cameras[0].image) == (name, "")
 
 
-def test_pixels_are_counted_from_where_the_options_say(tmp_path):
-    folder = model(tmp_path / "m")
-    corner, centre = (
-        read_cameras(folder, options=Options(pixel_origin=origin)).cameras[0]
-        for origin in (None, "center")
-    )
-    point = np.array([0.3, -0.2, 4.0])
-    one, other = (camera.camera.project(point, camera.size) for camera in (corner, centre))
-    assert (other.row - one.row, other.column - one.column) == pytest.approx((0.5, 0.5))
-
-
-def test_a_lens_is_kept_or_ignored(tmp_path):
-    folder = model(tmp_path / "m", images=IMAGES.replace(" 2 sub/", " 3 sub/"))
-    lens = Lens("brown", {"k1": -0.0218531})
-    found = read_cameras(folder).cameras
-    assert [posed.camera.lens for posed in found] == [None, lens]
-    found = read_cameras(folder, options=Options(ignore_distortion=True)).cameras
-    assert [posed.camera.lens for posed in found] == [None, None]
-    assert [posed.ignored for posed in found] == [None, lens]
-
-
 def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():
     posed = PosedCamera(Camera(), fit=True)
     files = written([posed, posed], "colmap", Options(size=(200, 100)))
     assert b"cameras: 1\n1 PINHOLE 200 100 100 100 100 50" in files["cameras.txt"]
     assert b"image_0001.png" in files["images.txt"]
-
-
-@pytest.mark.parametrize("number", [-1, 0, 7])
-def test_a_point_of_an_image_may_belong_to_none(tmp_path: Path, number: int) -> None:
-    """POINT3D_ID is -1 where it was not triangulated."""
-    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 50 50 32 24\n")
-    line = f"1.5 2.5 {number}"
-    (tmp_path / "images.txt").write_text(f"1 1 0 0 0 0 0 0 1 a.png\n{line} {line}\n")
-    assert len(read_cameras(tmp_path).cameras) == 1
 
 
 def test_known_poses_have_no_points(tmp_path: Path) -> None:
