@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.pair.marks import draw_hovered, draw_marked
+from lucida.app.images.pair.marks import draw_hovered, draw_marked, draw_pin
 from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
 from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
 from lucida.app.images.pair.rulers import draw_rulers
@@ -66,6 +66,10 @@ def draw_pane(
     if picture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
         on_pixels(host, screen)
+    width, height = host.renderers.size
+    for number, (row, column) in enumerate(state.options.probe.pins, 1):
+        if row < height and column < width:
+            draw_pin(draw, screen, (row, column), number)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
     if picture is not None:

@@ -49,6 +49,8 @@ WRONG: list[tuple[str, str, Any, str, str]] = [
     ("outside", "bundle", [1, -1], "[1]", "-1 is out of range"),
     ("laboratory", "progress", -0.1, "", "-0.1 is out of range; give 0 to 4"),
     ("laboratory", "after_ev", 6.5, "", "6.5 is out of range; give -6 to 6"),
+    ("probe", "pins", [[0, 1], [2, -1]], "[1][1]", "-1 is out of range; give 0 to 16383"),
+    ("probe", "pins", [[0, 0]] * 257, "", "has 257 entries; give at most 256"),
     ("stepper", "canvas", [100_000, 100_000], "[0]", "100000 is out of range; give 1 to 64"),
     ("stepper", "canvas", [64, 49], "[1]", "49 is out of range; give 1 to 48"),
     ("stepper", "steps", [0, -1], "[1]", "-1 is out of range; give 0 to 1000000"),
@@ -119,6 +121,7 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
         laboratory={"progress": 9.0, "phase": math.nan},
         stepper={"canvas": (16, 49)},
         marked=(-1, 3),
+        probe={"pins": tuple((k, k) for k in range(300))},
     )
     assert changed.images == replace(
         ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
@@ -127,6 +130,7 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
     assert changed.options.laboratory == LaboratoryOptions(progress=4.0)
     assert changed.options.stepper == StepperOptions(canvas=(16, 48))
     assert changed.marked == (0, 3)
+    assert changed.options.probe.pins == tuple((k, k) for k in range(44, 300))
 
 
 def test_sliders_take_their_limits_from_the_fields():
