@@ -43,7 +43,6 @@ INVITATION = (
     " here, again whenever you save it, and shows your picture beside the correct one."
 )
 SIGNATURE = "def {}:\n    ...\n    return {}"
-AWAY = "moved or deleted"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
     " on some systems with your rights. Read it first."
@@ -80,13 +79,11 @@ def head(
     options: YourCodeOptions,
     runs: CodeRuns | None,
     report: CodeReport | None,
-    is_away: bool,
     fonts: Fonts,
 ) -> tuple[CodeWish, Size]:
     """Draw the file and its buttons. Return the wish and the selected canvas size.
 
     runs: None if the file may not run, because the user has not opened it.
-    is_away: the file, or that of its tasks, is missing.
     """
     wish: CodeWish = ""
     with lettering(fonts.bold):
@@ -114,10 +111,6 @@ def head(
         follow(width)
         # A negative part shows that it is unknown.
         imgui.progress_bar(-0.5 * running_s, ImVec2(width, 0), f"{running_s:.0f} s")
-    elif is_away:
-        follow(imgui.calc_text_size(AWAY).x)
-        imgui.align_text_to_frame_padding()
-        imgui.text_colored(theme.ERROR, AWAY)
     elif report is not None and report.at:
         at = time.strftime("%H:%M:%S", time.localtime(report.at))
         text = f"ran at {at}, {report.seconds:.2g} s"

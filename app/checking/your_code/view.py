@@ -9,13 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import moderngl
 from imgui_bundle import imgui
 
 from lucida.app.checking.starter import starter
-from lucida.app.checking.task_file import load_tasks
 from lucida.app.checking.your_code import panel
 from lucida.app.checking.your_code.code_pictures import PicturesShown, marked_pixel
 from lucida.app.checking.your_code.following import FileFollower, open_in_editor
@@ -35,7 +33,7 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.renderer.files.reading import first_bytes
 from lucida.renderer.system.atomic import atomic_write
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo
 
 YOUR_CODE = "Your-code"
@@ -59,7 +57,6 @@ class YourCodeView(Instrument):
         self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
-        self._counted: str | None = None  # the file of tasks whose count the window has taken
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
@@ -88,9 +85,8 @@ class YourCodeView(Instrument):
 
     def open_tasks(self, window: Host, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
-        options = window.state.options
-        asked = replace(options.your_code, tasks=stored(path), task="")
-        window.change(window.state.with_options(replace(options, **_notation_of(path)), asked))
+        asked = replace(window.state.options.your_code, tasks=stored(path), task="")
+        window.change(window.state.with_options(asked))
         window.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:
@@ -183,15 +179,12 @@ class YourCodeView(Instrument):
         report = runs.report
         if report is not None and not report.question.content.is_of_files(content):
             report = None
-        wish, canvas = panel.head(
-            Path(path), options, runs, report, self._follower.is_away, host.fonts
-        )
+        wish, canvas = panel.head(Path(path), options, runs, report, host.fonts)
         if canvas != options.canvas:
             host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
-        self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
             host.edit(replace(host.options.your_code, task=clicked.name))
@@ -205,20 +198,11 @@ class YourCodeView(Instrument):
             self._pictures.tell_waiting(host, for_pictures)
         if beside:
             imgui.same_line()
-        self.told = self._words(report, marked, host.state.options.indexing)
+        self.told = self._words(report, marked)
         left = imgui.get_content_region_avail()  # pictures may need less than they may have
         panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
-
-    def _count_as(self, host: Host, report: CodeReport) -> None:
-        """Count pixels as the tasks do, once for each file of tasks. A lecture's count holds."""
-        tasks, state = report.question.content.tasks, host.state
-        if report.chosen is not None and tasks != self._counted and state.step is None:
-            self._counted = tasks
-            one_based = report.chosen.conventions.base == 1
-            if one_based != state.options.one_based:
-                host.amend(state.with_options(replace(state.options, one_based=one_based)))
 
     # In the outside view.
 
@@ -245,7 +229,7 @@ class YourCodeView(Instrument):
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """Draw a file that a lecture has named: its text, which the user may run."""
         options = host.state.options.your_code
-        wish, _ = panel.head(Path(path), options, None, None, False, host.fonts)
+        wish, _ = panel.head(Path(path), options, None, None, host.fonts)
         if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
             self._agree(host, path)
         return wish
@@ -296,16 +280,6 @@ class YourCodeView(Instrument):
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
         host.edit(replace(host.options.your_code, file=stored(path), task=""))
-
-
-def _notation_of(path: str) -> dict[str, Any]:
-    """Return the window's option that a file of tasks sets; none if it cannot be read, which is
-    reported where it is used.
-    """
-    try:
-        return {"notation": load_tasks(path).notation} if path else {}
-    except LucidaError:
-        return {}
 
 
 def source_text(path: str) -> str:

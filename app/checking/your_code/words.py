@@ -36,9 +36,9 @@ class ToldLine:
     text: str
 
 
-def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
+def told_of(report: CodeReport, pixel: Pixel | None) -> list[ToldLine]:
     """Return all findings, the most helpful first. pixel: the marked one, in the pictures."""
-    lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
+    lines = [*_of_file(report)] or [*_of_task(report, pixel)]
     lines = [line for line in lines if not _is_marks(line)]
     return [*lines, *_of_output(report)]
 
@@ -78,7 +78,7 @@ def _of_file(report: CodeReport) -> Iterator[ToldLine]:
         yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
 
 
-def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Iterator[ToldLine]:
+def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
     chosen, rays = report.chosen, report.rays
     assert chosen is not None
     if report.not_asked:
@@ -89,7 +89,7 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
             other = "parallel" if "parallel" in chosen.projections else "perspective"
             yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
         if pixel is not None and bool(rays.came[pixel]):
-            yield from _of_pixel(rays, pixel, indexing)
+            yield from _of_pixel(rays, pixel)
         if rays.result.failure is not None:
             return
     result = report.results.get(chosen.name)
@@ -135,7 +135,8 @@ def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
         yield ToldLine("code" if number else "bad", line)
 
 
-def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[ToldLine]:
+def _of_pixel(rays: CodeRays, pixel: Pixel) -> Iterator[ToldLine]:
+    indexing = Indexing(rays.task.conventions.base)
     yield ToldLine("dim", f"pixel {indexing.text(pixel)}, {indexing.told}, of the pictures:")
     for name, origins, directions in (
         ("yours  ", rays.origins, rays.directions),

@@ -31,7 +31,6 @@ from lucida.app.checking.your_code.model import (
 from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.words import told_of, verdict_of
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError
 
 SIZE = (8, 6)
@@ -117,7 +116,7 @@ def test_the_tasks_are_the_file_s(tmp_path: Path) -> None:
     with pytest.raises(LucidaError, match=r"hw2\.toml"):
         asked_of(str(tmp_path / "away" / "hw2.toml"))
     report = CodeReport(CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE), asked=tasks)
-    (line,) = told_of(report, None, Indexing.LECTURE)
+    (line,) = told_of(report, None)
     assert "my_ray" in line.text and "viewing_ray" not in line.text
 
 
@@ -139,5 +138,5 @@ def test_what_the_course_keeps_back_is_not_shown(
     question = CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE)
     report = CodeReport(question, (task,), task, results={task.name: result}, asked=(task,))
     assert verdict_of(report, task) == verdict
-    lines = told_of(report, None, Indexing.LECTURE)
+    lines = told_of(report, None)
     assert said in lines[0].text and len(lines) == 1
