@@ -15,6 +15,7 @@ from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.kinds.values import text_of
 from lucida.app.checking.running.told import told_call
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.ui.explaining.symbols import arguments
 from lucida.renderer.files.reading import close_matches
 
 if TYPE_CHECKING:
@@ -165,9 +166,10 @@ def status_of(results: Sequence[TaskResult]) -> int:
     return 2 if "failed" in statuses else int("wrong" in statuses)
 
 
-def arguments_text(case: CheckCase) -> str:
+def arguments_text(task: CheckTask, case: CheckCase) -> str:
     """Return the call's arguments as text: `i=2, j=5, camera=...`."""
     text = ", ".join(f"{name}={text_of(value)}" for name, value in case.arguments)
+    text = arguments(text, task.notation)
     return text if len(text) <= ARGUMENT_LETTERS else f"{text[: ARGUMENT_LETTERS - 3]}..."
 
 
@@ -189,7 +191,7 @@ def _first_wrong(
     where, right, answer = kind.first_wrong(task, case, given[number])
     return WrongCase(
         case,
-        arguments_text(case),
+        arguments_text(task, case),
         right,
         answer,
         where,

@@ -256,11 +256,11 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from lucida.app.checking.reports.terminal import is_colored, lines
+    from lucida.app.checking.reports.told import is_colored, terminal_lines
 
     if arguments.json == "-":
         return
-    print("\n".join(lines(result, is_colored(sys.stdout))), flush=True)
+    print("\n".join(terminal_lines(result, is_colored(sys.stdout))), flush=True)
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

@@ -27,9 +27,9 @@ def write_json(
 ) -> None:
     if arguments.json is None:
         return
-    from lucida.app.checking.reports import gradescope
+    from lucida.app.checking.reports.told import gradescope
 
-    values = gradescope.results(results, tasks, seconds, problem)
+    values = gradescope(results, tasks, seconds, problem)
     text = json.dumps(values, indent=2, allow_nan=False) + "\n"
     if arguments.json == "-":
         sys.stdout.write(text)

@@ -265,7 +265,7 @@ class CodeRuns:
 def _rays(question: CodeQuestion, task: CheckTask, student: FileStudent) -> CodeRays:
     camera, size = question.camera, question.size
     cases = cases_for(task, camera, size)
-    return rays_of(task, camera, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
+    return rays_of(task, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
 
 
 def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:

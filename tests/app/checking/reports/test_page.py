@@ -133,17 +133,6 @@ def test_what_the_feedback_keeps_back_is_not_in_the_file(tried, feedback: str) -
     assert (SENTENCE in parsed.text) is (level >= 3)
 
 
-def test_a_right_answer_and_one_that_cannot_be_hidden(tried) -> None:
-    right = replace(tried[0], status="right", points=3.0, first=None, diagnosis=None, wrong=0)
-    text = page([right], [right.task], "rays.py", "", {})
-    assert "1 of 1 tasks correct, 3 of 3 points" in text and "<img" not in text
-    other = replace(TASK, name="other", points=2.0)
-    text = page([right], [right.task, other], "a&b.py", "a&b.py, line 3: invalid syntax", {})
-    parsed = WellFormed(text)
-    assert "Lucida check: a&b.py" in parsed.text and "0 of 2 points" in parsed.text
-    assert parsed.text.count("line 3: invalid syntax") == 2
-
-
 def test_the_command_writes_the_page_with_the_files_name_only(tmp_path: Path, capsys) -> None:
     code, out = tmp_path / "rays.py", tmp_path / "report.html"
     code.write_text(UPSIDE_DOWN, "utf-8")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 import threading
 
@@ -16,7 +15,6 @@ from lucida.renderer.system.errors import LucidaError
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="shells and C as POSIX has them")
 CALLS = [called("viewing_ray", i=i, j=j, camera=CAMERA) for i in range(48) for j in range(64)]
-RAYS = tuple({"origin": [0, 0, 5], "direction": [c.arguments[1][1], 0.5, -1]} for c in CALLS)
 
 
 @pytest.fixture
@@ -154,23 +152,3 @@ def test_programs_that_cannot_be_started(tmp_path, monkeypatch):
     }.items():
         failure = CommandStudent(command).call([called("f")]).failure
         assert failure is not None and told in failure.text
-
-
-def of(command: str, calls=CALLS):
-    return CommandStudent(command, Limits(60)).call(calls)
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="no node")
-def test_a_node_script(tmp_path):
-    """Its virtual memory is many times the limit: what it holds counts."""
-    (tmp_path / "rays.js").write_text(
-        "const lines = require('fs').readFileSync(0, 'utf8').split('\\n').filter(Boolean)\n"
-        "for (const line of lines) {\n"
-        "  const { j, camera } = JSON.parse(line)\n"
-        "  console.log(JSON.stringify({ origin: camera.eye, direction: [j, 0.5, -1] }))\n"
-        "}\n",
-        "utf-8",
-    )
-    run = of(f"node {tmp_path / 'rays.js'}")
-    assert run.failure is None
-    assert run.values == RAYS

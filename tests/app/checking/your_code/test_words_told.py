@@ -30,7 +30,7 @@ def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> C
     if run is None:
         calls = KINDS[RAY].calls(TASK, cases)
         run = Run(tuple(answer(dict(call.arguments)) for call in calls))
-    rays = rays_of(TASK, CAMERA, SIZE, cases, run)
+    rays = rays_of(TASK, SIZE, cases, run)
     found = CodeReport(QUESTION, (TASK, PARALLEL), TASK, rays, {TASK.name: RIGHT})
     return replace(found, **changes)
 
