@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.calls import Call, Failure, Run, Student
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.kinds.values import text_of
-from lucida.app.checking.running.told import told_call
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.kinds.kind import CheckKind, text_of
+from lucida.app.checking.running.program import told_call
+from lucida.app.checking.tasks import Call, CheckCase, CheckTask, Failure, Run, Student
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.renderer.files.reading import close_matches
 

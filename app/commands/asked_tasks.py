@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from lucida.app.checking.calls import Limits, Student
-    from lucida.app.checking.tasks import CheckTask
+    from lucida.app.checking.tasks import CheckTask, Limits, Student
 
 WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 
@@ -20,7 +19,7 @@ SIZE = (64, 48)  # of --view's image at most; its aspect ratio is the camera's o
 def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
     """Return the tasks and limits of a task file or a course; without one, the built-in tasks."""
     from lucida.app.checking.builtin import BUILTIN
-    from lucida.app.checking.calls import Limits
+    from lucida.app.checking.tasks import Limits
 
     if source is None:
         return list(BUILTIN), Limits()

@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from lucida.app.checking.calls import Student
     from lucida.app.checking.checked import TaskResult
-    from lucida.app.checking.reports.pictured import Pictured
-    from lucida.app.checking.tasks import CheckTask
+    from lucida.app.checking.reports.picture import Pictured
+    from lucida.app.checking.tasks import CheckTask, Student
 
 
 def write_json(
@@ -48,7 +47,7 @@ def write_json(
 
 
 def pictures_of(student: Student, result: TaskResult) -> dict[str, Pictured]:
-    from lucida.app.checking.reports.pictured import pictured
+    from lucida.app.checking.reports.picture import pictured
 
     found = pictured(student, result)
     return {} if found is None else {result.task.name: found}

@@ -14,8 +14,7 @@ from typing import Any
 import numpy as np
 
 from lucida.app.checking.cases import generator, look
-from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, named
-from lucida.app.checking.kinds.values import vectors
+from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, named, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector

@@ -21,9 +21,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.app.checking.cases import generator, point, rounded
-from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, Words, named
+from lucida.app.checking.kinds.kind import (
+    FLOAT32,
+    CheckKind,
+    Floats,
+    Words,
+    in_order,
+    is_miss,
+    named,
+    number,
+    text_of,
+)
 from lucida.app.checking.kinds.shapes import hits, tolerance
-from lucida.app.checking.kinds.values import in_order, is_miss, number, text_of
 from lucida.app.checking.tasks import CheckCase, CheckTask
 
 if TYPE_CHECKING:

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lucida.app.checking.calls import Call
 from lucida.app.checking.cases import generator
 from lucida.app.checking.kinds.kind import (
     Cases,
@@ -22,11 +21,13 @@ from lucida.app.checking.kinds.kind import (
     Flags,
     Floats,
     Words,
+    array,
     named,
+    number,
+    text_of,
     wrong_numbers,
 )
-from lucida.app.checking.kinds.values import array, number, text_of
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.tasks import Call, CheckCase, CheckTask
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

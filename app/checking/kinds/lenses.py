@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lucida.app.checking.cases import generator, rounded
-from lucida.app.checking.kinds.kind import CheckKind, named
-from lucida.app.checking.kinds.values import in_order, number
+from lucida.app.checking.kinds.kind import CheckKind, in_order, named, number
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.renderer.camera.lenses import Lens
 

@@ -29,8 +29,7 @@ from lucida.app.checking.conventions import (
     argument_lists,
 )
 from lucida.app.checking.kinds.basis import conditioning
-from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats
-from lucida.app.checking.kinds.values import vectors
+from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.renderer.camera.camera import Camera
 

@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.checked import TaskResult
-from lucida.app.checking.reports.picture import changed_pixels, difference_picture
-from lucida.app.checking.reports.pictured import Pictured
+from lucida.app.checking.own_words import signature
+from lucida.app.checking.reports.picture import Pictured, changed_pixels, difference_picture
 from lucida.app.checking.reports.told import VERDICTS, Told, of_points, reported, summary
-from lucida.app.checking.starter import signature
 from lucida.app.checking.tasks import CheckTask
 from lucida.renderer.images.png import png_of
 from lucida.renderer.system.errors import visible

@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, TextIO
 
-from lucida.app.checking.calls import Failure
 from lucida.app.checking.checked import Status, TaskResult, WrongCase
-from lucida.app.checking.starter import signature
-from lucida.app.checking.tasks import FEEDBACK, CheckTask
+from lucida.app.checking.own_words import signature
+from lucida.app.checking.tasks import FEEDBACK, CheckTask, Failure
 from lucida.renderer.system.errors import one_line, visible
 
 if TYPE_CHECKING:

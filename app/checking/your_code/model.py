@@ -1,25 +1,25 @@
 """The questions to a file about the window's camera, and the rays in its answers.
 
-Turns a task and a camera into cases, and answers into the rays of a small image. Pure.
+Turns a task and a camera into cases, and answers into the rays of a small image. A report holds
+the findings on a file as one immutable value: a thread makes it, the view reads it. Pure.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.builtin import BUILTIN, builtin_tasks
-from lucida.app.checking.calls import Failure, Limits, Run
 from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import cases_of
 from lucida.app.checking.mistakes.diagnosis import Diagnosis, diagnosis
 from lucida.app.checking.task_file import TaskSet, load_tasks
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Limits, Run
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -165,3 +165,82 @@ def canvas_pixel(
     row = int((top - y) / (top - bottom) * to_size[1] - EXACT)
     column = int((x - left) / (right - left) * to_size[0] - EXACT)
     return min(max(row, 0), to_size[1] - 1), min(max(column, 0), to_size[0] - 1)
+
+
+ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
+
+
+@dataclass(frozen=True)
+class CodeContent:
+    """What is asked about.
+
+    path: of the file.
+    tasks: the file of tasks, "" for the built-in ones.
+    notation: the window's.
+    version: changes with the content of the file or of the tasks' file.
+    """
+
+    path: str
+    tasks: str = ""
+    notation: Notation = "book"
+    version: int = 1
+
+    def is_of_files(self, other: CodeContent) -> bool:
+        """Return True if both are versions of the same files."""
+        return (self.path, self.tasks) == (other.path, other.tasks)
+
+
+@dataclass(frozen=True)
+class CodeQuestion:
+    """A question to a file.
+
+    task: the name of the selected one.
+    camera, size: for the canvas.
+    """
+
+    content: CodeContent
+    task: str
+    camera: Camera
+    size: Size
+
+    def differs_in_camera(self, other: CodeQuestion) -> bool:
+        """Return True if it is the same as the other one, except for the camera."""
+        return replace(self, camera=other.camera) == other
+
+
+@dataclass(frozen=True, eq=False)
+class CodeReport:
+    """The findings on a file.
+
+    tasks: those whose functions the file has.
+    chosen: the selected one.
+    rays: for the window's camera, None if the selected task makes none.
+    results: of the tasks that have been tried, by name.
+    diagnosis: the reason why the rays are wrong; None while unknown.
+    failure: the reason why the file answers nothing at all.
+    output: the text that it printed.
+    seconds, at: the duration of the newest run, and its end in seconds since 1970.
+    asked: all tasks.
+    not_asked: the reason why there are no rays, if it is the camera.
+    """
+
+    question: CodeQuestion
+    tasks: tuple[CheckTask, ...] = ()
+    chosen: CheckTask | None = None
+    rays: CodeRays | None = None
+    results: Mapping[str, TaskResult] = field(default_factory=dict)
+    diagnosis: Diagnosis | None = None
+    failure: Failure | None = None
+    output: str = ""
+    seconds: float = 0.0
+    at: float = 0.0
+    asked: tuple[CheckTask, ...] = BUILTIN
+    not_asked: str = ""
+
+    @property
+    def halted(self) -> bool:
+        """True if the file should not run again by itself: it would only take as long again."""
+        failure = self.failure
+        if failure is None and self.rays is not None:
+            failure = self.rays.result.failure
+        return failure is not None and failure.kind in ENDLESS

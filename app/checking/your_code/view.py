@@ -13,14 +13,13 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import imgui
 
-from lucida.app.checking.starter import starter
+from lucida.app.checking.own_words import starter
 from lucida.app.checking.your_code import panel
 from lucida.app.checking.your_code.code_pictures import CodePictures, PicturesShown, marked_pixel
 from lucida.app.checking.your_code.following import FileFollower, open_in_editor
-from lucida.app.checking.your_code.model import RAY, asked_of
+from lucida.app.checking.your_code.model import RAY, CodeContent, CodeQuestion, CodeReport, asked_of
 from lucida.app.checking.your_code.outside_items import outside_items
 from lucida.app.checking.your_code.panel import CodeWish
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, told_of
 from lucida.app.instruments.outside.extent import end_parameter

@@ -10,11 +10,10 @@ from typing import Literal
 import numpy as np
 
 from lucida.app.checking.checked import TaskResult
-from lucida.app.checking.kinds.values import text_of
+from lucida.app.checking.kinds.kind import text_of
 from lucida.app.checking.reports.told import told
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.model import CodeRays
-from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import visible

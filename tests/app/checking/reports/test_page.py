@@ -17,8 +17,14 @@ from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult, checked
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
 from lucida.app.checking.reports.page import page
-from lucida.app.checking.reports.picture import MARK, NO_RAY, changed_pixels, picture
-from lucida.app.checking.reports.pictured import Pictured, pictured
+from lucida.app.checking.reports.picture import (
+    MARK,
+    NO_RAY,
+    Pictured,
+    changed_pixels,
+    picture,
+    pictured,
+)
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.tasks import FEEDBACK
 from lucida.app.cli import main

@@ -9,8 +9,8 @@ import pytest
 from students import CAMERA, called
 from waiting import wait_for
 
-from lucida.app.checking.calls import Limits
 from lucida.app.checking.running.command import CommandStudent
+from lucida.app.checking.tasks import Limits
 from lucida.renderer.system.errors import LucidaError
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="shells and C as POSIX has them")

@@ -13,8 +13,8 @@ import pytest
 from students import called
 from waiting import wait_for
 
-from lucida.app.checking.calls import Failure, Limits
 from lucida.app.checking.running.file import FileStudent
+from lucida.app.checking.tasks import Failure, Limits
 
 F = called("f")
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="Linux limits memory")
@@ -182,7 +182,7 @@ def test_it_ends_with_lucida_however_that_ends(tmp_path):
     path.write_text(source, "utf-8")
     run = (
         "import sys\n"
-        "from lucida.app.checking.calls import Call, Limits\n"
+        "from lucida.app.checking.tasks import Call, Limits\n"
         "from lucida.app.checking.running.file import FileStudent\n"
         "FileStudent(sys.argv[1], Limits(1e6)).call([Call('f', ())])"
     )

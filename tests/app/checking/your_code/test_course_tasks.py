@@ -10,13 +10,15 @@ import numpy as np
 import pytest
 
 from lucida.app.checking.builtin import BUILTIN
-from lucida.app.checking.calls import Run
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.tasks import CheckTask, Run
 from lucida.app.checking.your_code.model import (
     RAY,
+    CodeContent,
+    CodeQuestion,
+    CodeReport,
     asked_of,
     canvas_pixel,
     cases_for,
@@ -25,7 +27,6 @@ from lucida.app.checking.your_code.model import (
     rays_of,
     why_not_asked,
 )
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.words import told_of, verdict_of
 from lucida.renderer.camera.camera import Camera
 

@@ -8,12 +8,18 @@ from typing import Any
 from right_code import right_ray
 
 from lucida.app.checking.builtin import BUILTIN
-from lucida.app.checking.calls import Failure, Run
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
-from lucida.app.checking.your_code.model import RAY, cases_for, rays_of
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
+from lucida.app.checking.tasks import Failure, Run
+from lucida.app.checking.your_code.model import (
+    RAY,
+    CodeContent,
+    CodeQuestion,
+    CodeReport,
+    cases_for,
+    rays_of,
+)
 from lucida.app.checking.your_code.words import told_of, verdict_of
 from lucida.renderer.camera.camera import Camera
 

@@ -13,7 +13,7 @@ from imgui_bundle import hello_imgui, imgui
 from option_changes import with_options
 from window_driver import Driver, Key
 
-from lucida.app.checking.calls import Limits
+from lucida.app.checking.tasks import Limits
 from lucida.app.checking.your_code import model, panel
 from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
 from lucida.app.instruments.outside.view import OutsideView
