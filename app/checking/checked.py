@@ -105,20 +105,20 @@ def _asked_again(student: Student, result: TaskResult) -> TaskResult:
         np.asarray(given, float), np.asarray([first.answer] * 2, float), equal_nan=True
     ):
         return result
-    from lucida.app.checking.mistakes.diagnosis import Diagnosis
-
-    told = result.diagnosis or Diagnosis(())
+    told = result.diagnosis
+    assert told is not None
     return replace(result, diagnosis=replace(told, sentences=(CHANGES, *told.sentences)))
 
 
 def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
     """Return the result of a run of all of a task's calls."""
     kind = KINDS[task.kind]
-    failure = run.failure
-    failures = [value for value in run.values if isinstance(value, Failure)]
-    if failure is None and failures:
-        number = next(n for n, value in enumerate(run.values) if isinstance(value, Failure))
-        failure = replace(failures[0], call=number)
+    failures = (
+        replace(value, call=number)
+        for number, value in enumerate(run.values)
+        if isinstance(value, Failure)
+    )
+    failure = run.failure or next(failures, None)
     if failure is not None:
         return failed(task, failure, len(cases), run.output)
     given, problems = kind.given(task, cases, run.values)
@@ -187,11 +187,4 @@ def _first_wrong(
     number = int(np.argmax(wrong))
     case = cases[number]
     where, right, answer = kind.first_wrong(task, case, given[number])
-    return WrongCase(
-        case,
-        arguments_text(task, case),
-        right,
-        answer,
-        where,
-        given[number],
-    )
+    return WrongCase(case, arguments_text(task, case), right, answer, where, given[number])

@@ -15,6 +15,7 @@ rounding of float32.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -34,6 +35,7 @@ from lucida.app.checking.kinds.kind import (
 )
 from lucida.app.checking.kinds.shapes import hits, tolerance
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.renderer.camera.checks import Vector
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
@@ -43,7 +45,6 @@ MISS = (-1.0, np.inf)
 Place = Literal["ahead", "beside", "behind", "around"]
 PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
 Values = dict[str, Any]
-Simple = tuple[tuple[list[float], list[float], list[Values]], ...]
 RAY_WORDS: Words = {
     "origin": "where the ray starts",
     "direction": "where it goes; of any length",
@@ -55,19 +56,23 @@ RAY_WORDS: Words = {
 class HitKind(CheckKind):
     """A ray that meets one object, or several.
 
-    simple: the first cases: origin, direction, objects.
+    rays, objects: of the first cases, each with each. A ray is an origin and a direction.
     shape: the type of the one object; "" for several of both types.
     places: of the generated objects, in turn; see _sphere and _triangle.
     """
 
     answer: str = "a number t, or None"
-    simple: Simple
+    rays: tuple[tuple[Vector, Vector], ...]
+    objects: tuple[list[Values], ...]
     shape: str = ""
     places: tuple[Place, ...] = PLACES
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
-        made = [({"origin": o, "direction": d}, objects) for o, d, objects in self.simple]
+        made = [
+            ({"origin": list(origin), "direction": list(direction)}, objects)
+            for (origin, direction), objects in product(self.rays, self.objects)
+        ]
         make = self._one_object if self.shape else _several_objects
         made += [make(random, number) for number in range(task.count)]
         return [self._case(task, *one) for one in made]
@@ -124,7 +129,7 @@ def _flat(z: float) -> Values:
     return {"type": "triangle", **corners}
 
 
-_AHEAD = [0.0, 0.0, -1.0]
+_AT_5, _AHEAD = (0.0, 0.0, 5.0), (0.0, 0.0, -1.0)
 SPHERE = HitKind(
     name="hit-sphere",
     function="hit_sphere",
@@ -137,13 +142,14 @@ SPHERE = HitKind(
     arguments=("origin", "direction", "center", "radius"),
     shape="sphere",
     places=("ahead", "beside", "ahead", "behind", "around"),
-    simple=(
-        ([0.0, 0.0, 5.0], _AHEAD, [_at(0.0)]),
-        ([0.0, 0.0, 5.0], [0.0, 0.0, -2.0], [_at(0.0)]),
-        ([0.0, 0.0, 5.0], [0.0, 0.0, 1.0], [_at(0.0)]),
-        ([0.0, 0.0, 5.0], [0.0, 1.0, 0.0], [_at(0.0)]),
-        ([0.0, 0.0, 0.0], [0.0, 0.5, 0.0], [_at(0.0)]),
+    rays=(
+        (_AT_5, _AHEAD),
+        (_AT_5, (0.0, 0.0, -2.0)),
+        (_AT_5, (0.0, 0.0, 1.0)),
+        (_AT_5, (0.0, 1.0, 0.0)),
+        ((0.0, 0.0, 0.0), (0.0, 0.5, 0.0)),
     ),
+    objects=([_at(0.0)],),
 )
 TRIANGLE = HitKind(
     name="hit-triangle",
@@ -158,14 +164,15 @@ TRIANGLE = HitKind(
     arguments=("origin", "direction", "a", "b", "c"),
     shape="triangle",
     places=("ahead", "beside", "ahead", "beside", "beside", "behind"),
-    simple=(
-        ([0.0, 0.0, 4.0], _AHEAD, [_flat(0.0)]),
-        ([0.0, 0.0, 4.0], [0.0, 0.0, -2.0], [_flat(0.0)]),
-        ([0.0, 0.0, -4.0], [0.0, 0.0, 1.0], [_flat(0.0)]),
-        ([0.0, 0.0, 4.0], [0.0, 0.0, 1.0], [_flat(0.0)]),
-        ([1.5, 1.5, 4.0], _AHEAD, [_flat(0.0)]),
-        ([0.0, 0.0, 4.0], [0.0, 1.0, 0.0], [_flat(0.0)]),
+    rays=(
+        (_AT_5, _AHEAD),
+        (_AT_5, (0.0, 0.0, -2.0)),
+        ((0.0, 0.0, -4.0), (0.0, 0.0, 1.0)),
+        (_AT_5, (0.0, 0.0, 1.0)),
+        ((1.5, 1.5, 4.0), _AHEAD),
+        (_AT_5, (0.0, 1.0, 0.0)),
     ),
+    objects=([_flat(0.0)],),
 )
 CLOSEST = HitKind(
     name="closest-hit",
@@ -179,17 +186,15 @@ CLOSEST = HitKind(
     answer="the object's number and t, or None",
     returns=("object", "t"),
     return_words={"object": "its number", "t": "the ray parameter"},
-    simple=tuple(
-        ([0.0, 0.0, 5.0], _AHEAD, objects)
-        for objects in (
-            [_at(0.0)],
-            [_at(0.0), _at(-4.0)],
-            [_at(-4.0), _at(0.0)],
-            [_at(0.0), _flat(2.0), _at(-4.0)],
-            [_at(9.0), _at(-4.0), _at(0.0)],
-            [_at(0.0, 5.0), _at(9.0)],
-            [],
-        )
+    rays=((_AT_5, _AHEAD),),
+    objects=(
+        [_at(0.0)],
+        [_at(0.0), _at(-4.0)],
+        [_at(-4.0), _at(0.0)],
+        [_at(0.0), _flat(2.0), _at(-4.0)],
+        [_at(9.0), _at(-4.0), _at(0.0)],
+        [_at(0.0, 5.0), _at(9.0)],
+        [],
     ),
 )
 

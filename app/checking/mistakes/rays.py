@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.checking.conventions import PAIRS, camera_words, pixel_words
-from lucida.app.checking.mistakes.catalogue import Part, part, part_from_angles
+from lucida.app.checking.mistakes.catalogue import Part, part
 from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.tasks import CheckTask
 from lucida.renderer.camera.camera import Camera
@@ -211,12 +211,12 @@ def _viewport_part(words: frozenset[str]) -> list[Part]:
     for unit in ("", "_rad"):
         edges = {f"edge_{axis}": f"fov_{axis}{unit}" for axis in "xy"}
         if words.issuperset(edges.values()):
-            return [part_from_angles("two_angles", edges, values)]
+            return [part("two_angles", values, angles=edges)]
         for side, other in (("long", "short"), ("short", "long")):
             if (word := f"fov_{side}{unit}") in words:
                 values |= {"side": side, "other_side": other}
                 values |= {"limit": LIMITS[side], "other_limit": LIMITS[other]}
-                return [part_from_angles("side", {"edge": word}, values)]
+                return [part("side", values, angles={"edge": word})]
     if words.issuperset(SIZES):
         return [part("sizes")]
     for word, unit in ((f"fov_{axis}{unit}", unit) for unit in ("", "_rad") for axis in "yx"):
@@ -226,7 +226,7 @@ def _viewport_part(words: frozenset[str]) -> list[Part]:
             if word.startswith("fov_x"):
                 values |= {"first": "right", "second": "top", "times": "/", "over": "*"}
                 values["axis"] = "horizontal"
-            return [part_from_angles("fov", {"edge": word}, values)]
+            return [part("fov", values, angles={"edge": word})]
     return []
 
 

@@ -13,11 +13,11 @@ import msgspec
 
 from lucida.app.checking.results.model import ClassAnswer, NamedMistake
 from lucida.app.lecture.answer_log import KeptAnswer
-from lucida.renderer.files.reading import first_bytes
+from lucida.renderer.files.reading import first_bytes, read_file
 from lucida.renderer.system.errors import LucidaError
 
 SNIFFED_BYTES = 1 << 16
-MOST_LINES = 20  # that are reported of one file
+MOST_LINES = 20  # that are reported of a file, which may be something else
 LARGEST = 256 << 20  # bytes of a file
 
 
@@ -65,7 +65,7 @@ def read_answers(paths: Sequence[str | Path]) -> tuple[list[ClassAnswer], list[s
     problems: list[str] = []
     for path in dict.fromkeys(Path(path) for path in paths):
         try:
-            data = _bytes(path)
+            data = read_file(path, LARGEST)
         except LucidaError as error:
             problems.append(str(error))
             continue
@@ -73,24 +73,8 @@ def read_answers(paths: Sequence[str | Path]) -> tuple[list[ClassAnswer], list[s
         if found is None:
             found, lines = _of_lecture(path, data)
             problems += lines[:MOST_LINES]
-            if len(lines) > MOST_LINES:
-                problems.append(f"{path}: {len(lines) - MOST_LINES} more lines are no answers")
         answers += found
     return answers, problems
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        if path.stat().st_size > LARGEST:
-            raise LucidaError("", "is too large for answers", "give files up to 256 MB", str(path))
-        data = path.read_bytes()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        remedy = "check its name and its rights"
-        raise LucidaError("", f"cannot be read: {reason}", remedy, str(path)) from None
-    if not data.strip():
-        raise LucidaError("", "is empty", "nothing was answered", str(path))
-    return data
 
 
 def _of_check(path: Path, data: bytes) -> list[ClassAnswer] | None:

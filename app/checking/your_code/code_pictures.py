@@ -22,6 +22,7 @@ from lucida.app.instruments.outside.paint import role_color
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
+from lucida.app.ui.messages import wrapped
 from lucida.app.ui.picture_grid import GridPicture, picture_grid
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.camera.camera import Camera
@@ -173,9 +174,7 @@ class PicturesShown:
         text = describe(error) if error is not None else host.renderers.preparing()
         if self.expected:
             imgui.begin_child("waiting", room)
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
-        imgui.pop_text_wrap_pos()
+        wrapped(text, theme.ERROR if error is not None else theme.DIM)
         if self.expected:
             imgui.end_child()
 

@@ -27,6 +27,7 @@ from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
+from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.renderer.files.reading import first_bytes
@@ -40,14 +41,14 @@ READ_BYTES = 100_000  # to show of a file that is not run
 
 
 class YourCodeView(Instrument):
-    """The view "Your code". runs: None before there is a context."""
+    """The view "Your code"."""
 
     name = YOUR_CODE
     title = "Your code"
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
-        self.runs: CodeRuns | None = None
+        self.runs = CodeRuns(lambda: Background.wake_window())
         self._follower: FileFollower | None = None
         self._pictures: PicturesShown | None = None
         self._agreed: set[str] = set()  # files that the user has opened in this window
@@ -63,7 +64,7 @@ class YourCodeView(Instrument):
     @property
     def report(self) -> CodeReport | None:
         """The report on the open file; None before the first."""
-        return self.runs.report if self.runs is not None else None
+        return self.runs.report
 
     @property
     def pictures(self) -> CodePictures | None:
@@ -93,20 +94,18 @@ class YourCodeView(Instrument):
 
     @property
     def settled(self) -> bool:
-        if not self._seen or self.runs is None or self._pictures is None:
+        if not self._seen or self._pictures is None:
             return True
         return not (self.runs.busy or self._pictures.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        runs = self.runs = CodeRuns(host.animate)
-        self._follower = FileFollower(host.animate, lambda: runs.busy, runs.tick)
+        self._follower = FileFollower(host.animate, lambda: self.runs.busy, self.runs.tick)
         self._pictures = PicturesShown(host, context)
 
     def end(self) -> None:
         if self._follower is not None:
             self._follower.close()
-        if self.runs is not None:
-            self.runs.close()
+        self.runs.close()
         if self._pictures is not None:
             self._pictures.close()
 
@@ -116,7 +115,7 @@ class YourCodeView(Instrument):
         assert self._follower is not None and self._pictures is not None
         self._seen = False
         self._follower.rest()
-        if self.runs is not None and self.runs.busy:
+        if self.runs.busy:
             self.runs.forget()  # nothing runs while hidden
         self._pictures.forget()
         self._outside.show(YOUR_CODE, ())
@@ -126,7 +125,6 @@ class YourCodeView(Instrument):
         self._pictures.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        assert self.runs is not None and self._follower is not None
         path = restored(host.state.options.your_code.file)
         if self._written:
             self._open_written(host)
@@ -145,8 +143,7 @@ class YourCodeView(Instrument):
 
     def _rest(self) -> None:
         """Run nothing, and show nothing of earlier runs."""
-        assert self.runs is not None and self._follower is not None
-        assert self._pictures is not None
+        assert self._follower is not None and self._pictures is not None
         self._follower.forget()
         self._pictures.rest()
         self.runs.poll()
@@ -164,8 +161,7 @@ class YourCodeView(Instrument):
         return any(entry.path == path for entry in host.files.recent.entries)
 
     def _of_file(self, host: Host, path: str) -> CodeWish:
-        assert self.runs is not None and self._follower is not None
-        assert self._pictures is not None
+        assert self._follower is not None and self._pictures is not None
         runs, options = self.runs, host.state.options.your_code
         tasks = restored(options.tasks)
         self._follower.follow(*(one for one in (path, tasks) if one))
@@ -238,7 +234,7 @@ class YourCodeView(Instrument):
         host.animate()
 
     def _grant(self, host: Host, wish: CodeWish, path: str) -> None:
-        assert self.runs is not None and self._follower is not None
+        assert self._follower is not None
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
