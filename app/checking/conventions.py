@@ -225,10 +225,7 @@ def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> dict
     return {
         **{name: np.asarray(getattr(camera, name)) for name in ("eye", "u", "v", "w")},
         "distance": camera.distance,
-        "left": left,
-        "right": right,
-        "bottom": bottom,
-        "top": top,
+        **dict(zip(("left", "right", "bottom", "top"), camera.viewport, strict=True)),
         "viewport_width": wide,
         "viewport_height": high,
         "width": width,

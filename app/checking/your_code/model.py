@@ -29,7 +29,7 @@ from lucida.renderer.system.errors import LucidaError
 Floats = NDArray[np.float64]
 
 RAY = "viewing-ray"  # the kind of functions that make pictures of a camera
-EXACT = 1e-9
+EXACT = 1e-6  # pixels: of a corner between four, the upper left one
 LIMITS = Limits(seconds=10.0)  # of the built-in tasks
 
 
@@ -157,13 +157,9 @@ def canvas_pixel(
     The cameras differ in their viewports, or one is the mirror image of the other. Both pixels are
     (row, column), from 0.
     """
-    left, right, bottom, top = of.viewport
-    x = left + (pixel[1] + 0.5) / size[0] * (right - left)
-    y = top - (pixel[0] + 0.5) / size[1] * (top - bottom)
-    x = -x if np.dot(of.u, to.u) < 0 else x
-    left, right, bottom, top = to.viewport
-    row = int((top - y) / (top - bottom) * to_size[1] - EXACT)
-    column = int((x - left) / (right - left) * to_size[0] - EXACT)
+    ray = of.pinhole.ray(*pixel, size)
+    seen = to.pinhole.project(ray.origin + ray.direction, to_size)
+    row, column = (int(place + 0.5 - EXACT) for place in (seen.row, seen.column))
     return min(max(row, 0), to_size[1] - 1), min(max(column, 0), to_size[0] - 1)
 
 

@@ -62,23 +62,6 @@ def test_whenever_a_program_answers(program, name):
     assert run.values[-1]["i"] == 47
 
 
-def test_values_as_programs_write_them(program):
-    written = [
-        '{"origin": [0], "direction": [1]}',
-        "[[0], [1.5]]",
-        "null",
-        "0.5",
-        "NaN",
-        "-Infinity",
-    ]
-    one = program(f"print('\\n'.join({written}))")
-    values = one.call([called("f")] * 6).values
-    assert values[:4] == ({"origin": [0], "direction": [1]}, [[0], [1.5]], None, 0.5)
-    assert values[4] != values[4]
-    assert values[5] == float("-inf")
-    assert program(f"print({'9' * 400})").call([called("f")]).values == (float("inf"),)
-
-
 FAULTS = {
     "status": (
         "print(1); sys.exit(7)",
