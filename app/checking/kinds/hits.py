@@ -26,7 +26,6 @@ from lucida.app.checking.kinds.kind import (
     FLOAT32,
     CheckKind,
     Floats,
-    Words,
     in_order,
     is_miss,
     named,
@@ -35,6 +34,7 @@ from lucida.app.checking.kinds.kind import (
 )
 from lucida.app.checking.kinds.shapes import hits, tolerance
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
 from lucida.renderer.camera.checks import Vector
 
 if TYPE_CHECKING:
@@ -45,11 +45,6 @@ MISS = (-1.0, np.inf)
 Place = Literal["ahead", "beside", "behind", "around"]
 PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
 Values = dict[str, Any]
-RAY_WORDS: Words = {
-    "origin": "where the ray starts",
-    "direction": "where it goes; of any length",
-    "ray": "an object with origin and direction",
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +56,6 @@ class HitKind(CheckKind):
     places: of the generated objects, in turn; see _sphere and _triangle.
     """
 
-    answer: str = "a number t, or None"
     rays: tuple[tuple[Vector, Vector], ...]
     objects: tuple[list[Values], ...]
     shape: str = ""
@@ -131,15 +125,7 @@ def _flat(z: float) -> Values:
 
 _AT_5, _AHEAD = (0.0, 0.0, 5.0), (0.0, 0.0, -1.0)
 SPHERE = HitKind(
-    name="hit-sphere",
-    function="hit_sphere",
-    words={
-        **RAY_WORDS,
-        "center": "the sphere's centre",
-        "radius": "its radius",
-        "sphere": "an object with center and radius",
-    },
-    arguments=("origin", "direction", "center", "radius"),
+    **described("hit-sphere"),
     shape="sphere",
     places=("ahead", "beside", "ahead", "behind", "around"),
     rays=(
@@ -152,16 +138,7 @@ SPHERE = HitKind(
     objects=([_at(0.0)],),
 )
 TRIANGLE = HitKind(
-    name="hit-triangle",
-    function="hit_triangle",
-    words={
-        **RAY_WORDS,
-        "a": "a corner",
-        "b": "the next one",
-        "c": "the last one",
-        "triangle": "an object with a, b and c",
-    },
-    arguments=("origin", "direction", "a", "b", "c"),
+    **described("hit-triangle"),
     shape="triangle",
     places=("ahead", "beside", "ahead", "beside", "beside", "behind"),
     rays=(
@@ -175,17 +152,7 @@ TRIANGLE = HitKind(
     objects=([_flat(0.0)],),
 )
 CLOSEST = HitKind(
-    name="closest-hit",
-    function="closest_hit",
-    words={
-        **RAY_WORDS,
-        "objects": "a list of objects: type ('sphere' or 'triangle') with center and radius, or a, "
-        "b and c",
-    },
-    arguments=("origin", "direction", "objects"),
-    answer="the object's number and t, or None",
-    returns=("object", "t"),
-    return_words={"object": "its number", "t": "the ray parameter"},
+    **described("closest-hit"),
     rays=((_AT_5, _AHEAD),),
     objects=(
         [_at(0.0)],

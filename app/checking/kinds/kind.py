@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.checking.tasks import Call, CheckCase, CheckTask
+from lucida.app.checking.words import Words
 
 SHOWN = 80  # characters of a value in a message
 DEPTH = 8  # of nested lists that are written out
@@ -130,7 +131,6 @@ def text_of(value: Any, depth: int = DEPTH) -> str:
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-Words = Mapping[str, str]
 
 # Rounding error allowed for a correct float32 answer: 64 times 2^-24, relative to the largest
 # number that it is computed from. The longest usual computations take about twenty operations; the

@@ -20,10 +20,6 @@ import numpy as np
 
 from lucida.app.checking.cases import shots
 from lucida.app.checking.conventions import (
-    CAMERA,
-    CAMERA_WORDS,
-    PAIRS,
-    PIXEL_WORDS,
     Conventions,
     Shot,
     argument_lists,
@@ -31,6 +27,7 @@ from lucida.app.checking.conventions import (
 from lucida.app.checking.kinds.basis import conditioning
 from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
 from lucida.renderer.camera.camera import Camera
 
 
@@ -73,23 +70,7 @@ class ViewingRayKind(CheckKind):
         return where, *super().first_wrong(task, case, answer)[1:]
 
 
-VIEWING_RAY = ViewingRayKind(
-    name="viewing-ray",
-    function="viewing_ray",
-    words={
-        **PIXEL_WORDS,
-        **{
-            name: f"two numbers: {PIXEL_WORDS[a]}; {PIXEL_WORDS[b]}"
-            for name, (a, b) in PAIRS.items()
-        },
-        **CAMERA_WORDS,
-        CAMERA: "an object with these fields",
-    },
-    arguments=("i", "j", "width", "height", "camera"),
-    answer="origin and direction, three numbers each",
-    returns=("origin", "direction"),
-    return_words={"origin": "where the ray starts", "direction": "where it goes"},
-)
+VIEWING_RAY = ViewingRayKind(**described("viewing-ray"))
 
 
 def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
