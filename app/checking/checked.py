@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.kind import CheckKind, text_of
-from lucida.app.checking.running.program import told_call
-from lucida.app.checking.tasks import Call, CheckCase, CheckTask, Failure, Run, Student
+from lucida.app.checking.running.program import ProgramStudent, told_call
+from lucida.app.checking.tasks import Call, CheckCase, CheckTask, Failure, Run
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.renderer.files.reading import close_matches
 
@@ -66,7 +66,7 @@ class TaskResult:
     output: str = ""
 
 
-def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
+def check(student: ProgramStudent, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
     """Yield the results of the tasks in order, each as soon as it is known. Raises LucidaError if
     the student's code cannot be run at all.
     """
@@ -78,7 +78,7 @@ def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
             yield checked(student, task)
 
 
-def checked(student: Student, task: CheckTask) -> TaskResult:
+def checked(student: ProgramStudent, task: CheckTask) -> TaskResult:
     """Return the result of one task. The student's code must have its function."""
     kind = KINDS[task.kind]
     cases = kind.cases(task)
@@ -88,7 +88,7 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
     return result
 
 
-def _asked_again(student: Student, result: TaskResult) -> TaskResult:
+def _asked_again(student: ProgramStudent, result: TaskResult) -> TaskResult:
     """Call the first wrong case again, twice, in a program that remembers no other call. If an
     answer has changed, add a sentence on that to the result.
     """

@@ -8,9 +8,8 @@ A lecturer's own tasks come from a file (task_file.py).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal
 
 from lucida.app.checking.conventions import Conventions
 from lucida.app.state.options.shared import Notation
@@ -82,34 +81,6 @@ class Run:
     values: tuple[Any, ...]
     output: str = ""
     failure: Failure | None = None
-
-
-class Student(Protocol):
-    """The interface of whatever answers calls: a Python file or a program.
-
-    survived: True if something that it started may still be running after `close`.
-    """
-
-    survived: bool
-
-    def functions(self) -> frozenset[str] | None:
-        """Return the names of its functions; None if they cannot be known. Raises LucidaError if it
-        cannot be run at all.
-        """
-
-    def call(self, calls: Sequence[Call]) -> Run:
-        """Run all calls in order, and block until they are done. May be called again; the time
-        limit applies to each run.
-        """
-
-    def restart(self) -> None:
-        """Make the next run begin in a new process, which remembers no call."""
-
-    def stop(self) -> None:
-        """Stop the current run, from any thread: `call` returns soon, with a failure."""
-
-    def close(self) -> None:
-        """End its process, and everything that it started."""
 
 
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]

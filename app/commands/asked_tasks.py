@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from lucida.app.checking.tasks import CheckTask, Limits, Student
+    from lucida.app.checking.running.program import ProgramStudent
+    from lucida.app.checking.tasks import CheckTask, Limits
 
 WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 
@@ -116,7 +117,7 @@ def _small(own: tuple[int, int] | None) -> tuple[int, int]:
 
 
 def possible(
-    arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
+    arguments: argparse.Namespace, student: ProgramStudent, tasks: list[CheckTask]
 ) -> list[CheckTask]:
     """Return the tasks to try: all that a lecturer or the user has named; of the built-in ones,
     those whose functions exist.

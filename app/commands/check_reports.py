@@ -14,7 +14,8 @@ from lucida.renderer.system.errors import LucidaError
 if TYPE_CHECKING:
     from lucida.app.checking.checked import TaskResult
     from lucida.app.checking.reports.picture import Pictured
-    from lucida.app.checking.tasks import CheckTask, Student
+    from lucida.app.checking.running.program import ProgramStudent
+    from lucida.app.checking.tasks import CheckTask
 
 
 def write_json(
@@ -46,7 +47,7 @@ def write_json(
             raise
 
 
-def pictures_of(student: Student, result: TaskResult) -> dict[str, Pictured]:
+def pictures_of(student: ProgramStudent, result: TaskResult) -> dict[str, Pictured]:
     from lucida.app.checking.reports.picture import pictured
 
     found = pictured(student, result)

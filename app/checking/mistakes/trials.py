@@ -8,7 +8,7 @@ for a mistake that is merely close to it. All that fit equally well are named.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,24 +26,6 @@ Numbers = NDArray[np.intp]
 # well above those of float64 (2^-53) and of float32 (2^-24), respectively.
 STRICT, LOOSE = 1e-11, 2.0**-18
 FEW = 12  # cases that rule out most mistakes
-
-
-class Trial(Protocol):
-    """The cases, and the distances between programs' answers and the given ones."""
-
-    @property
-    def count(self) -> int:
-        """The number of cases."""
-
-    def errors(
-        self, program: Program, tried: Sequence[Mistakes], cases: Numbers
-    ) -> tuple[Floats, Floats]:
-        """Return how far the given answers, and the correct ones, are from the program's with each
-        of these mistakes.
-
-        The errors are (tried, cases), relative to the largest intermediate result; inf or NaN where
-        an answer is missing.
-        """
 
 
 def candidates(program: Program, trial: Trial, wrong: NDArray[np.bool_]) -> tuple[Mistakes, ...]:
@@ -130,6 +112,12 @@ class RayTrial:
     def errors(
         self, program: Program, tried: Sequence[Mistakes], cases: Numbers
     ) -> tuple[Floats, Floats]:
+        """Return how far the given answers, and the correct ones, are from the program's with each
+        of these mistakes.
+
+        The errors are (tried, cases), relative to the largest intermediate result; inf or NaN where
+        an answer is missing.
+        """
         made = self.made(program, tried, cases)
         given = self.apart(self.given[cases], made, cases)
         return given, self.apart(self.right[cases], made, cases)
@@ -216,3 +204,6 @@ class ValueTrial:
             same = (found == made) | (np.isnan(found) & np.isnan(made))
             apart = np.where(same, 0.0, np.abs(found - made) / near * LOOSE)
         return float(apart.max(initial=0.0))
+
+
+Trial = RayTrial | ValueTrial

@@ -23,7 +23,8 @@ from lucida.app.checking.conventions import Shot
 from lucida.app.checking.kinds.shapes import hits
 from lucida.app.checking.kinds.viewing_ray import VIEWING_RAY, cases_of
 from lucida.app.checking.reports.told import told
-from lucida.app.checking.tasks import Failure, Student
+from lucida.app.checking.running.program import ProgramStudent
+from lucida.app.checking.tasks import Failure
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images import to_srgb8
@@ -135,7 +136,7 @@ class Pictured:
     right: Bytes
 
 
-def pictured(student: Student, result: TaskResult) -> Pictured | None:
+def pictured(student: ProgramStudent, result: TaskResult) -> Pictured | None:
     """Return the pictures of a wrong answer, as far as the task's feedback allows.
 
     Return None for other kinds of functions, or if the student's code fails at a larger image.
@@ -150,7 +151,7 @@ def pictured(student: Student, result: TaskResult) -> Pictured | None:
     return None
 
 
-def _of_rays(student: Student, result: TaskResult, first: WrongCase) -> Pictured | None:
+def _of_rays(student: ProgramStudent, result: TaskResult, first: WrongCase) -> Pictured | None:
     case = first.case
     assert case.camera and case.size and case.target and case.up
     camera, (width, height) = case.camera, case.size

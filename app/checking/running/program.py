@@ -18,7 +18,7 @@ from typing import Literal
 
 from lucida.app.checking.kinds.kind import text_of
 from lucida.app.checking.running.account import Account
-from lucida.app.checking.tasks import Call, Kind, Limits
+from lucida.app.checking.tasks import Call, Kind, Limits, Run
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
@@ -204,17 +204,32 @@ class ProgramStudent:
         self._change = threading.Lock()
         self._program: StudentProgram | None = None
 
+    def functions(self) -> frozenset[str] | None:
+        """Return the names of its functions; None if they cannot be known. Raises LucidaError if it
+        cannot be run at all.
+        """
+        raise NotImplementedError
+
+    def call(self, calls: Sequence[Call]) -> Run:
+        """Run all calls in order, and block until they are done. May be called again; the time
+        limit applies to each run.
+        """
+        raise NotImplementedError
+
     def stop(self) -> None:
+        """Stop the current run, from any thread: `call` returns soon, with a failure."""
         with self._change:
             program = self._program
         if program:
             program.stop()
 
     def restart(self) -> None:
+        """Make the next run begin in a new process, which remembers no call."""
         with self._turn:
             self._end()
 
     def close(self) -> None:
+        """End its process, and everything that it started."""
         self._closed = True
         self.stop()
         with self._turn:
