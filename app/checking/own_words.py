@@ -1,5 +1,6 @@
-"""The starter file for students, an empty function with a description of the task, and a diagnosis
-in the task's words, whose code runs in that file.
+"""The starter file for students, and diagnoses in the task's words, whose code runs in that file.
+
+A starter file has an empty function with a description of the task.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ def diagnosis(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagno
 
 
 def _of_all(task: CheckTask, cases: Cases, given: Any) -> str:
-    """Return a sentence that describes all answers; empty if there is none."""
+    """Return a sentence that describes all answers; empty if no sentence does."""
     if task.kind == "viewing-ray":
         of_any_length = replace(task.conventions, unit=False)
         right = np.array([case.right for case in cases], float)

@@ -1,5 +1,6 @@
-"""The functions that the programs' lines may use, for one ray and for many at once, and which of a
-ray's crossings with an object is its hit: rightly, and as people get it wrong.
+"""The functions that the programs' lines may use, for one ray and for many at once.
+
+The last of them select a ray's hit among its crossings with an object, correctly and incorrectly.
 
 A number is an array (..., 1), a vector (..., 3), so that `x*u` is written as in a formula.
 """

@@ -215,19 +215,3 @@ def test_every_word_has_been_used_here():
     known = {*PIXEL_WORDS, *CAMERA_WORDS, *PAIRS}
     rest = known - used
     assert rest == {"ij", "ji", "fov_long", "fov_short_rad"}
-
-
-def test_angles_need_a_camera_that_they_tell():
-    for word in ("target", "up", "forward", "fov_x", "fov_short_rad"):
-        assert Conventions(arguments=((word, word),)).needs_rigid
-    for word in ("eye", "viewport_width", "aspect", "rotation"):
-        assert not Conventions(arguments=((word, word),)).needs_rigid
-    task, _ = COURSES["target and up"]
-    for shot in shots(task):
-        camera, (width, height) = shot.camera, shot.size
-        left, right, bottom, top = camera.viewport
-        assert left == -right and bottom == -top
-        assert (right - left) / (top - bottom) == pytest.approx(width / height)
-        back = unit(np.subtract(camera.eye, shot.target))
-        assert np.allclose(back, camera.w)
-        assert np.allclose(unit(np.cross(shot.up, camera.w)), camera.u)

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from lucida.app.checking.results.model import class_results
+from lucida.app.checking.results.model import class_results, read_answers
 from lucida.app.checking.results.page import page as results_page
-from lucida.app.checking.results.reading import read_answers
 from lucida.app.cli import main
 from lucida.app.lecture.reading import load_lecture
 from lucida.app.state.app_state import AppState

@@ -19,18 +19,14 @@ from lucida.app.checking.mistakes.diagnosis import Diagnosis
 from lucida.app.checking.reports.page import page
 from lucida.app.checking.reports.picture import (
     MARK,
-    NO_RAY,
     Pictured,
     changed_pixels,
-    picture,
     pictured,
 )
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.tasks import FEEDBACK
 from lucida.app.cli import main
 from lucida.app.ui.explaining import symbols
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images import to_srgb8
 
 TASK = next(task for task in BUILTIN if task.name == "viewing-ray")
 UPSIDE_DOWN = """
@@ -152,14 +148,3 @@ def test_the_command_writes_the_page_with_the_files_name_only(tmp_path: Path, ca
     assert main(arguments) == 2
     parsed = WellFormed(out.read_text("utf-8"))
     assert "line 1" in parsed.text and "rays.py" in parsed.text and tmp_path.name not in parsed.text
-
-
-def test_rays_that_are_none_are_shown_as_such() -> None:
-    camera, size = Camera.canonical(), (4, 3)
-    rays = np.stack(camera.rays(size), axis=-2)
-    rays[0, 0, 1] = np.nan
-    rays[0, 1, 1] = 0.0
-    rays[0, 2, 0] = np.inf
-    seen = picture(camera, size, rays)
-    wanted = to_srgb8(np.array(NO_RAY, np.float32))
-    assert (seen[0, :3] == wanted).all() and not (seen[0, 3] == wanted).all()

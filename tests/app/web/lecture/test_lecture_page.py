@@ -12,7 +12,7 @@ import pytest
 from both_lectures import both_lectures
 from hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 
-from lucida.app.checking.results.reading import read_answers
+from lucida.app.checking.results.model import read_answers
 from lucida.app.cli import main
 from lucida.app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from lucida.app.lecture.hidden_pixels import ids_seen
