@@ -48,7 +48,7 @@ def as_text(told: Sequence[Fact]) -> str:
 
 
 def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
-    """Return the lens that moves points the most, and its effect; "" if there is none.
+    """Return the first lens, and its effect; "" if there is none.
 
     ignored: among those that were left out when reading, instead of those that the cameras have.
     """
@@ -56,18 +56,10 @@ def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
     found = [(one, lens) for one, lens in lenses if lens is not None]
     if not found:
         return ""
-    kinds = {(one.camera.viewport, one.size, lens): (one, lens) for one, lens in found}
-    posed, lens = max(kinds.values(), key=lambda entry: _largest_px(*entry))
+    posed, lens = found[0]
     told = f"{lens}{' ignored' if ignored else ''}: it moves "
     told += effect(posed.camera, lens, posed.size)
-    if len(cameras) == 1:
-        return told
-    which = f" in {posed.name}" if posed.name else ""
-    return told + which + (f", the most of {len(found)} cameras" if len(found) > 1 else "")
-
-
-def _largest_px(posed: PosedCamera, lens: Lens) -> float:
-    return 0.0 if posed.size is None else shift_px(posed.camera, lens, posed.size)[1]
+    return told if len(found) == 1 else f"{told}, the first of {len(found)}"
 
 
 def _of_all(found: CameraSet) -> list[Fact]:
@@ -96,7 +88,9 @@ def _of_one(posed: PosedCamera) -> list[Fact]:
     told = [
         Fact(name, _text(value))
         for name, value in values.items()
-        if value not in (None, "", False) and name not in ("lens", "ignored")
+        if value not in (None, "", False)
+        and name not in ("lens", "ignored")
+        and (name != "image" or value != posed.name)
     ]
     if values["K"] is not None:
         told.append(Fact("", "K, R and t count pixels from the centre of the first one"))

@@ -1,22 +1,19 @@
-"""Reading a camera from copied text: text.py's forms, and similar ones.
+"""Reading a camera from copied text: text.py's forms but for Python, and similar ones.
 
-Pure; runs none of what it reads. Text without a camera raises a LucidaError of one line.
+Pure. Text without a camera raises a LucidaError of one line.
 """
 
 from __future__ import annotations
 
 import argparse
-import ast
 import re
 import shlex
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from lucida.app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import view_from_toml
 from lucida.renderer.files.cameras import FORMATS, PosedCamera, one_of, opengl, read_cameras
 from lucida.renderer.files.cameras.given import Given
@@ -45,8 +42,6 @@ def read_copied(text: str, now: View) -> TakenCamera:
     with naming(SOURCE):
         if opengl.has_matrices(text):
             return _from_others(text, "opengl", now)
-        if re.search(r"\bCamera\s*[.(]", text):
-            return _own(_from_python(text), "Python")
         if _OPTION.search(text):
             return _own(_from_command_line(text, now), "a command line")
         if "[camera]" in text:
@@ -57,7 +52,7 @@ def read_copied(text: str, now: View) -> TakenCamera:
     raise LucidaError(
         SOURCE,
         "holds no camera",
-        "copy a view file, a command line, Python, matrices or K, R and t first",
+        "copy a view file, a command line, matrices or K, R and t first",
     )
 
 
@@ -96,60 +91,6 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise LucidaError("", f"holds no camera: {message}", "copy the command line again")
-
-
-def _from_python(text: str) -> View:
-    """Return the view of a call of Camera or Camera.look_at with plain numbers; nothing is run."""
-    try:
-        tree = ast.parse(text.strip())
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise LucidaError("", "holds Python that is not complete", "copy all of it") from None
-    camera, fit = None, False
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Call):
-            continue
-        name = ast.unparse(node.func)
-        if re.fullmatch(r"(?:\w+\.)*Camera(?:\.look_at|\.canonical)?", name):
-            camera = camera or _called(name, node)
-        elif name.rpartition(".")[2] == "View":
-            fit = any(
-                word.arg == "fit"
-                and isinstance(word.value, ast.Constant)
-                and bool(word.value.value)
-                for word in node.keywords
-            )
-    if camera is None:
-        raise LucidaError("", "holds Python without a camera", "copy a call of Camera(...)")
-    return View(camera, fit)
-
-
-def _called(name: str, call: ast.Call) -> Camera:
-    try:
-        values = [_value(value) for value in call.args]
-        named = {word.arg: _value(word.value) for word in call.keywords if word.arg}
-    except (ValueError, TypeError, RecursionError):
-        raise LucidaError(
-            "", "holds a camera with more than numbers", "give plain numbers"
-        ) from None
-    makers: dict[str, Callable[..., Camera]] = {
-        "look_at": Camera.look_at,
-        "canonical": Camera.canonical,
-    }
-    make = makers.get(name.rpartition(".")[2], Camera)
-    try:
-        return make(*values, **named)
-    except TypeError as error:  # a field that there is not
-        raise LucidaError(
-            "", f"holds a camera that is not understood: {error}", "see its fields"
-        ) from None
-
-
-def _value(node: ast.expr) -> Any:
-    """Return a plain value, or the lens that a call makes of plain values."""
-    if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] == "Lens":
-        named = {word.arg: ast.literal_eval(word.value) for word in node.keywords if word.arg}
-        return Lens(*map(ast.literal_eval, node.args), **named)
-    return ast.literal_eval(node)
 
 
 def _given(text: str) -> Given:

@@ -1,7 +1,7 @@
 """A camera as text to copy: a view file, a command line, Python, OpenGL matrices; and every other
 format of a single text file.
 
-reader.py reads them back.
+reader.py reads them back, but for Python.
 """
 
 from __future__ import annotations

@@ -107,7 +107,6 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.pixel_origin,
         arguments.size,
         arguments.ignore_distortion,
-        ending=Path(arguments.output or "").suffix.lower(),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)

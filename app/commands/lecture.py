@@ -137,7 +137,7 @@ def run(arguments: argparse.Namespace) -> int:
         from lucida.app.window.lecturing import ask_lecture
 
         return ask_lecture(path, error, arguments.size)
-    for note in lecture.notes:
+    for note in lecture.notes if arguments.check else lecture.summary:
         print(f"lucida: {one_line(note)}", file=sys.stderr)
     if arguments.check:
         return _check(lecture, path, arguments.file or lecture.title)

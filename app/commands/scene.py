@@ -42,12 +42,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from lucida.app.commands.arguments import check_is_scene, say
     from lucida.renderer.files import load_scene
-    from lucida.renderer.files.models.repairs import repairs
 
     check_is_scene(arguments.scene)
-    with repairs() as mended:
-        scene = load_scene(arguments.scene)
-    told = contents(scene, mended)
+    scene = load_scene(arguments.scene)
+    told = contents(scene)
     if arguments.json:
         say(json.dumps(told, indent=2, allow_nan=False))
     else:
@@ -72,8 +70,8 @@ def _named(scene: Scene) -> list[str]:
     return lines
 
 
-def contents(scene: Scene, mended: list[str]) -> dict[str, Any]:
-    """Return all contents as JSON values. mended: the repairs made while reading the scene."""
+def contents(scene: Scene) -> dict[str, Any]:
+    """Return all contents as JSON values."""
     import numpy as np
 
     from lucida.renderer.editing.outline import outline
@@ -113,8 +111,7 @@ def contents(scene: Scene, mended: list[str]) -> dict[str, Any]:
         "camera": view_table(scene.view),
         "notes": list(scene.notes),
         "odd": [
-            {"kind": odd.kind, "object": odd.object, "text": odd.text}
-            for odd in oddities(scene, mended)
+            {"kind": odd.kind, "object": odd.object, "text": odd.text} for odd in oddities(scene)
         ],
     }
 
@@ -202,8 +199,7 @@ def as_text(told: dict[str, Any]) -> str:
     lines.append(f"  camera: {camera['projection']} from {_vector(camera['eye'])}")
     lines += [f"  note: {one_line(note)}" for note in told["notes"]]
     for odd in told["odd"]:
-        about = "a model" if odd["object"] is None else f"object {odd['object']}"
-        lines.append("  " + one_line(f"odd: {about} {odd['text']}"))
+        lines.append("  " + one_line(f"odd: object {odd['object']} {odd['text']}"))
     return "\n".join(lines)
 
 

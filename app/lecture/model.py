@@ -87,6 +87,14 @@ class Lecture:
     files: Noted = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
+    @property
+    def summary(self) -> tuple[str, ...]:
+        """Return the notes in at most one line: many would cover the slide."""
+        if len(self.notes) < 2:
+            return self.notes
+        others = f"{len(self.notes) - 1} more: lucida lecture {Path(self.source).name} --check"
+        return (f"{self.notes[0]} (and {others})",)
+
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """The steps, each at its first build."""

@@ -36,6 +36,8 @@ from lucida.app.ui.instrument import Instrument, view_of
 LECTURE = "Lecture"
 # For a text over a picture: its width relative to the window's, and its background's opacity.
 OVER, GROUND = 0.68, 0.85
+STACKED = 1.5  # the window's width in its heights, below which two pictures are stacked
+UPRIGHT = {"stepper"}  # views that need their height
 
 
 class LectureView(Instrument):
@@ -61,6 +63,7 @@ class LectureView(Instrument):
         self.arrangements = 0  # how often the views have been put into their places
         self._layout = ""  # the one that was shown when the lecture began
         self._lies_over = False  # the text, in the last frame
+        self._is_stacked = False  # one picture above the other, likewise
         self.log: AnswerLog | None = None
         self._controls = Controls()
         self._drawn_answer = DrawnAnswer()
@@ -242,8 +245,9 @@ class LectureView(Instrument):
         """Handle new steps and newer files. Call once a frame, also while the view is hidden."""
         if self.session is None:
             return
-        if self._lies_over != self._is_over(host):
-            self._lies_over = not self._lies_over
+        division = self._is_over(host), _is_stacked(self.session.step.views)
+        if division != (self._lies_over, self._is_stacked):
+            self._lies_over, self._is_stacked = division
             self._arrange()
         if not self._entered:  # visible from the last row, however it began
             if host.state.step is None:  # otherwise one lecture follows another
@@ -256,7 +260,8 @@ class LectureView(Instrument):
         self._follow_undo(host.state.step, self.session)
         if not self._arranged and layout.current().name == layout.LECTURE:
             names = map(str.capitalize, self.session.step.views)
-            spaces = (layout.MAIN, layout.LOWER_SPACE)
+            second = layout.STACKED_SPACE if self._is_stacked else layout.LOWER_SPACE
+            spaces = (layout.MAIN, second)
             layout.arrange(self._others, dict(zip(names, spaces, strict=False)))
             self.arrangements += 1
             self._arranged = True
@@ -342,3 +347,9 @@ class LectureView(Instrument):
             self.advance(host, 1 if asked == NEXT else -1)
         elif isinstance(asked, int):
             self.go(host, asked)
+
+
+def _is_stacked(views: Sequence[str]) -> bool:
+    """Return True if a step's two pictures are larger one above the other."""
+    width, height = layout.window_px()
+    return len(views) == 2 and width < STACKED * height and UPRIGHT.isdisjoint(views)

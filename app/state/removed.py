@@ -58,8 +58,7 @@ REMOVED: dict[str, Removed] = {
     "compare.pair": Removed(
         "both renderers are compared, and a photograph is laid over them", "raster-ray"
     ),
-    "probe.section": Removed("the probe's parts are folded by their headings", "all"),
-    "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
+    "probe": Removed("rays of several pixels are outside.bundle's", {"pins": []}),
     "filming": Removed("films are made by `lucida animate`"),
     "images.lens_method": Removed("a lens's raster image is always looked up", "lookup"),
     "detective": Removed(

@@ -19,6 +19,7 @@ MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"
 RIGHT_SPACE = "RightSpace"  # next to MAIN, at the same size
 LOWER_SPACE = "LowerSpace"  # below MAIN
+STACKED_SPACE = "StackedSpace"  # below a lecture's first picture, whose LOWER_SPACE is next to it
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
@@ -125,6 +126,7 @@ LAYOUTS = (
         (
             (MAIN, RIGHT_SPACE, RIGHT, 0.33),
             (MAIN, LOWER_SPACE, RIGHT, 0.5),
+            (MAIN, STACKED_SPACE, DOWN, 0.5),
             (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},

@@ -26,14 +26,14 @@ class Uploads:
         self._magnified: dict[str, tuple[Any, ...]] = {}  # the arguments of magnified()
 
     def put(self, name: str, picture: NDArray[np.uint8]) -> None:
-        """Upload a picture (H, W, 3), sRGB, row 0 at the top, replacing the last one of that name.
-        Raises LucidaError if there is no memory for it.
+        """Upload a picture (H, W, 3), or 4 with opacity, sRGB, row 0 at the top, replacing the last
+        one of that name. Raises LucidaError if there is no memory for it.
         """
         self.drop(name)
-        height, width = picture.shape[:2]
+        height, width, components = picture.shape
         _ = self._gl.error  # clear OpenGL errors left by other code
         texture = self._gl.texture(
-            (width, height), 3, np.ascontiguousarray(picture).tobytes(), alignment=1
+            (width, height), components, np.ascontiguousarray(picture).tobytes(), alignment=1
         )
         check(self._gl, f"a texture of {width}x{height}")
         texture.filter = moderngl.NEAREST, moderngl.NEAREST

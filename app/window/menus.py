@@ -55,16 +55,22 @@ def menu_bar(
 
 
 def menu_button(window: Host, history: History, stage: Stage) -> None:
-    """Draw a button with all menus into the upper right corner of a lecture's column."""
+    """Draw a button with all menus into the lower right corner of a lecture's text, in line with
+    the foot, where it covers nothing.
+    """
     column = stage.rects.get(LECTURE)
     if column is None:
         return
-    imgui.set_next_window_pos((column[2], column[1]), pivot=(1, 0))
+    imgui.set_next_window_pos(column[2:], pivot=(1, 1))
     flags = imgui.WindowFlags_
     imgui.begin(
         "##stage menu",
         None,
-        flags.no_decoration | flags.always_auto_resize | flags.no_saved_settings | flags.no_docking,
+        flags.no_decoration
+        | flags.always_auto_resize
+        | flags.no_saved_settings
+        | flags.no_docking
+        | flags.no_background,
     )
     if imgui.button("Menu"):
         imgui.open_popup("menus")

@@ -71,7 +71,7 @@ class OpenedLecture:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        return self.lecture.notes
+        return self.lecture.summary
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,7 @@ from lucida.renderer.system.atomic import file_stem
 from lucida.renderer.system.errors import LucidaError, describe
 
 EXPORTED = "glTF .glb, page .html"
+REDRAWN = 8  # frames after a change of the bars or of the views' places
 
 
 class Shell:
@@ -70,6 +71,8 @@ class Shell:
         self._asked = False  # whether something was typed into, in the last frame
         self._popup = False  # whether a popup was open at the end of the last frame
         self._answered = ""  # the failure whose message was closed, in words
+        self._division: tuple[bool, dict[str, Rect]] = False, {}  # of the last frame
+        self._dividing = 0  # frames that are still requested for it
 
     @property
     def busy(self) -> bool:
@@ -174,6 +177,7 @@ class Shell:
 
     def frame(self, window: Host) -> None:
         """Update the parts. Call once a frame, before the views."""
+        self._draw_until_divided(window)
         self.stage.follow()
         self.stage.leave_out_hidden(window)
         self._keep(window)
@@ -189,6 +193,16 @@ class Shell:
                 self.toasts.add(text)
             else:
                 self.files.message = text
+
+    def _draw_until_divided(self, window: Host) -> None:
+        """Request frames until bars and views have their places: each takes effect a frame later,
+        and the idle window of a slow machine would show what is in between for seconds.
+        """
+        division = window.has_tools, dict(self.stage.rects)
+        self._dividing = REDRAWN if division != self._division else max(self._dividing - 1, 0)
+        self._division = division
+        if self._dividing:
+            window.animate()
 
     def draw(self, window: Host, typing: bool = False, in_menus: bool = False) -> None:
         """Draw what lies over the views. typing: a box has the keyboard, and handles Escape, as the

@@ -25,7 +25,6 @@ from lucida.app.ui.focusing import Focusing
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.surface import Target
 from lucida.app.window.canvas import WindowCanvas
-from lucida.app.window.clicks import ClickTime
 from lucida.app.window.keys import KeyFrames
 from lucida.app.window.main_window import MainWindow
 from lucida.app.window.memory import FreedMemory
@@ -56,6 +55,7 @@ NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
 RESTORE = "Restore them"
+DOUBLE_CLICK_S = 0.5
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
 
@@ -89,7 +89,6 @@ class WindowRun:
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
         self._focus_frame = FocusFrame()
-        self._clicks = ClickTime()
         self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
         self.take_picture = take_picture
         self._error: BaseException | None = None
@@ -233,7 +232,6 @@ class WindowRun:
         self.window.begin(context)
 
     def _before_frame(self) -> None:
-        self._clicks.begin_frame(time.monotonic())
         self.window.shell.stage.before_frame()
         self._focusing.before_frame()
         lock_letters()
@@ -283,7 +281,6 @@ class WindowRun:
             print(f"lucida: {self._told}", file=sys.stderr)
 
     def _after_frame(self) -> None:
-        self._clicks.end_frame(time.monotonic())
         if self._ended:  # before the first frame: HelloImGui has forgotten it since
             self.params.app_shall_exit = True
         self._show_window()
@@ -322,7 +319,11 @@ def _run(params: hello_imgui.RunnerParams) -> None:
 def _configure() -> None:
     """HelloImGui's configuration; and everything can be reached with the keyboard."""
     hello_imgui.imgui_default_settings.setup_default_imgui_config()
-    imgui.get_io().config_flags |= int(imgui.ConfigFlags_.nav_enable_keyboard)
+    io = imgui.get_io()
+    io.config_flags |= int(imgui.ConfigFlags_.nav_enable_keyboard)
+    # ImGui takes one change of a mouse button a frame: leave time for slow frames.
+    io.mouse_double_click_time = DOUBLE_CLICK_S
+    io.mouse_single_click_delay = 2 * io.mouse_double_click_time  # ImGui wants it to be longer
 
 
 def save_png(path: Path, pixels: np.ndarray) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from lucida.renderer.files.models.model_kinds import check_kind
 from lucida.renderer.files.models.models import model_scene
 from lucida.renderer.files.reading import (
     MODEL_ENDINGS,
@@ -55,7 +54,6 @@ def load_scene(source: str | Path) -> Scene:
         return _from(str(full_path(path)), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
     if _exists(path):
-        check_kind(path)
         raise LucidaError(
             "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
         )

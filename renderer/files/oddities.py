@@ -5,7 +5,7 @@ All of them are legal: the renderers draw them as they are.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,18 +23,16 @@ _SURFACES = (RectangleTable, DiskTable)  # open by design
 class Oddity:
     """An oddity of a scene.
 
-    kind: one word, for programs. text: for people, without the object's name. object: its id; None
-    for a repair of a reader.
+    kind: one word, for programs. text: for people, without the object's name. object: its id.
     """
 
     kind: str
     text: str
-    object: int | None = None
+    object: int
 
 
-def oddities(scene: Scene, repairs: Sequence[str] = ()) -> tuple[Oddity, ...]:
-    """Return the oddities of a scene. repairs: those made when its models were read."""
-    found = [Oddity("repaired", f"was mended as it was read: {repair}") for repair in repairs]
+def oddities(scene: Scene) -> tuple[Oddity, ...]:
+    found: list[Oddity] = []
     surfaces = _surfaces(scene)
     known: dict[tuple[int, int], list[tuple[str, str]]] = {}
     for number, entry in enumerate(scene.objects):

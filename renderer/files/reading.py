@@ -10,18 +10,10 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.system.file_dependencies import note, noted_so_far
+from lucida.renderer.system.file_dependencies import note
 
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
-IMAGE_ENDINGS = (
-    ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".webp", ".ppm", ".tif", ".tiff", ".ktx2",
-    ".dds", ".exr", ".hdr",
-)  # fmt: skip
-# A missing file is mistaken for one of its own kind only.
-_KINDS = (
-    MODEL_ENDINGS, IMAGE_ENDINGS, (".csv", ".npy"), (".yml", ".yaml"), (".toml",), (".bin",),
-    (".mtl",), (".json",), (".py",), (".txt",), (".xml",),
-)  # fmt: skip
+ALIKE = 0.85  # wall_normal.png is not wall_color.png
 
 
 @contextlib.contextmanager
@@ -168,25 +160,15 @@ def absence(path: Path) -> tuple[str, str]:
 
 
 def _neighbours(path: Path) -> str:
+    """Return the remedy for a missing file: the file of its kind that has a similar name."""
     ending = path.suffix.lower()
-    kind = next((kind for kind in _KINDS if ending in kind), ())
     try:
         with os.scandir(path.parent) as entries:
             names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
-        # The file that names this one is none of them; a scene may name a model twice.
-        others = () if ending in MODEL_ENDINGS else noted_so_far()
-        read = {file.name for file in others if file.parent == path.parent.absolute()}
     except (OSError, ValueError):
         return "check its name and folder"
-    close = close_matches(
-        path.name[:255],
-        [
-            name
-            for name in names
-            if name not in read and (not kind or os.path.splitext(name)[1].lower() in kind)
-        ],
-        0.75 if ending not in IMAGE_ENDINGS else 0.9,  # wall_normal.png is not wall_color.png
-    )
+    same_kind = [name for name in names if os.path.splitext(name)[1].lower() == ending]
+    close = close_matches(path.name[:255], same_kind, ALIKE)
     return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
 
 

@@ -112,8 +112,10 @@ class _Sections:
             return
         sections = self._at((name,))
         if old is not None and not sections:
-            self._change_bracketed(name, old, new)
-            return
+            if old:
+                raise LookupError("a list in brackets")
+            with self._keys(()) as keys:
+                del keys[name]
         for number, (key, table) in enumerate((old or {}).items()):
             if key in new:
                 self.change_table((name, number), table, new[key])
@@ -131,13 +133,6 @@ class _Sections:
             with self._keys(()) as keys:
                 keys[name] = []
 
-    def _change_bracketed(self, name: str, old: dict[int, Tables], new: dict[int, Tables]) -> None:
-        """Change a list that is written in brackets: name = [{ ... }, ...]."""
-        with self._keys(()) as keys:
-            if "#" in keys[name].as_string() and list(old) != list(new):
-                raise LookupError("comments between tables that come or go")
-            _change(keys, name, list(old.values()), list(new.values()))
-
     def _at(self, path: Path) -> list[_Section]:
         """Return the sections of a table and of those inside it."""
         return [section for section in self._sections if section.path[: len(path)] == path]
@@ -148,7 +143,8 @@ class _Sections:
         (section,) = (section for section in self._sections if section.path == path)
         keys = tomlkit.parse(section.body)
         yield keys
-        section.body = tomlkit.dumps(keys).rstrip("\n") + "\n" if keys else ""
+        text = tomlkit.dumps(keys).rstrip("\n")
+        section.body = text + "\n" if text else ""
 
     def _insert(self, number: int, path: Path, header: str, table: Tables) -> _Section:
         """Insert a section as the one of that number, between blank lines."""
@@ -191,17 +187,13 @@ def _has_key(line: str) -> bool:
     return line.strip() != "" and not line.lstrip().startswith("#")
 
 
-def _change(container: Any, key: Any, was: Any, now: Any) -> None:
-    """Change a value in a table or an array of tomlkit; None for no value."""
+def _change(container: Any, key: str, was: Any, now: Any) -> None:
+    """Change a value in a table of tomlkit; None for no value."""
     if now is None:
         del container[key]
     elif isinstance(was, dict) and isinstance(now, dict):
         for name in dict.fromkeys([*was, *now]):
             if was.get(name) != now.get(name):
                 _change(container[key], name, was.get(name), now.get(name))
-    elif isinstance(was, list) and isinstance(now, list) and len(was) == len(now):
-        for number, (before, after) in enumerate(zip(was, now, strict=True)):
-            if before != after:
-                _change(container[key], number, before, after)
     else:
         container[key] = tomlkit.value(value_text(now))

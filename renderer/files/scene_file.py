@@ -188,7 +188,7 @@ class _Builder:
             with under(f"objects[{number}]"):
                 material = self._material_of(entry.material)
                 if isinstance(entry, ModelTable):
-                    triangles += triangles_of(self._parts.model(entry.file, material).objects)
+                    triangles += triangles_of(self._parts.model(entry.file).objects)
             check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
             with under(f"objects[{number}]"):
                 was = known[number]
@@ -216,7 +216,7 @@ class _Builder:
         path, single_sided = "", None
         is_model = isinstance(fields, ModelTable)
         if isinstance(fields, ModelTable):
-            model = self._parts.model(fields.file, material)
+            model = self._parts.model(fields.file)
             path, single_sided = self._parts.path(fields.file), fields.single_sided
             made, views, notes = model.objects, model.views, model.notes
             if model.lights:

@@ -10,8 +10,7 @@ from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import Any
 
-from lucida.renderer.files.models.models import ModelFile, load_model, read_model
-from lucida.renderer.files.models.repairs import repairs
+from lucida.renderer.files.models.models import ModelFile, load_model
 from lucida.renderer.files.schema import (
     BoxTable,
     ConeTable,
@@ -48,14 +47,12 @@ class SceneParts:
 
     def __init__(self, folder: Path, entries: tuple[FileEntry, ...]) -> None:
         self._folder = folder
-        self._models: dict[tuple[str, bool], ModelFile] = {}  # by path and is_mapped
+        self._models: dict[str, ModelFile] = {}  # by path
         self._meshes: dict[Hashable, tuple[SceneObject, ...]] = {}
         for entry in entries:
             if isinstance(entry.fields, ModelTable):
                 found = ModelFile(entry.made, entry.views, entry.notes)
-                self._models.setdefault((entry.path, False), found)
-                if not _unmapped(entry.made):
-                    self._models.setdefault((entry.path, True), found)
+                self._models.setdefault(entry.path, found)
             elif entry.made:
                 is_mapped = _unmapped(entry.made) is None
                 self._meshes.setdefault(_key(entry.fields, is_mapped), entry.made)
@@ -63,19 +60,15 @@ class SceneParts:
     def path(self, file: str) -> str:
         return os.path.abspath(self._folder / file)
 
-    def model(self, file: str, material: Material | None) -> ModelFile:
-        """Return a model. If the material has a texture, the model has the texture coordinates of
-        its file, which is read again if they were not kept.
-        """
-        is_mapped = is_textured(material)
-        key = self.path(file), is_mapped
-        if key not in self._models:
-            found = self.model(file, None) if is_mapped else _model(self._folder / file)
-            if is_mapped and _unmapped(found.objects):
-                with repairs():  # they have been reported
-                    found = _model(self._folder / file, is_mapped)
-            self._models[key] = found
-        return self._models[key]
+    def model(self, file: str) -> ModelFile:
+        path = self.path(file)
+        if path not in self._models:
+            try:
+                self._models[path] = load_model(self._folder / file)
+            except LucidaError as error:
+                where = ": ".join(part for part in (str(self._folder / file), error.field) if part)
+                raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
+        return self._models[path]
 
     def mesh(self, table: MeshTable, material: Material | None) -> tuple[SceneObject, ...]:
         """Return a shape, with texture coordinates if the material has a texture."""
@@ -134,11 +127,3 @@ def _unmapped(made: tuple[SceneObject, ...]) -> SceneObject | None:
     """Return the first part without texture coordinates."""
     meshes = (part for part in made if isinstance(part.shape, Mesh) and part.shape.uv is None)
     return next(meshes, None)
-
-
-def _model(path: Path, is_mapped: bool = False) -> ModelFile:
-    try:
-        return read_model(path, is_mapped) if is_mapped else load_model(path)
-    except LucidaError as error:
-        where = ": ".join(part for part in (str(path), error.field) if part)
-        raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None

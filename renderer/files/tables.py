@@ -82,7 +82,7 @@ def to_struct(value: Any, kind: Any, prefix: str = "") -> Any:
     try:
         return msgspec.convert(value, kind)
     except msgspec.ValidationError as error:
-        raise explained(str(error), value, kind, prefix) from None
+        raise explained(str(error), _chosen(kind, value), prefix) from None
     except RecursionError:
         raise LucidaError(prefix, "is nested too deeply", "write it with fewer brackets") from None
 
@@ -102,24 +102,27 @@ def _syntax_error(message: str, text: str) -> LucidaError:
     return LucidaError(f"line {line}, column {column}", reason, remedy)
 
 
-def explained(message: str, value: Any = None, kind: Any = None, prefix: str = "") -> LucidaError:
+def explained(message: str, kind: Any = None, prefix: str = "") -> LucidaError:
     """Return msgspec's error in this project's words."""
     text, _, path = message.partition(" - at `$")
     path = path.rstrip("`").lstrip(".")
     field = f"{prefix}.{path}" if prefix and path and path[0] != "[" else prefix + path
+    kinds = _types_at(kind, path)
 
     if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", text, re.DOTALL):
         name = unknown[1]
         where = f"{field}.{name}" if field else name
-        return LucidaError(where, "is unknown", suggestion(name, _fields(value, kind, path)))
+        return LucidaError(where, "is unknown", suggestion(name, _fields(kinds)))
     if missing := re.fullmatch(r"Object missing required field `(.*)`", text):
         return LucidaError(
             f"{field}.{missing[1]}" if field else missing[1], "is missing", "give it"
         )
     if invalid := re.fullmatch(r"Invalid value '(.*)'", text, re.DOTALL):
-        return LucidaError(field, f"{invalid[1]!r} is unknown", suggestion(invalid[1], _tags(kind)))
+        tables = _structs(_types_at(kind, path.rpartition(".")[0]))
+        tags = [str(table.__struct_config__.tag) for table in tables]
+        return LucidaError(field, f"{invalid[1]!r} is unknown", suggestion(invalid[1], tags))
     if choice := re.fullmatch(r"Invalid enum value (.*)", text, re.DOTALL):
-        choices = [str(c) for c in _choices(value, kind, path)]
+        choices = [str(c) for k in kinds if get_origin(k) is Literal for c in get_args(k)]
         remedy = suggestion(choice[1].strip("'"), choices)
         return LucidaError(field, f"{choice[1]} is unknown", remedy)
     if length := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", text):
@@ -133,53 +136,40 @@ def explained(message: str, value: Any = None, kind: Any = None, prefix: str = "
     return LucidaError(field, wanted[:1].lower() + wanted[1:], "correct it")
 
 
-def _fields(value: Any, kind: Any, path: str) -> list[str]:
-    """Return the fields that the structure at `path` below `kind` may have, for suggestions."""
-    value, kind = _at(value, kind, path)
-    names: list[str] = []
-    for struct in _structs(kind, value):
-        tag = struct.__struct_config__.tag_field
-        names += ([tag] if tag else []) + list(struct.__struct_fields__)
-    return names
-
-
-def _choices(value: Any, kind: Any, path: str) -> list[Any]:
-    """Return the choices of the Literal at `path` below `kind`, for suggestions."""
-    found = _at(value, kind, path)[1]
-    literals = [found, *getattr(found, "__args__", ())]
-    return [c for k in literals if get_origin(k) is Literal for c in get_args(k)]
-
-
-def _at(value: Any, kind: Any, path: str) -> tuple[Any, Any]:
-    """Return the value at `path`, and the type that it should have."""
-    for name in re.findall(r"[^.\[\]]+", path):
-        if name.isdigit():
-            value = value[int(name)]
-        else:
-            kind = _field_type(_structs(kind, value), name)
-            value = value[name]
-    return value, kind
-
-
-def _field_type(structs: list[type[msgspec.Struct]], name: str) -> Any:
-    fields = (field for struct in structs for field in msgspec.structs.fields(struct))
-    return next((field.type for field in fields if field.name == name), None)
-
-
-def _structs(kind: Any, value: Any) -> list[type[msgspec.Struct]]:
-    """Return the structures that `kind` names; of a tagged union the one that the value chooses."""
-    if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
-        return [kind]
-    found = [s for part in getattr(kind, "__args__", ()) for s in _structs(part, value)]
-    if isinstance(value, dict):
-        chosen = [s for s in found if value.get(s.__struct_config__.tag_field) == _tag(s)]
-        return chosen or found
+def _types_at(kind: Any, path: str) -> list[Any]:
+    """Return the types that a value at `path` below `kind` may have."""
+    found = _parts(kind)
+    for name in re.findall(r"[a-zA-Z_][^.\[\]]*", path):
+        fields = (field for struct in _structs(found) for field in msgspec.structs.fields(struct))
+        found = [part for field in fields if field.name == name for part in _parts(field.type)]
     return found
 
 
-def _tag(struct: type[msgspec.Struct]) -> Any:
-    return struct.__struct_config__.tag
+def _chosen(kind: Any, value: Any) -> Any:
+    """Return the structure of a tagged union that a table chooses; otherwise the same type."""
+    for struct in _structs(_parts(kind)):
+        config = struct.__struct_config__
+        if isinstance(value, dict) and config.tag and value.get(config.tag_field) == config.tag:
+            return struct
+    return kind
 
 
-def _tags(kind: Any) -> list[str]:
-    return [str(_tag(struct)) for struct in _structs(kind, None)]
+def _parts(kind: Any) -> list[Any]:
+    """Return the types in a union or a list."""
+    if get_origin(kind) is Literal or not get_args(kind):
+        return [kind]
+    return [found for part in get_args(kind) for found in _parts(part)]
+
+
+def _structs(kinds: list[Any]) -> list[type[msgspec.Struct]]:
+    return [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, msgspec.Struct)]
+
+
+def _fields(kinds: list[Any]) -> list[str]:
+    names = (
+        name
+        for struct in _structs(kinds)
+        for name in (struct.__struct_config__.tag_field, *struct.__struct_fields__)
+        if name
+    )
+    return list(dict.fromkeys(names))

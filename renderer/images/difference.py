@@ -1,7 +1,7 @@
 """The difference of two images in one channel, as numbers and as false colours.
 
 This module defines the difference in each channel, the two colour maps, and the causes' colours.
-The window's shader (shaders/difference.frag) computes the same. compare.py finds the causes.
+compare.py finds the causes.
 
 The difference is ray minus raster, positive if the ray image's value is larger:
 
@@ -22,7 +22,6 @@ from lucida.renderer.images.frame import Frame
 Bytes = NDArray[np.uint8]
 Floats32 = NDArray[np.float32]
 
-CHANNELS = ("color", "depth", "normal", "id")
 FULL_SCALE = {"color": 1.0, "depth": 1.0, "normal": 2.0, "id": 1.0}  # at gain 1
 LARGEST_GAIN = 1024.0
 STEPS = 511  # colours of a map; odd, so that the signed map has a middle

@@ -32,11 +32,6 @@ def noting() -> Iterator[Noted]:
         yield noted
 
 
-def noted_so_far() -> frozenset[Path]:
-    """Return the files that the present reading has looked for."""
-    return frozenset(path for notes in _notes.get() for path in notes)
-
-
 def note(path: Path) -> None:
     """Record a file dependency. Call this before reading the file, or looking whether it exists."""
     if _notes.get():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from agreeing import agree
-from scenes import moved
 from textured import WHITE, floor, lit, noise, on_ball, on_wall, slopes, wall
 
 from lucida import Camera, Rasterizer, Tracer
@@ -58,16 +57,6 @@ def test_seams_and_poles_of_a_ball():
     behind = Camera.look_at(eye=(0.2, 3.5, -6), target=(0.2, 0.1, -3), up=(0, 1, 0), fov_y_deg=40)
     for wrap in WRAPS:
         agree(on_ball(Texture(noise(9, 6), (wrap, "clamp"))), behind, SIZE)
-
-
-def test_a_million_units_from_the_origin():
-    texture = Texture(slopes(31, 17), ("repeat", "mirror"), (2, 2))
-    near = lit(*on_wall(texture).objects, *on_ball(texture).objects)
-    by = np.array([1e6, -2e6, 5e5])
-    camera = Camera(eye=tuple(by))
-    far, _, _ = agree(moved(near, by), camera, SIZE)
-    here, _, _ = agree(near, Camera(), SIZE)
-    np.testing.assert_allclose(far.color, here.color, atol=5e-3)
 
 
 def test_coordinates_far_from_the_image():

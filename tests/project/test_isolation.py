@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 import subprocess
 import sys
-from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
-from lucida.renderer.raster.contexts import candidates
-from lucida.renderer.system import child, compile_note, doctor
+from lucida.renderer.system import child, compile_note
 from lucida.renderer.trace.compile.cache_folder import cache_folder
 
 ROOT = Path(__file__).parents[2]
@@ -111,24 +108,6 @@ def test_commands_import_nothing_from_the_current_folder(here: Here, line: str) 
     here.run("-m", "lucida", *line.split())
 
 
-def test_the_first_trace_was_compiled_by_other_processes(here: Here) -> None:
-    cache = here.folder.parent / "cache"
-    if not list(cache.rglob("*.done")):
-        here.run("-m", "lucida", "render", "spheres", "-o", "a.png", "--renderer", "ray")
-    assert len(list(cache.rglob("*.done"))) == 3
-    assert list(cache.rglob(f"{MISSING}*.nbc"))
-
-
-def test_the_doctor_tells_the_truth_there(here: Here) -> None:
-    told = here.run("-m", "lucida", "doctor", "--json")
-    *checks, imports = json.loads(told)["checks"]
-    for name in (candidates()[0], "tracer"):
-        (check,) = (check for check in checks if check["name"] == name)
-        assert check == asdict(doctor.check(name))
-    assert "lucida/__init__.py" in imports["detail"]
-    assert imports["remedy"].startswith("rename")
-
-
 def test_python_m_lucida_leaves_the_current_folder_at_once(here: Here, tmp_path: Path) -> None:
     (tmp_path / "struct.py").write_text(f"open({str(here.ran)!r}, 'a').write('struct ')\n")
     (tmp_path / "argparse.py").write_text(f"open({str(here.ran)!r}, 'a').write('argparse ')\n")
@@ -137,17 +116,6 @@ def test_python_m_lucida_leaves_the_current_folder_at_once(here: Here, tmp_path:
         assert "spheres" in here.run("-m", "lucida", "scenes", safe=False)
     finally:
         here.folder = folder
-
-
-def test_a_python_that_a_library_starts_does_not_search_there_either(here: Here) -> None:
-    script = (
-        "import subprocess, sys\n"
-        "from lucida.__main__ import main\n"
-        "sys.argv[1:] = ['scenes']\n"
-        "main()\n"
-        "print(subprocess.run([sys.executable, '-c', 'import ctypes, json']).returncode)\n"
-    )
-    assert here.run("-c", script).splitlines()[-1] == "0"
 
 
 def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_not(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import subprocess
@@ -59,11 +58,6 @@ class TestPins:
             version = str(requirement.specifier).removeprefix("==")
             assert wanted.specifier.contains(version), text
             assert requirement.marker is None
-
-    def test_the_two_files_agree(self):
-        runtime, dev = map(pins, FILES)
-        for name in runtime.keys() & dev.keys():
-            assert runtime[name][0].specifier == dev[name][0].specifier
 
 
 # A stand-in for Python: it records its arguments, and fails where a test says so.
@@ -139,14 +133,6 @@ class TestScript:
         assert "--no-index" in calls[2]
         assert self.setup(checkout) == (0, "", [])
 
-    def test_new_pins_are_installed_and_nothing_else(self, checkout):
-        self.setup(checkout)
-        (checkout / "requirements.txt").write_text("another content\n")
-        status, _, calls = self.setup(checkout)
-        assert status == 0
-        assert len(calls) == 1
-        assert "--require-hashes" in calls[0]
-
     def test_what_failed_is_tried_again(self, checkout):
         assert self.setup(checkout, PIP_STATUS="1")[0] != 0
         status, _, calls = self.setup(checkout)
@@ -156,11 +142,6 @@ class TestScript:
     def test_without_python(self, checkout):
         (self.tools / "python3.11").unlink()
         status, told, _ = self.setup(checkout)
-        assert status != 0
-        assert "found no Python 3.11 or newer" in told
-
-    def test_python_chosen_wrongly(self, checkout):
-        status, told, _ = self.setup(checkout, PYTHON="/bin/false")
         assert status != 0
         assert "found no Python 3.11 or newer" in told
 
@@ -194,8 +175,3 @@ class TestScript:
     def with_apt(self) -> None:
         self.stand_in("apt-get", APT_GET)
         self.stand_in("dpkg-query", DPKG_QUERY)
-
-
-def test_the_scripts_are_executable():
-    for name in (".ci/run", "scripts/setup.sh", "scripts/lint.sh", "scripts/requirements.sh"):
-        assert os.access(ROOT / name, os.X_OK) or sys.platform == "win32"

@@ -32,7 +32,6 @@ def with_content(d: Driver) -> AppState:
         d.window.state,
         marked=(60, 80),
         objects={"chosen": (2,)},
-        probe={"pins": ((10, 20), (300, 400))},
         your_code={"file": stored(str(code))},
     )
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from lucida.app.images.compare import comparing
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.compare import CompareMode
-from lucida.app.ui.action import Action, Key, changing, choosing
+from lucida.app.ui.action import Action, Key, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.compare.raster_and_ray import Comparison
 
@@ -45,14 +45,15 @@ def _comparing(number: int, mode: CompareMode, name: str) -> Action:
     return replace(choice, run=run)
 
 
-def _gain(factor: float) -> Callable[[Host], None]:
-    return changing(lambda state: comparing.with_gain(state, state.options.compare.gain * factor))
+def _tuned(factor: float = 1.0, step: float = 0.0) -> Callable[[Host], None]:
+    """Return what multiplies the gain, and moves the divider to the right, within their bounds."""
 
+    def run(window: Host) -> None:
+        old = window.options.compare
+        new = replace(old, gain=old.gain * factor, divider=old.divider + step)
+        window.change(window.state.with_options(new))
 
-def _divider(step: float) -> Callable[[Host], None]:
-    return changing(
-        lambda state: comparing.with_divider(state, state.options.compare.divider + step)
-    )
+    return run
 
 
 def _previous(state: AppState, comparison: Comparison) -> AppState:
@@ -71,10 +72,10 @@ COMPARING = (
         binds=False,
     ),
     choosing(MENU, "Mark the causes", "compare.causes", True, "K", off=False),
-    Action(MENU, "More gain", _gain(2.0), "]"),
-    Action(MENU, "Less gain", _gain(0.5), "["),
-    Action(MENU, "Divider to the right", _divider(STEP), "Shift+]"),
-    Action(MENU, "Divider to the left", _divider(-STEP), "Shift+["),
+    Action(MENU, "More gain", _tuned(factor=2.0), "]"),
+    Action(MENU, "Less gain", _tuned(factor=0.5), "["),
+    Action(MENU, "Divider to the right", _tuned(step=STEP), "Shift+]"),
+    Action(MENU, "Divider to the left", _tuned(step=-STEP), "Shift+["),
     Action(MENU, "Next differing pixel", _differing(comparing.stepped), "N", can=_differ),
     Action(MENU, "Previous differing pixel", _differing(_previous), "Shift+N", can=_differ),
     Action(MENU, "Worst pixel", _differing(comparing.at_worst), "Shift+M", can=_differ),

@@ -199,20 +199,6 @@ def at_worst(state: AppState, comparison: Comparison) -> AppState:
     return marked_at(state, comparison.errors[state.images.channel].worst, comparison.size)
 
 
-def with_mode(state: AppState, mode: CompareMode) -> AppState:
-    return state.with_options(replace(state.options.compare, mode=mode))
-
-
-def with_gain(state: AppState, gain: float) -> AppState:
-    """Set the gain, within its bounds."""
-    return state.with_options(replace(state.options.compare, gain=gain))
-
-
-def with_divider(state: AppState, divider: float) -> AppState:
-    """Move the wipe's divider, within the image."""
-    return state.with_options(replace(state.options.compare, divider=divider))
-
-
 def marked_at(state: AppState, pixel: Pixel, size: tuple[int, int]) -> AppState:
     """Return the state with a pixel marked, centred, and large enough to see. size: (width, height)
     of the images.

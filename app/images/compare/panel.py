@@ -1,7 +1,4 @@
-"""The compare view's controls and numbers: modes, gain, colour bar, causes, errors, steps.
-
-Takes a state and returns a new one.
-"""
+"""The compare view's controls and numbers: modes, gain, colour bar, causes, errors, steps."""
 
 from __future__ import annotations
 
@@ -12,12 +9,12 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.images.compare import comparing
 from lucida.app.images.compare.comparing import MODES, ColorScale
-from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.compare import CompareOptions
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.checks import checkbox
+from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.app.ui.sliders import slider_float
@@ -48,36 +45,24 @@ class CompareReport:
     pixel: Pixel | None = None
 
 
-@dataclass(frozen=True)
-class Wish:
-    """A click. step: go to the next differing pixel (1) or the previous one (-1), of `label` or,
-    for None, of any. worst: go to the pixel of the largest error.
-    """
-
-    state: AppState
-    step: int = 0
-    label: int | None = None
-    worst: bool = False
-
-
-def toolbar(state: AppState) -> AppState:
+def toolbar(host: Host) -> None:
     """Draw modes, gain and the switch of the causes, in as many rows as they need."""
-    options = state.options.compare
+    options = host.options.compare
     for mode, name, told in MODES:
         if mode != MODES[0][0]:
             follow(button_width(name))
         if _choice(name, options.mode == mode):
-            state = comparing.with_mode(state, mode)
+            host.edit(replace(options, mode=mode))
         tip(told)
-    follow(_check_width("causes"))
+    follow(imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + _wide("causes"))
     changed, on = checkbox("causes", options.causes)
     if changed:
-        state = state.with_options(replace(state.options.compare, causes=on))
+        host.edit(replace(options, causes=on))
     tip("Mark the pixels that differ, in the colours of their causes.")
     width = min(9 * imgui.get_font_size(), imgui.get_content_region_avail().x)
     follow(width)
     imgui.set_next_item_width(width)
-    has_gain = options.mode in ("absolute", "signed") and state.images.channel != "id"
+    has_gain = options.mode in ("absolute", "signed") and host.state.images.channel != "id"
     imgui.begin_disabled(not has_gain)
     changed, gain = slider_float(
         "##gain",
@@ -87,53 +72,46 @@ def toolbar(state: AppState) -> AppState:
         imgui.SliderFlags_.logarithmic,
     )
     if changed:
-        state = comparing.with_gain(state, gain)
+        host.edit(replace(options, gain=gain))
     tip("What the difference is multiplied with. Keys [ and ]")
     imgui.end_disabled()
-    return state
 
 
-def footer(
-    state: AppState,
-    told: CompareReport,
-    is_short: bool,
-    fonts: theme.Fonts,
-    draw_map: DrawMap,
-) -> Wish:
+def footer(host: Host, told: CompareReport, is_short: bool, draw_map: DrawMap) -> None:
     """Draw everything below the image, or the headline and the scale alone if it is to be short.
 
     Its height depends only on what the user does, so that nothing jumps. draw_map: draws the colour
     map between two corners.
     """
-    imgui.push_font(fonts.bold, 0.0)
+    imgui.push_font(host.fonts.bold, 0.0)
     shown = fitting_words(told.headline, imgui.get_content_region_avail().x)
     imgui.text_colored(told.color, shown)
     imgui.pop_font()
     if shown != told.headline:
         tip(told.headline)
-    state = _scale_row(state, draw_map)
+    _scale_row(host, draw_map)
     if is_short:
-        return Wish(state)
-    wish = _errors(_counts(Wish(state), told.comparison, fonts), told.comparison, fonts)
-    if _mono_width(fonts, VALUES_COLUMNS) <= imgui.get_content_region_avail().x:
-        _values(state, told, fonts)
-    return wish
+        return
+    _counts(host, told.comparison)
+    _errors(host, told.comparison)
+    if _mono_width(host.fonts, VALUES_COLUMNS) <= imgui.get_content_region_avail().x:
+        _values(host, told)
 
 
-def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
+def _scale_row(host: Host, draw_map: DrawMap) -> None:
     """Draw the colour bar; in the other modes something else of the same height."""
     top = imgui.get_cursor_pos_y()
-    options = state.options.compare
+    options, images = host.options.compare, host.state.images
     if options.mode in ("absolute", "signed"):
         signed = options.mode == "signed"
-        scale = comparing.scale(state.images.channel, options.gain, signed)
-        scale = replace(scale, title=scale.title + comparing.measured_at(state.images))
+        scale = comparing.scale(images.channel, options.gain, signed)
+        scale = replace(scale, title=scale.title + comparing.measured_at(images))
         _color_bar(scale, signed, draw_map)
     elif options.mode == "wipe":
         imgui.set_next_item_width(-1)
         changed, percent = imgui.slider_float("##divider", 100 * options.divider, 0.0, 100.0, " ")
         if changed:
-            state = comparing.with_divider(state, percent / 100)
+            host.edit(replace(options, divider=percent / 100))
         tip("Where the divider stands. It can be dragged in the image, too.")
         text = f"raster left of {100 * options.divider:.0f} %, ray right of it"
         imgui.text(fitting_words(text, imgui.get_content_region_avail().x))
@@ -142,18 +120,14 @@ def _scale_row(state: AppState, draw_map: DrawMap) -> AppState:
             if flipped:
                 imgui.same_line()
             if _choice(f"show {name}", options.flipped == flipped):
-                state = state.with_options(replace(state.options.compare, flipped=flipped))
+                host.edit(replace(options, flipped=flipped))
         imgui.same_line()
         imgui.align_text_to_frame_padding()
         imgui.text_disabled("Hold X to see the other image")
-    imgui.set_cursor_pos_y(top + _scale_height())
+    lines = 2 * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
+    imgui.set_cursor_pos_y(top + lines)
     imgui.dummy(ImVec2(0, 0))
-    imgui.set_cursor_pos_y(top + _scale_height())
-    return state
-
-
-def _scale_height() -> float:
-    return 2 * imgui.get_text_line_height_with_spacing() + imgui.get_style().item_spacing.y
+    imgui.set_cursor_pos_y(top + lines)
 
 
 def _color_bar(scale: ColorScale, signed: bool, draw_map: DrawMap) -> None:
@@ -182,11 +156,18 @@ def _wide(text: str) -> float:
     return imgui.calc_text_size(text).x
 
 
-def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
+def _step(host: Host, comparison: Comparison | None, label: int | None = None) -> None:
+    """Go to the next differing pixel, or with Shift to the previous one."""
+    if comparison is not None:
+        forward = not imgui.get_io().key_shift
+        host.apply(comparing.stepped(host.state, comparison, forward, label))
+
+
+def _counts(host: Host, comparison: Comparison | None) -> None:
     """Draw each cause with its colour and its count; a click goes to the next of its pixels."""
     found = comparing.counts(comparison) if comparison is not None else {}
     draw = imgui.get_window_draw_list()
-    for number, cause in enumerate(comparing.offered(wish.state)):
+    for number, cause in enumerate(comparing.offered(host.state)):
         width = _count_width(cause.name)
         if number:
             follow(width)
@@ -195,8 +176,7 @@ def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
         at, size = imgui.get_cursor_screen_pos(), imgui.get_frame_height()
         imgui.begin_disabled(not count)
         if imgui.button(f"##{cause.name}", ImVec2(width, size)):
-            step = -1 if imgui.get_io().key_shift else 1
-            wish = Wish(wish.state, step, cause.label)
+            _step(host, comparison, cause.label)
         imgui.end_disabled()
         tip(f"{cause.told}\nClick: the next of these pixels; Shift: the last.")
         pad = imgui.get_style().frame_padding
@@ -207,11 +187,10 @@ def _counts(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
         draw.add_rect_filled(low, ImVec2(low.x + edge, low.y + edge), swatch, 2.0)
         color = theme.u32(theme.TEXT if count else theme.DIM)
         draw.add_text(ImVec2(low.x + edge + pad.x, low.y), color, cause.name)
-        imgui.push_font(fonts.mono, 0.0)
+        imgui.push_font(host.fonts.mono, 0.0)
         right = at.x + width - pad.x - _wide(text)
         draw.add_text(ImVec2(right, low.y), color, text)
         imgui.pop_font()
-    return wish
 
 
 def _count_width(name: str) -> float:
@@ -220,13 +199,14 @@ def _count_width(name: str) -> float:
     return height + _wide(name) + digits + 4 * style.frame_padding.x
 
 
-def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wish:
+def _errors(host: Host, comparison: Comparison | None) -> None:
     """Draw the buttons that go to pixels, and the errors over the whole image."""
-    channel, indexing = wish.state.images.channel, wish.state.options.indexing
+    fonts, images, indexing = host.fonts, host.state.images, host.options.indexing
+    channel = images.channel
     differ = comparison is not None and comparison.agree < comparison.pixels
     imgui.begin_disabled(not differ)
     if imgui.button(NEXT):
-        wish = Wish(wish.state, -1 if imgui.get_io().key_shift else 1)
+        _step(host, comparison)
     imgui.end_disabled()
     tip("Mark the next pixel that differs, and magnify there. Keys N, Shift+N")
     wide = _mono_width(fonts, len("worst (1000, 1000)")) + 2 * imgui.get_style().frame_padding.x
@@ -234,8 +214,8 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     worst = comparison.errors[channel].worst if comparison is not None else (0, 0)
     imgui.begin_disabled(comparison is None)
     imgui.push_font(fonts.mono, 0.0)
-    if imgui.button(f"worst {indexing.text(worst)}###worst", ImVec2(wide, 0)):
-        wish = Wish(wish.state, worst=True)
+    if imgui.button(f"worst {indexing.text(worst)}###worst", ImVec2(wide, 0)) and comparison:
+        host.apply(comparing.at_worst(host.state, comparison))
     imgui.pop_font()
     imgui.end_disabled()
     tip(
@@ -245,12 +225,11 @@ def _errors(wish: Wish, comparison: Comparison | None, fonts: theme.Fonts) -> Wi
     follow(_mono_width(fonts, len("max 100.0/255  RMS  10.000/255  at 0 EV")))
     imgui.push_font(fonts.mono, 0.0)
     text = comparing.error_text(comparison, channel) if comparison is not None else "..."
-    text += comparing.measured_at(wish.state.images)
+    text += comparing.measured_at(images)
     imgui.align_text_to_frame_padding()
     imgui.text(text)
     imgui.pop_font()
     tip(COLORS_COMPARED)
-    return wish
 
 
 def _mono_width(fonts: theme.Fonts, columns: int) -> float:
@@ -260,7 +239,7 @@ def _mono_width(fonts: theme.Fonts, columns: int) -> float:
     return width
 
 
-def _values(state: AppState, told: CompareReport, fonts: theme.Fonts) -> None:
+def _values(host: Host, told: CompareReport) -> None:
     """Draw both images' values at a pixel, one above the other. Without a pixel the lines stay
     empty.
     """
@@ -272,12 +251,10 @@ def _values(state: AppState, told: CompareReport, fonts: theme.Fonts) -> None:
         imgui.set_cursor_pos_y(top)
         imgui.dummy(ImVec2(1, 2 * line - imgui.get_style().item_spacing.y))
         return
-    raster, ray, difference = comparing.pixel_values(
-        told.comparison, told.pixel, state.images.channel
-    )
+    channel, indexing = host.state.images.channel, host.options.indexing
+    raster, ray, difference = comparing.pixel_values(told.comparison, told.pixel, channel)
     cause = comparing.cause_at(told.comparison, told.pixel)
-    imgui.push_font(fonts.mono, 0.0)
-    indexing = state.options.indexing
+    imgui.push_font(host.fonts.mono, 0.0)
     pixel = f"{indexing.text(told.pixel)} {indexing.told}"
     name = cause.name if cause is not None else "agree"
     imgui.text(f"raster {raster:24} pixel {pixel}: {name}")
@@ -295,8 +272,3 @@ def _choice(name: str, on: bool) -> bool:
     if on:
         imgui.pop_style_color(3)
     return pressed
-
-
-def _check_width(name: str) -> float:
-    inner = imgui.get_style().item_inner_spacing.x
-    return imgui.get_frame_height() + inner + _wide(name)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -39,9 +38,8 @@ class Linked:
     """The state that the two images share.
 
     photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
-    steady_frames: of the images, and how often they were drawn at that size. pins: returns the
-    pixels that are pinned in a state; set by their owner. guest: see app/ui/guest.py; set by
-    itself.
+    steady_frames: of the images, and how often they were drawn at that size. guest: see
+    app/ui/guest.py; set by itself.
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
@@ -52,7 +50,6 @@ class Linked:
     walked_frame: int = -1
     size: tuple[int, int] = (0, 0)
     steady_frames: int = 0
-    pins: Callable[[AppState], Sequence[Pixel]] = lambda state: ()
     guest: Guest | None = None
 
 
@@ -151,7 +148,6 @@ class ImageView(Instrument):
             legend=legend,
             has_tools=host.has_tools,
             hovered=self._hovered(host, placed(state)),
-            pins=shared.pins(state),
             depths=both.depths() if state.images.channel == "depth" else None,
             on_pixels=lambda screen: self._on_pixels(host, screen),
             held=shared.guest is not None and shared.guest.holds(self.name),

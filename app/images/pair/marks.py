@@ -1,4 +1,4 @@
-"""The pixel under the mouse, the one that the user has marked, and those of the probe's pins.
+"""The pixel under the mouse, and the one that the user has marked.
 
 Owns how they look, and the keys that move the mark. Knows nothing of how pixels are drawn.
 """
@@ -16,7 +16,6 @@ SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
 NUMBERED = 32.0  # as large, a pixel has numbers in it
 TICK = 9.0  # the lines that point at a marked pixel
 LARGEST_POINTED_AT = 24.0
-CORNER = 0.32  # of a pin's frame, a side of each of its corners
 _POPUP = int(imgui.WindowFlags_.popup)
 _FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_settings)
 
@@ -49,29 +48,6 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
                 theme.u32(color),
                 width,
             )
-
-
-def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
-    """Draw four corners with a number next to them, in the colour of its ray in the outside view:
-    only a mark has a whole frame. The number stays in the view.
-    """
-    middle, half = _middle(screen, pixel)
-    low, high = _square(middle, half, 1.0)
-    arm = (high - low) * CORNER
-    for width, color in ((3.5, theme.rgb("#000000", 0.7)), (1.5, theme.RAY)):
-        for x, toward_x in ((low.x, arm.x), (high.x, -arm.x)):
-            for y, toward_y in ((low.y, arm.y), (high.y, -arm.y)):
-                draw.add_line(ImVec2(x, y), ImVec2(x + toward_x, y), theme.u32(color), width)
-                draw.add_line(ImVec2(x, y), ImVec2(x, y + toward_y), theme.u32(color), width)
-    text = str(number)
-    size = imgui.calc_text_size(text)
-    near, end = screen.pane
-    left, top = middle.x + half[0] + 3.0, middle.y - half[1] - size.y
-    if near.x <= middle.x <= end.x and near.y <= middle.y <= end.y:
-        left, top = min(left, end.x - size.x - 6.0), max(top, near.y)
-    corner, far = ImVec2(left, top), ImVec2(left + size.x + 6.0, top + size.y)
-    draw.add_rect_filled(corner, far, theme.u32(theme.rgb("#000000", 0.7)), 2.0)
-    draw.add_text(ImVec2(left + 3.0, top), theme.u32(theme.RAY), text)
 
 
 def claim_keys() -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.images.pair.dark_note import DarkNote, draw_dark_note
 from lucida.app.images.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
-from lucida.app.images.pair.marks import claim_keys, draw_hovered, draw_marked, draw_pin
+from lucida.app.images.pair.marks import claim_keys, draw_hovered, draw_marked
 from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
 from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
 from lucida.app.images.pair.rulers import draw_rulers
@@ -33,8 +33,8 @@ class Pane:
 
     note: text over the image, which is darkened: it is not of now. dark: why an image as it should
     be is black. progress: of the image under way, 1 for none. hovered: the pixel
-    under the mouse, to be marked here. pins: pixels to be marked with their numbers. depths: that
-    are shown white and darkest. legend: whether the channel's colours are explained. on_pixels:
+    under the mouse, to be marked here. depths: those that are
+    shown white and darkest. legend: whether the channel's colours are explained. on_pixels:
     draws on the image, below everything else. held: the mouse is on something of another's.
     """
 
@@ -49,7 +49,6 @@ class Pane:
     legend: bool = True
     has_tools: bool = True
     hovered: Pixel | None = None
-    pins: Sequence[Pixel] = ()
     depths: tuple[float, float] | None = None
     on_pixels: Callable[[Screen], None] | None = None
     held: bool = False
@@ -134,10 +133,6 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
         if pane.on_pixels is not None:
             pane.on_pixels(screen)
-    width, height = pane.seen.size
-    for number, pin in enumerate(pane.pins, 1):
-        if pin[0] < height and pin[1] < width:
-            draw_pin(draw, screen, pin, number)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
     if picture is not None and state.images.grid:  # numbers may reach over a mark

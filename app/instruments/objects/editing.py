@@ -31,7 +31,7 @@ def added(state: AppState, kind: str, focus: Focus) -> AppState:
     if kind == "directional":  # it has no place
         table = objects.new_table(state.scene, kind)
         return with_scene(state, *objects.add(state.scene, table))
-    place = place_for(state.scene, focus, state.camera, kind in objects.LIGHTS)
+    place = place_for(focus, state.camera, kind in objects.LIGHTS)
     power = math.floor(math.log10(place.size))
     size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger
     at = [round(x, 2 - power) for x in place.at]

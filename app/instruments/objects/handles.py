@@ -12,18 +12,16 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui, imguizmo
 
 from lucida.app.instruments.outside.gizmo import (
-    begin_handles,
+    Handle,
     escaped,
     gizmo,
-    gl_matrices,
-    is_dragging,
     let_go,
-    matrix16,
-    widen,
+    manipulate,
     write,
 )
-from lucida.app.instruments.outside.tint import AXES, HELD, hide_text, recolor
-from lucida.app.state.options.objects import Handle, ObjectsOptions
+from lucida.app.instruments.outside.tint import AXES, HELD
+from lucida.app.state.options.objects import Handle as HandleKind
+from lucida.app.state.options.objects import ObjectsOptions
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.guest import ShownIn
 from lucida.renderer.camera.checks import Vector
@@ -41,7 +39,7 @@ from lucida.renderer.system.memo import Memo
 
 Operation = imguizmo.im_guizmo.OPERATION
 
-LENGTH_PX, MOST_PART = 52.0, 0.24  # at 100 %: of a handle; of the view's height at most
+LENGTH_PX, MOST_PART = 52.0, 0.24  # of a handle: at 100 %; its most, in parts of the shorter side
 WIDE_PART = 0.08  # of the view's width, where that is longer
 HEAD_PART = 0.12  # of a handle: its arrow's head at most
 # ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
@@ -129,54 +127,38 @@ class Handles:
             return drag.scene
         kind, operation, frame = self._placed(scene, items, options.handle, center)
         frame = drag.matrix if drag is not None else frame
-        matrices = gl_matrices(shown.camera, frame[:3, 3], reach) if operation else None
-        if matrices is None or operation is None:
+        found = None
+        if operation is not None:
+            length = length_px(shown.extent, imgui.get_window_size())
+            along = gizmo.MODE.world if options.along == "world" else gizmo.MODE.local
+            asked = Handle(
+                shown.name, frame, operation, along, 2 * length / shown.extent.x, COLORS,
+                HEAD_PART * length, _step(options, kind, reach),
+            )  # fmt: skip
+            found = manipulate(asked, shown.camera, shown.origin, shown.extent, reach)
+        if found is None:
             self.forget(shown.name)
             return scene
-        view, projection = matrices
-        matrix = matrix16(frame)
-        begin_handles()
-        gizmo.set_orthographic(shown.camera.is_parallel)
-        gizmo.set_drawlist()
-        gizmo.set_rect(shown.origin.x, shown.origin.y, shown.extent.x, shown.extent.y)
-        length = length_px(shown.extent, imgui.get_window_size())
-        gizmo.set_gizmo_size_clip_space(2 * length / shown.extent.x)
-        gizmo.allow_axis_flip(False)
-        widen(HEAD_PART * length)
-        along = gizmo.MODE.world if options.along == "world" else gizmo.MODE.local
-        step = _step(options, kind, reach)
-        gizmo.push_id(shown.name)
-        draw_list = imgui.get_window_draw_list()
-        first = draw_list.vtx_buffer.size()
-        moved = gizmo.manipulate(
-            matrix16(view), matrix16(projection), operation, along, matrix, snap=step
-        )
-        recolor(draw_list, first, COLORS)
-        hide_text(draw_list, first)
-        using = is_dragging()
         # ImGuizmo is over a handle in all views alike.
-        over = gizmo.is_using() or (gizmo.is_over() and imgui.is_window_hovered())
-        gizmo.pop_id()
+        over = found.using or (found.over and imgui.is_window_hovered())
         (self._over.add if over else self._over.discard)(shown.name)
-        if not using:
+        if not found.using:
             if drag is not None:
                 self.forget(shown.name)
             return scene
         if drag is None:
             self._count += 1
             drag = _HandleDrag(shown.name, items, scene, scene, frame, frame)
-        if moved:
-            result = np.asarray(matrix.values, float).reshape(4, 4).T
+        if found.moved is not None:
             whole = operation == gizmo.OPERATION.scaleu
-            scene, drag = self._moved(drag, scene, result, kind, whole)
+            scene, drag = self._moved(drag, scene, found.moved, kind, whole)
         self._drag = drag
-        text = self.problem or motion(kind, drag.frame, drag.matrix)
         place = drag.matrix[:3, 3]
-        write(text, projection @ view, place, shown.origin, shown.extent, fonts)
+        write(self.problem, found.clip_from_world, place, shown.origin, shown.extent, fonts)
         return scene
 
     def _moved(
-        self, drag: _HandleDrag, scene: Scene, result: Floats, handle: Handle, whole: bool
+        self, drag: _HandleDrag, scene: Scene, result: Floats, handle: HandleKind, whole: bool
     ) -> tuple[Scene, _HandleDrag]:
         if not np.isfinite(result).all() or abs(np.linalg.det(result[:3, :3])) < 1e-30:
             return scene, drag
@@ -196,7 +178,8 @@ def length_px(image: ImVec2, room: ImVec2) -> float:
     image: the size of the whole image, which may be larger than the view.
     """
     width, height = min(image.x, room.x), min(image.y, room.y)
-    return max(1.0, min(max(theme.px(LENGTH_PX), WIDE_PART * width), MOST_PART * height))
+    wanted = max(theme.px(LENGTH_PX), WIDE_PART * width)
+    return max(1.0, min(wanted, MOST_PART * min(width, height)))
 
 
 def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
@@ -219,13 +202,13 @@ def frame_of(scene: Scene, items: tuple[Item, ...], center: Vector) -> Floats:
 
 
 def _placed(
-    scene: Scene, items: tuple[Item, ...], wanted: Handle, center: Vector
-) -> tuple[Handle, Operation | None, Floats]:
+    scene: Scene, items: tuple[Item, ...], wanted: HandleKind, center: Vector
+) -> tuple[HandleKind, Operation | None, Floats]:
     kind = handle_of(scene, items, wanted)
     return kind, operation_of(scene, items, kind), frame_of(scene, items, center)
 
 
-def handle_of(scene: Scene, items: tuple[Item, ...], wanted: Handle) -> Handle:
+def handle_of(scene: Scene, items: tuple[Item, ...], wanted: HandleKind) -> HandleKind:
     """Return the kind of the handles. A light that has only a direction is turned when others are
     moved.
     """
@@ -233,7 +216,7 @@ def handle_of(scene: Scene, items: tuple[Item, ...], wanted: Handle) -> Handle:
     return "turn" if wanted == "move" and directed else wanted
 
 
-def operation_of(scene: Scene, items: tuple[Item, ...], handle: Handle) -> Operation | None:
+def operation_of(scene: Scene, items: tuple[Item, ...], handle: HandleKind) -> Operation | None:
     """Return the operation for ImGuizmo; None if nothing can be moved that way."""
     if not items or handle == "none":
         return None
@@ -256,7 +239,7 @@ def moved_by(scene: Scene, items: tuple[Item, ...], frame: Floats, now: Floats) 
     return transform(scene, items, now @ np.linalg.inv(frame))
 
 
-def cleaned(handle: Handle, frame: Floats, result: Floats, whole: bool = False) -> Floats:
+def cleaned(handle: HandleKind, frame: Floats, result: Floats, whole: bool = False) -> Floats:
     """Return the new frame of a handle, restricted to its kind of motion and in short numbers:
     ImGuizmo uses single precision, whose noise would end up in the scene's file.
 
@@ -296,24 +279,6 @@ def _turn_of(turn: Floats) -> Floats:
     return found
 
 
-def motion(handle: Handle, before: Floats, after: Floats) -> str:
-    """Describe the motion of a handle, in numbers."""
-    if handle == "move":
-        offset = after[:3, 3] - before[:3, 3]
-        least = 1e-4 * float(np.abs(offset).max())
-        parts = [f"Δ{n} {x:.4g}" for n, x in zip("xyz", offset, strict=True) if abs(x) > least]
-        return "  ".join(parts)
-    sizes = [np.linalg.norm(matrix[:3, :3], axis=0) for matrix in (before, after)]
-    if handle == "scale":
-        ratios = sizes[1] / sizes[0]
-        same = np.ptp(ratios) < 1e-4 * ratios.max()
-        shown = ratios[:1] if same else ratios
-        return "times " + "  ".join(f"{ratio:.3g}" for ratio in shown)
-    turn = (after[:3, :3] / sizes[1]) @ (before[:3, :3] / sizes[0]).T
-    angle = np.degrees(np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1)))
-    return f"{angle:.1f}°"
-
-
 def snap_step(reach: float) -> float:
     """Return the step of a snapping move: 1, 2 or 5 times a power of ten, a small part of the
     scene.
@@ -323,7 +288,9 @@ def snap_step(reach: float) -> float:
     return float(next(k * power for k in (1, 2, 5, 10) if k * power >= wanted))
 
 
-def _step(options: ObjectsOptions, kind: Handle, reach: float) -> imguizmo.im_guizmo.Matrix3 | None:
+def _step(
+    options: ObjectsOptions, kind: HandleKind, reach: float
+) -> imguizmo.im_guizmo.Matrix3 | None:
     """Return the step, if snapping. Holding Ctrl inverts the option."""
     if options.snaps == imgui.get_io().key_ctrl:
         return None

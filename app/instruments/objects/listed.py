@@ -21,15 +21,11 @@ class Outliner:
     """The list's state between frames.
 
     words: the text of the search.
-    renamed: the item whose name is being typed, and the name.
-    begun: the name's field was drawn in an earlier frame.
     anchor: the start of a range of rows.
     seen: the last selection that the list has scrolled to.
     """
 
     words: str = ""
-    renamed: tuple[Item, str] | None = None
-    begun: bool = False
     anchor: Item | None = None
     seen: Item | None = None
 
@@ -42,7 +38,6 @@ class Listed:
     changed: the state after edits.
     chosen: the state with another selection, no undo step; None for none.
     problem: the reason why an edit was impossible.
-    framed: the item to frame with the camera.
     model: ask for a model's file.
     """
 
@@ -52,7 +47,6 @@ class Listed:
     changed: AppState | None = None
     chosen: AppState | None = None
     problem: str = ""
-    framed: Item | None = None
     model: bool = False
 
     def but(self, **changes: Any) -> Listed:
@@ -61,10 +55,6 @@ class Listed:
     def keeping(self, **changes: Any) -> Listed:
         """Return this with other values kept for the next frame."""
         return replace(self, outliner=replace(self.outliner, **changes))
-
-    def renaming(self, row: OutlineRow) -> Listed:
-        """Return this with a field for the name of a row."""
-        return self.keeping(renamed=(row.item, row.name), begun=False)
 
     def tried(self, edit: Callable[[], AppState]) -> Listed:
         """Return this with an edit, or with the reason why it is impossible."""

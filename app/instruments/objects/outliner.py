@@ -58,13 +58,10 @@ def outliner_panel(outliner: Outliner, state: AppState, focus: Focus) -> Listed:
 
 
 def _visible_rows(result: Listed) -> Listed:
-    """Draw the visible rows, and the one whose name is being typed."""
+    """Draw the visible rows."""
     items = [row.item for row in result.rows]
     clipper = imgui.ListClipper()
     clipper.begin(len(items))
-    renamed = result.outliner.renamed
-    if renamed is not None and renamed[0] in items:
-        clipper.include_item_by_index(items.index(renamed[0]))
     while clipper.step():
         for row in result.rows[clipper.display_start : clipper.display_end]:
             result = _row(row, result)
@@ -128,11 +125,7 @@ def _row(row: OutlineRow, result: Listed) -> Listed:
     if imgui.table_next_column() and item is not None:
         result = _shown(row, item, result)
     imgui.table_next_column()
-    renamed = result.outliner.renamed
-    if renamed is not None and renamed[0] == item:
-        result = _rename_field(row, result)
-    else:
-        result = _name(row, result)
+    result = _name(row, result)
     imgui.table_next_column()
     imgui.align_text_to_frame_padding()
     imgui.text_disabled(row.kind)
@@ -153,14 +146,12 @@ def _name(row: OutlineRow, result: Listed) -> Listed:
     item = row.item
     start = imgui.get_cursor_screen_pos()
     kinds = imgui.SelectableFlags_
-    flags = kinds.allow_double_click | kinds.allow_overlap
+    flags = kinds.allow_overlap
     accent = theme.ACCENT
     imgui.push_style_color(imgui.Col_.header, ImVec4(accent.x, accent.y, accent.z, 0.45))
     size = ImVec2(0, imgui.get_frame_height())
     clicked = imgui.selectable("##row", item in chosen(result.state), int(flags), size)[0]
     imgui.pop_style_color()
-    if item is not None:
-        result = _row_menu(row, item, result)
     imgui.set_cursor_screen_pos(start)
     imgui.align_text_to_frame_padding()
     shown = fitting_letters(row.shown, imgui.get_content_region_avail().x)
@@ -169,43 +160,8 @@ def _name(row: OutlineRow, result: Listed) -> Listed:
         tip(row.shown)
     if not clicked or item is None:
         return result
-    if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-        return result.renaming(row)
     io, state, anchor = imgui.get_io(), result.state, result.outliner.anchor
     if io.key_shift and anchor is not None:
         return result.but(chosen=choose(state, editing.reached(result.rows, anchor, item)))
     result = result.keeping(anchor=item)
     return result.but(chosen=choose_also(state, item) if io.key_ctrl else choose(state, (item,)))
-
-
-def _rename_field(row: OutlineRow, result: Listed) -> Listed:
-    assert result.outliner.renamed is not None
-    item, name = result.outliner.renamed
-    if not result.outliner.begun:
-        imgui.set_keyboard_focus_here()
-    imgui.set_next_item_width(-1)
-    flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
-    done, name = imgui.input_text("##name", name, int(flags))
-    if not (done or imgui.is_item_deactivated()):
-        return result.keeping(renamed=(item, name), begun=True)
-    result = result.keeping(renamed=None, begun=False)
-    if imgui.is_key_pressed(imgui.Key.escape) or name == row.name:
-        return result
-    state = result.state
-    return result.tried(lambda: editing.with_scene(state, objects.rename(state.scene, item, name)))
-
-
-def _row_menu(row: OutlineRow, item: Item, result: Listed) -> Listed:
-    if not imgui.begin_popup_context_item("menu"):
-        return result
-    state = result.state
-    if item not in chosen(state):
-        result = result.but(chosen=choose(state, (item,)))
-    if imgui.menu_item("Rename", "", False)[0]:
-        result = result.renaming(row)
-    if not row.is_light and imgui.menu_item("Frame it", "", False)[0]:
-        result = result.but(framed=item)
-    if imgui.menu_item("Delete", "", False, not row.locked)[0]:
-        result = result.tried(lambda: editing.deleted(choose(state, (item,))))
-    imgui.end_popup()
-    return result

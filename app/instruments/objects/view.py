@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lucida.app.cameras.presets import framed
 from lucida.app.images.pair.view import RasterView
 from lucida.app.instruments.objects.actions import CHOOSING, SCENE
 from lucida.app.instruments.objects.in_views import InViews
@@ -18,9 +17,7 @@ from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.ui import layout
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
-from lucida.renderer.editing.changing import Item, has_default_lights, ids_of
-from lucida.renderer.scene.focus import object_corners
-from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.editing.changing import has_default_lights
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"
 
@@ -59,8 +56,6 @@ class ObjectsView(Instrument):
             host.change(listed.changed)
         if listed.chosen is not None:
             host.amend(listed.chosen)
-        if listed.framed is not None:
-            frame_item(host, listed.framed)
         if listed.model:
             host.files.add_model_dialog()
 
@@ -77,18 +72,3 @@ class InspectorView(Instrument):
         around = PanelSetting(host.fonts, host.focus, has_default_lights(host.state.scene))
         self.inspector, state = inspector_panel(self.inspector, host.state, around)
         host.apply(state)
-
-
-def frame_item(host: Host, item: Item) -> None:
-    """Move the camera so that an object fills the picture."""
-    numbers = ids_of(host.state.scene, item)
-    corners = [object_corners(host.state.scene.objects[number]) for number in numbers]
-    if not corners:
-        return
-    points = [point for box in corners for point in box]
-    try:
-        camera = framed(host.state.camera, points, host.focus.bounds)
-    except LucidaError as error:
-        host.files.message = str(error)
-        return
-    host.travel(host.state.with_camera(camera))

@@ -48,6 +48,7 @@ from lucida.renderer.camera.image_plane import Size
 
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w
+WORLD_UP = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -200,7 +201,7 @@ def _target(
                 "fails",
                 "text",
                 "up x w = 0: no u, no v",
-                eye + np.array([0.0, ABOVE_HANDLES, 0.0]) * np.linalg.norm(w),
+                eye + ABOVE_HANDLES * np.linalg.norm(w) * WORLD_UP,
                 away=eye,
                 strong=True,
             ),
@@ -235,7 +236,7 @@ def _up(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     items: list[Item] = [
         Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
         Dot("target", "extra", target, 6.0),
-        Label("target", "extra", "target", target, away=eye, strong=True),
+        Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
     ]
     if up.any():
         items.append(Arrow("up", "extra", eye, eye + up))

@@ -5,16 +5,17 @@ basis, or the vector up that the basis is made from (ImGuizmo).
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
-from imgui_bundle import ImVec2, imgui, imguizmo
+from imgui_bundle import ImVec2, ImVec4, imgui, imguizmo
 from numpy.typing import ArrayLike
 
 from lucida.app.instruments.outside.frustum import plane_corners
 from lucida.app.instruments.outside.mouse import Scope
-from lucida.app.instruments.outside.tint import handle_colors, hide_text, recolor
+from lucida.app.instruments.outside.tint import Rgb8, handle_colors, hide_text, recolor
 from lucida.app.ui import theme
 from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
@@ -97,37 +98,25 @@ class Gizmo:
         middle = np.asarray(camera.eye, float)
         if kind == "distance":
             middle = plane_corners(camera).mean(axis=0)
-        matrices = gl_matrices(scope.shown, middle, scope.reach)
-        if matrices is None:
-            self.over, self._drag = False, None
-            return now
-        view, projection = matrices
         frame = rotation_of(camera)
         if self._drag is not None:
             frame = self._drag.turned @ self._drag.frame
         placed = np.eye(4)
         placed[:3, :3], placed[:3, 3] = frame, middle
-        matrix = matrix16(placed)
-        begin_handles()
-        gizmo.set_orthographic(scope.shown.is_parallel)
-        gizmo.set_drawlist()
-        gizmo.set_rect(scope.origin.x, scope.origin.y, scope.extent.x, scope.extent.y)
-        gizmo.set_gizmo_size_clip_space(LENGTH)
-        gizmo.allow_axis_flip(False)
         operation = {
             "move": gizmo.OPERATION.translate,
             "distance": gizmo.OPERATION.translate_z,
         }.get(kind, gizmo.OPERATION.rotate)
-        mode = gizmo.MODE.local  # its x, y and z are then u, v and w
-        widen()
-        draw = imgui.get_window_draw_list()
-        first = draw.vtx_buffer.size()
-        moved = gizmo.manipulate(matrix16(view), matrix16(projection), operation, mode, matrix)
-        recolor(draw, first, handle_colors(ground))
-        hide_text(draw, first)
-        using = is_dragging()
-        self.over = gizmo.is_using() or gizmo.is_over()
-        if not using:
+        # In its own space, x, y and z are u, v and w.
+        asked = Handle(
+            "outside", placed, operation, gizmo.MODE.local, LENGTH, handle_colors(ground)
+        )
+        found = manipulate(asked, scope.shown, scope.origin, scope.extent, scope.reach)
+        if found is None:
+            self.over, self._drag = False, None
+            return now
+        self.over = found.over
+        if not found.using:
             self._drag = None
             return now
         if self._drag is not None and escaped():
@@ -136,13 +125,12 @@ class Gizmo:
         if self._drag is None:
             self._count += 1
             self._drag = _Drag(camera, up, frame, np.eye(3))
-        if moved:
-            result = np.asarray(matrix.values, float).reshape(4, 4).T
-            camera, up = self._moved(now, result, kind, orthonormal)
+        if found.moved is not None:
+            camera, up = self._moved(now, found.moved, kind, orthonormal)
         text = motion(self._drag.camera, camera)
         if kind == "distance":
             text = f"d = {camera.distance:.4g}"
-        write(text, projection @ view, middle, scope.origin, scope.extent, fonts)
+        write(text, found.clip_from_world, middle, scope.origin, scope.extent, fonts)
         return camera, up
 
     def _moved(
@@ -235,6 +223,68 @@ def write(
     draw.add_rect_filled(low, far, theme.u32(theme.PANEL, 0.9), theme.px(3))
     draw.add_text(at, theme.u32(theme.TEXT), text)
     imgui.pop_font()
+
+
+class Handle(NamedTuple):
+    """Handles of ImGuizmo.
+
+    name: distinguishes them from others. frame: (4, 4), where they are, with their axes. length: in
+    clip space. colors: in place of ImGuizmo's. head_px: the most of an arrow's head. snap: the
+    steps of a motion.
+    """
+
+    name: str
+    frame: Floats
+    operation: imguizmo.im_guizmo.OPERATION
+    mode: imguizmo.im_guizmo.MODE
+    length: float
+    colors: Mapping[Rgb8, ImVec4]
+    head_px: float = math.inf
+    snap: imguizmo.im_guizmo.Matrix3 | None = None
+
+
+class Manipulated(NamedTuple):
+    """The mouse's effect on handles. moved: their new frame, (4, 4); None if it is the same."""
+
+    using: bool
+    over: bool
+    moved: Floats | None
+    clip_from_world: Floats
+
+
+def manipulate(
+    handle: Handle, camera: Camera, origin: ImVec2, extent: ImVec2, reach: float
+) -> Manipulated | None:
+    """Draw handles into the current window, seen by a camera; None if they are not well in front
+    of it.
+
+    origin, extent: of the view. reach: of everything in sight.
+    """
+    matrices = gl_matrices(camera, handle.frame[:3, 3], reach)
+    if matrices is None:
+        return None
+    view, projection = matrices
+    matrix = matrix16(handle.frame)
+    begin_handles()
+    gizmo.set_orthographic(camera.is_parallel)
+    gizmo.set_drawlist()
+    gizmo.set_rect(origin.x, origin.y, extent.x, extent.y)
+    gizmo.set_gizmo_size_clip_space(handle.length)
+    gizmo.allow_axis_flip(False)
+    widen(handle.head_px)
+    draw = imgui.get_window_draw_list()
+    first = draw.vtx_buffer.size()
+    gizmo.push_id(handle.name)
+    moved = gizmo.manipulate(
+        matrix16(view), matrix16(projection), handle.operation, handle.mode, matrix,
+        snap=handle.snap,
+    )  # fmt: skip
+    using, over = is_dragging(), gizmo.is_using() or gizmo.is_over()
+    gizmo.pop_id()  # is_using() asks for the pushed one
+    recolor(draw, first, handle.colors)
+    hide_text(draw, first)
+    after = np.asarray(matrix.values, float).reshape(4, 4).T if moved else None
+    return Manipulated(using, over, after, projection @ view)
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:

@@ -31,6 +31,7 @@ TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0
 # costs to be on the other side, and away from the middle.
 SHARES = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2])
 OTHER_SIDE, SLID = 0.4, 1.0
+ALONG = 1.5  # the space between a text and its line, in that to a point: arrows have wide heads
 TINY = 1e-300  # in place of 0, to divide by
 JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
@@ -138,10 +139,11 @@ def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
     touches a circle around the point from outside, or a line.
     """
     if text.line is None or not (way := text.line[1] - text.line[0]).any():
-        starts = np.array([text.at])
+        starts, room = np.array([text.at]), box.room
         angles, costs = math.atan2(*text.toward[::-1]) + TURNS, TURNED * np.abs(TURNS) / math.pi
     else:
         starts = np.repeat(text.line[0] + SHARES[:, None] * way, 2, axis=0)
+        room = ALONG * box.room
         normal = math.atan2(way[0], -way[1])
         if math.cos(normal) * text.toward[0] + math.sin(normal) * text.toward[1] < 0:
             normal += math.pi
@@ -149,7 +151,7 @@ def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
         slid = np.repeat(SLID * np.abs(SHARES - 0.5), 2)
         costs = slid + np.tile([0.0, OTHER_SIDE], len(SHARES))
     ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    reach = box.room + np.abs(ways) @ (box.width / 2, box.height / 2)
+    reach = room + np.abs(ways) @ (box.width / 2, box.height / 2)
     out = np.add.outer(np.multiply(FARTHER, box.height), reach)
     places = starts + out[..., None] * ways
     return places.reshape(-1, 2), np.add.outer(np.multiply(OUT, FARTHER), costs).ravel()

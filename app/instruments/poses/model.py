@@ -59,7 +59,6 @@ class PoseSet:
     outer: the numbers of the outermost cameras.
     told: notes on the set, a phrase each.
     files: their stamps at the time of reading.
-    photographs: the numbers of the cameras whose photograph is there; None if the set names none.
     """
 
     path: Path
@@ -76,7 +75,6 @@ class PoseSet:
     outer: NDArray[np.int64]
     told: tuple[str, ...]
     files: Noted = field(default_factory=dict)
-    photographs: frozenset[int] | None = None
 
     @property
     def origin(self) -> Floats:
@@ -130,13 +128,6 @@ class PoseSet:
         count, points = len(self.names), len(self.points)
         words = f"{count:,} camera{'s' if count != 1 else ''}"
         return words + (f", {points:,} points" if points else "")
-
-    @property
-    def found(self) -> str:
-        """The number of photographs, in words; "" if the set names none."""
-        if self.photographs is None:
-            return ""
-        return f"{len(self.photographs):,} of {len(self.names):,} photographs found"
 
     def view(self, number: int) -> View:
         """Return the view of a camera. Images of other proportions show more, never less."""

@@ -18,15 +18,13 @@ from lucida.app.state.options.poses import PosesOptions
 from lucida.app.ui import theme
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.lettering import fitting_words, lettering
-from lucida.app.ui.messages import SHOWN_AFTER_S, progress, wrapped
+from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import follow, tip
 from lucida.app.ui.sliders import slider_float
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 from lucida.renderer.system.errors import one_line
 
-PoseWish = Literal[
-    "", "open", "close", "frame", "cancel", "next", "previous", "first", "last", "lay"
-]
+PoseWish = Literal["", "open", "close", "frame", "next", "previous", "first", "last", "lay"]
 INVITATION = (
     "Open the cameras of a data set or of a reconstruction: a transforms.json (NeRF, nerfstudio),"
     " or a COLMAP model's folder, such as sparse/0. Each becomes a frustum in the outside view."
@@ -54,14 +52,6 @@ def failed(name: str, problem: str) -> PoseWish:
         ("open", "Open cameras...", ""),
         ("close", "Close", f"Remove {one_line(name)} from the list"),
     )
-
-
-def waiting(name: str, time_s: float) -> PoseWish:
-    """Draw a set that is being read."""
-    if time_s < SHOWN_AFTER_S:
-        return ""
-    imgui.text_colored(theme.DIM, f"reading {one_line(name)} ...")
-    return "cancel" if progress(time_s, 6) else ""
 
 
 def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish, PosesOptions]:
@@ -129,14 +119,6 @@ def search(query: str, found: int, of: int) -> str:
     return str(query)
 
 
-def found(poses: PoseSet) -> None:
-    """Draw how many of the photographs are there."""
-    if poses.found:
-        lacking = poses.photographs is not None and len(poses.photographs) < len(poses.names)
-        wrapped(poses.found, theme.legible(theme.MARK) if lacking else theme.DIM)
-        tip(f"looked for from {one_line(str(poses.folder))}")
-
-
 def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
     """Return the rooms for the list and the photograph, and whether they are side by side."""
     room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
@@ -155,9 +137,8 @@ def rows(
 ) -> int | None:
     """Draw the list. Return the number of the clicked row. Only visible rows are made.
 
-    Cameras without a photograph are dim, if others have one. shown: the numbers of those that the
-    search found. chosen: the number of the selected one, -1 for none. scroll: scroll to it; without
-    a selection, to the first.
+    shown: the numbers of those that the search found. chosen: the number of the selected one, -1
+    for none. scroll: scroll to it; without a selection, to the first.
     """
     clicked = None
     if imgui.begin_child("list", room, LISTED):
@@ -174,14 +155,12 @@ def rows(
         while clipper.step():
             for number in shown[clipper.display_start : clipper.display_end]:
                 on = number == chosen
-                lacks = poses.photographs and number not in poses.photographs
-                imgui.push_style_color(imgui.Col_.text, theme.DIM if lacks else theme.TEXT)
                 if on:  # distinct from the one under the mouse
                     imgui.push_style_color(imgui.Col_.header, theme.FILL)
                     imgui.push_style_color(imgui.Col_.text, theme.rgb("#ffffff"))
                 if imgui.selectable(f"{one_line(poses.names[number])}###{number}", on)[0]:
                     clicked = number
-                imgui.pop_style_color(3 if on else 1)
+                imgui.pop_style_color(2 if on else 0)
         if not shown:
             imgui.text_colored(theme.DIM, "no name has that in it")
     imgui.end_child()

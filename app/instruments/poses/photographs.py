@@ -91,15 +91,6 @@ def photo_path(poses: PoseSet, number: int) -> Path | None:
     return poses.folder / image if image else None  # an absolute path stays unchanged
 
 
-def with_photographs(poses: PoseSet) -> PoseSet:
-    """Return the set, with the photographs that are there."""
-    paths = [photo_path(poses, number) for number in range(len(poses.names))]
-    if poses.format != "colmap" and not any(paths):  # COLMAP's cameras always have one
-        return poses
-    found = frozenset(number for number, path in enumerate(paths) if path and _is_there(path))
-    return replace(poses, photographs=found)
-
-
 def _is_there(path: Path) -> bool:
     try:
         return path.is_file()  # a pipe might never end

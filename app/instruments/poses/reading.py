@@ -1,5 +1,5 @@
 """Reading files of cameras: recognise them by name, read and prepare them on a thread, reload them
-when they are saved, and cancel on request.
+when they are saved.
 
 The last sets are cached, so that undo finds them at once.
 """
@@ -12,7 +12,6 @@ from pathlib import Path
 
 from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
 from lucida.app.instruments.poses.model import PoseSet, load_poses, pose_set
-from lucida.app.instruments.poses.photographs import with_photographs
 from lucida.app.ui.background import Background
 from lucida.app.ui.watching import FilesWatch
 from lucida.renderer.files.cameras.given import Given, Options, given
@@ -43,7 +42,6 @@ class PosesReader:
         self._sets: dict[str, PoseSet] = {}
         self.problems: dict[str, str] = {}
         self._asked = ""
-        self._began_s = 0.0
         self._files: dict[str, Noted] = {}
         self._watched, self._watch = "", FilesWatch({})
 
@@ -55,11 +53,6 @@ class PosesReader:
     @property
     def busy(self) -> bool:
         return bool(self._asked)
-
-    @property
-    def time_s(self) -> float:
-        """The duration of the current reading so far, in seconds."""
-        return time.monotonic() - self._began_s if self._asked else 0.0
 
     def give(self, poses: PoseSet) -> None:
         """Keep a set that was read elsewhere, just now."""
@@ -83,17 +76,9 @@ class PosesReader:
         found = self._sets.get(path)
         is_read = found is not None or path in self.problems
         if self._asked != path and (not is_read or self._is_changed(path)):
-            self._asked, self._began_s = path, time.monotonic()
+            self._asked = path
             self._work.submit(lambda: _read(path))
         return found
-
-    def cancel(self) -> None:
-        """Stop waiting. The current file is read to its end, and the result dropped."""
-        if self._asked:
-            self.problems[self._asked] = f"Reading {self._asked} was cancelled."
-            self._asked = ""
-            self._work.close(0.0)
-            self._work = Background("lucida-poses")
 
     def close(self) -> None:
         self._work.close()
@@ -146,13 +131,12 @@ def open_cameras(source: str, options: Options | None = None) -> PoseSet | Taken
         said = f"The camera is {path.name}'s: {told_of(found)}."
         view = View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
         return TakenCamera(view, one_line(said), posed)
-    return with_photographs(replace(pose_set(path, found), files=files))
+    return replace(pose_set(path, found), files=files)
 
 
 def _read(path: str) -> _Read:
     with noting() as files:
         try:
-            poses = pose_set(Path(path), load_poses(Path(path)))
-            return _Read(path, files, with_photographs(poses))
+            return _Read(path, files, pose_set(Path(path), load_poses(Path(path))))
         except LucidaError as error:
             return _Read(path, files, None, describe(error))

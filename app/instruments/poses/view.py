@@ -145,7 +145,8 @@ class PosesView(Instrument):
         elif self.problem:
             wish = panel.failed(name, self.problem)
         else:
-            wish = panel.waiting(name, self._reader.time_s)
+            wish = ""
+            imgui.text_colored(theme.DIM, f"reading {one_line(name)} ...")
             host.animate()
         self._grant(host, panel.keys() or wish)
         if self.poses is None:
@@ -160,7 +161,6 @@ class PosesView(Instrument):
             host.apply(state.with_options(changed))
         shown = self._matching(poses, self._query)
         self._query = panel.search(self._query, len(shown), len(poses.names))
-        panel.found(poses)
         for_list, for_photo, beside = panel.rooms(chosen >= 0)
         scroll = chosen != self._scrolled
         clicked = panel.rows(poses, shown, chosen, scroll, for_list)
@@ -225,8 +225,6 @@ class PosesView(Instrument):
             host.change(
                 host.state.with_options(replace(host.state.options.poses, file="", pose=-1))
             )
-        elif wish == "cancel":
-            self._reader.cancel()
         elif poses is None or not wish:
             return
         elif wish == "frame":

@@ -1,8 +1,8 @@
 """Every crossing of a ray's line with a scene: in front of the eye, behind it, hidden or not.
 
-A small index (boxes around runs of neighbouring triangles) keeps this interactive for a million
-triangles. Arithmetic is float64, in the order of renderer/trace/reference/intersect.py, whose
-reference tracer therefore finds the same numbers.
+A small index (boxes around runs of triangles, which files list near one another) keeps this
+interactive for a million of them. Arithmetic is float64, in the order of
+renderer/trace/reference/intersect.py, whose reference tracer therefore finds the same numbers.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from lucida.renderer.scene.positions import world_vertices
 from lucida.renderer.scene.sampling import are_passed
 
 RUN = 64  # triangles that share a box
-CELLS = 1023  # of the grid that sorts triangles, along each axis
 ROUNDING = 1e-12  # slack of boxes, relative to the coordinates
 SAME = 1e-9  # relative: crossings of one object nearer to each other are one (a common edge)
 
@@ -53,7 +52,6 @@ class Index:
     def __init__(self, flat: FlatScene) -> None:
         self.flat = flat
         self.vertices = world_vertices(flat)
-        self.order = _neighbours_in_order(flat, self.vertices)
         runs = [np.arange(first, first + count, RUN) for first, count in flat.object_faces if count]
         self._starts = np.concatenate(runs) if runs else np.zeros(0, np.int64)
         self._first_run = np.searchsorted(self._starts, flat.object_faces[:, 0])
@@ -106,7 +104,7 @@ class Index:
         if not len(self._starts):
             none = np.zeros((0, 3))
             return none, none
-        corners = self.vertices[self.flat.faces[self.order]]
+        corners = self.vertices[self.flat.faces]
         low = np.minimum.reduceat(corners.min(axis=1), self._starts, axis=0)
         high = np.maximum.reduceat(corners.max(axis=1), self._starts, axis=0)
         slack = ROUNDING * np.maximum(np.abs(low), np.abs(high)).max()
@@ -146,7 +144,7 @@ class Index:
         counts = self._ends[runs][met] - starts
         # All of start, start + 1, ..., start + count - 1, one after another.
         skipped = np.repeat(starts - np.cumsum(counts) + counts, counts)
-        return self.order[skipped + np.arange(counts.sum())]
+        return np.asarray(skipped + np.arange(counts.sum()), np.int64)
 
     def _spheres(self, p: Floats, d: Floats) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
         """Return the same for spheres, both crossings of each; see reference/intersect.py's
@@ -164,28 +162,6 @@ class Index:
         t = both[:, hit].ravel()
         zero = np.zeros(len(t))
         return t, np.tile(numbers, 2), zero, zero
-
-
-def _neighbours_in_order(flat: FlatScene, vertices: Floats) -> NDArray[np.int64]:
-    """Return the triangles of each object along a curve that keeps neighbours together.
-
-    Source: Morton, "A Computer Oriented Geodetic Data Base", 1966.
-    """
-    middle = vertices[flat.faces].sum(axis=1) / 3
-    low, high = flat.bounds
-    cell = ((middle - low) / np.maximum(high - low, 1e-30) * CELLS).clip(0, CELLS).astype(np.int64)
-    key = flat.face_object.astype(np.int64) << 30
-    for axis in range(3):
-        key |= spread_bits(cell[:, axis]) << axis
-    return np.argsort(key, kind="stable")
-
-
-def spread_bits(x: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return ten bits with two zeros between them."""
-    x = (x | x << 16) & 0x030000FF
-    x = (x | x << 8) & 0x0300F00F
-    x = (x | x << 4) & 0x030C30C3
-    return (x | x << 2) & 0x09249249
 
 
 def _single(found: Crossings) -> Crossings:

@@ -1,20 +1,20 @@
 r"""The way through a lens from a pixel's point to its direction, line by line, with its numbers.
 
 Symbols: (a', b') where the pixel is on the image plane at distance 1, b downwards; (a, b) where it
-would be without distortion, the ideal point; r, r' and theta, theta' lengths and angles of these;
-(X, Y, Z) the direction, Z forwards. The prime is what is distorted.
+would be without distortion, the ideal point; r, r' their lengths; theta the angle to the axis, and
+(U, V) its parts; (X, Y, Z) the direction, Z forwards. The prime is what is distorted.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from lucida.app.cameras.lens_choices import KINDS
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.ui.explaining.notation import (
     Line,
     Slot,
     formula,
-    latex_number,
     number,
     results,
     scalar_slot,
@@ -74,105 +74,25 @@ def lens_lines(reading: Reading) -> list[Line]:
 
 def _steps(lens: Lens, a: float, b: float, px: float) -> list[Line]:
     """Return the distortion, and Newton's steps that undo it for (a', b'). px: pixels per unit."""
-    found = lens.inverse_steps(a, b)
-    if not any(lens.coefficients.values()) or lens.model == "fov":
+    given = {name: value for name, value in lens.coefficients.items() if value}
+    if not given or lens.model == "fov":
         return []
-    lines = _distortion(lens)
-    radial = not any(lens.coefficient(name) for name in _TANGENTIAL)
-    symbol = _plane(lens, radial)
-    for count, (x, y, error) in enumerate(found):
-        values = (float(np.hypot(x, y)),) if radial else (float(x), float(y))
-        shown = results(values)
-        latex, text = (part.replace("?", str(count)) for part in symbol)
+    kind = KINDS[lens.model]
+    values = [(f"{name[:-1]}_{name[-1]}", name, number(value)) for name, value in given.items()]
+    in_latex = r",\ ".join(f"{letter} = {value}" for letter, _, value in values)
+    in_text = ", ".join(f"{name} = {value}" for _, name, value in values)
+    (latex, *_), (text, *_) = kind.latex.split(r",\quad "), kind.text.split(", ")
+    lines = [Line("distortion", "distortion", latex, in_latex, text, in_text)]
+    u, v = ("a", "b") if lens.model == "brown" else ("U", "V")
+    for count, (x, y, error) in enumerate(lens.inverse_steps(a, b)):
+        symbol = f"({u}_{count}, {v}_{count})"
         if count == 0 and (x, y) == (a, b):  # it begins at the distorted point
-            start = _start(lens, radial)
-            latex, text = f"{latex} = {start[0]}", f"{text} = {start[1]}"
-        off = f"{px * error:.2g} pixels"
+            symbol += " = (a', b')"
         name = f"Newton's method, step {count}" if count else "Newton's method begins"
-        lines.append(
-            Line(
-                f"step {count}",
-                f"{name}: {off} off",
-                rf"{latex} = {shown[0]}",
-                "",
-                f"{text} = {shown[1]}",
-                "",
-                values,
-            )
-        )
+        step = float(x), float(y)
+        key, off = f"step {count}", f"{px * error:.2g} pixels off"
+        lines.append(_result(key, f"{name}: {off}", (symbol, symbol), ("", ""), step))
     return lines
-
-
-_TANGENTIAL = ("p1", "p2", "s1", "s2", "s3", "s4", "sx1", "sy1")
-
-
-def _plane(lens: Lens, radial: bool) -> tuple[str, str]:
-    """Return the symbol of a step's result, with ? for its number."""
-    if lens.model == "brown":
-        return ("r_?", "r_?") if radial else ("(a_?, b_?)", "(a_?, b_?)")
-    return (r"\theta_?", "theta_?") if radial else ("(U_?, V_?)", "(U_?, V_?)")
-
-
-def _start(lens: Lens, radial: bool) -> tuple[str, str]:
-    if not radial:
-        return "(a', b')", "(a', b')"
-    return ("r'", "r'") if lens.model == "brown" else (r"\theta'", "theta'")
-
-
-def _distortion(lens: Lens) -> list[Line]:
-    """Return what the lens does to a radius or a point, without terms that are 0."""
-    brown = lens.model == "brown"
-    radial = not any(lens.coefficient(name) for name in _TANGENTIAL)
-    r, r_text = ("r", "r") if brown else THETA
-    if not radial and not brown:
-        r = r_text = "R"
-    names = ("k1", "k2", "k3", "r8" if brown else "k4")
-    above = _polynomial(lens, names, r, r_text)
-    below = _polynomial(lens, ("k4", "k5", "k6"), r, r_text) if brown else None
-    factor, factor_text = f"({above[0]})", f"({above[1]})"
-    if below is not None and below[0] != "1":
-        factor = rf"\frac{{{above[0]}}}{{{below[0]}}}"
-        factor_text = f"({above[1]}) / ({below[1]})"
-    name = f"distortion, {r_text}^2 = {'a^2 + b^2' if brown else 'U^2 + V^2'}"
-    if radial:
-        name = f"distortion, {r_text}' = |(a', b')|"
-        latex, text = rf"{r}' = {r}\,{factor}", f"{r_text}' = {r_text} {factor_text}"
-        return [Line("distortion", name, latex, "", text, "")]
-    a, b = ("a", "b") if brown else ("U", "V")
-    lines = []
-    for axis, p, q, s in (
-        (a, "p1", "p2", ("s1", "s2") if brown else ("sx1",)),
-        (b, "p2", "p1", ("s3", "s4") if brown else ("sy1",)),
-    ):
-        parts = [(rf"{axis}\,{factor}", f"{axis} {factor_text}")]
-        if value := lens.coefficient(p):
-            parts.append(_term(2 * value, f"{a} {b}", f"{a} {b}"))
-        if value := lens.coefficient(q):
-            parts.append(_term(value, f"({r}^2 + 2 {axis}^2)", f"({r_text}^2 + 2 {axis}^2)"))
-        for power, name_ in zip(("2", "4"), s, strict=False):
-            if value := lens.coefficient(name_):
-                parts.append(_term(value, f"{r}^{power}", f"{r_text}^{power}"))
-        prime = "a'" if axis == a else "b'"
-        latex, text = (" ".join(part) for part in zip(*parts, strict=True))
-        lines.append(
-            Line(f"distortion {axis}", name, f"{prime} = {latex}", "", f"{prime} = {text}", "")
-        )
-    return lines
-
-
-def _polynomial(lens: Lens, names: tuple[str, ...], r: str, text: str) -> tuple[str, str]:
-    """Return 1 + k1 r^2 + ... as LaTeX and as text."""
-    parts = [("1", "1")]
-    for power, name in zip((2, 4, 6, 8), names, strict=False):
-        if value := lens.coefficient(name):
-            parts.append(_term(value, f"{r}^{power}", f"{text}^{power}"))
-    latex, plain = (" ".join(part) for part in zip(*parts, strict=True))
-    return latex, plain
-
-
-def _term(value: float, latex: str, text: str) -> tuple[str, str]:
-    sign = "+" if value > 0 else "-"
-    return rf"{sign} {latex_number(abs(value))}\,{latex}", f"{sign} {number(abs(value))} {text}"
 
 
 def _direction(
@@ -183,9 +103,7 @@ def _direction(
     lines: list[Line] = []
     if brown:
         ideal = (way[0], way[1])
-        radial = not any(lens.coefficient(name) for name in _TANGENTIAL)
-        right = (r"\frac{r}{r'}\,(a', b')", "(r / r') (a', b')") if radial else ("", "")
-        lines.append(_result("ideal", "the ideal point", ("(a, b)", "(a, b)"), right, ideal))
+        lines.append(_result("ideal", "the ideal point", ("(a, b)", "(a, b)"), ("", ""), ideal))
     else:
         lines += _angle(lens, place, way)
     symbols = ("d a", "-d b", "-d") if brown else ("d X", "-d Y", "-d Z")
@@ -227,15 +145,14 @@ def _angle(lens: Lens, place: tuple[float, float], way: list[float]) -> list[Lin
             _result("radius", "from the middle", ("r'", "r'"), length, (radius,)),
             _result("angle", "angle to the axis", THETA, ANGLES[lens.model], (angle,)),
         ]
-    elif any(lens.coefficient(name) for name in _TANGENTIAL):
-        shares = (r"\frac{U}{\theta}", "U / theta"), (r"\frac{V}{\theta}", "V / theta")
-        length = (r"\sqrt{U^2 + V^2}", "sqrt(U^2 + V^2)")
-        lines.append(_result("angle", "angle to the axis", THETA, length, (angle,)))
     else:
-        shares = (r"\frac{a'}{\theta'}", "a' / theta'"), (r"\frac{b'}{\theta'}", "b' / theta'")
-        if not any(lens.coefficients.values()):
-            length = (r"\sqrt{a'^2 + b'^2}", "sqrt(a'^2 + b'^2)")
-            lines.append(_result("angle", "angle to the axis", THETA, length, (angle,)))
+        u, v = ("U", "V") if any(lens.coefficients.values()) else ("a'", "b'")
+        shares = (
+            (rf"\frac{{{u}}}{{\theta}}", f"{u} / theta"),
+            (rf"\frac{{{v}}}{{\theta}}", f"{v} / theta"),
+        )
+        length = (rf"\sqrt{{{u}^2 + {v}^2}}", f"sqrt({u}^2 + {v}^2)")
+        lines.append(_result("angle", "angle to the axis", THETA, length, (angle,)))
     (x, x_text), (y, y_text) = shares
     right = (
         rf"\left(\sin\theta\,{x},\ \sin\theta\,{y},\ \cos\theta\right)",

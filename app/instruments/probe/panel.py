@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
@@ -49,14 +49,6 @@ _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "
 Shown = tuple[tuple[int, int, int], Color]  # a pixel's bytes, and its colour, 0..1
 
 
-@dataclass(frozen=True)
-class Pin:
-    """A pinned pixel with its current colour, 0..255; None while unknown."""
-
-    pixel: Pixel
-    color: tuple[int, int, int] | None
-
-
 # The tools above.
 
 
@@ -73,13 +65,6 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
     tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
     if changed:
         state = state.with_options(replace(state.options, one_based=one_based))
-    pins = state.options.probe.pins
-    follow(button_width("Pin"))
-    imgui.begin_disabled(pixel is None or pixel in pins)
-    if imgui.button("Pin") and pixel is not None:
-        state = state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
-    imgui.end_disabled()
-    imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
     follow(button_width("Copy ..."))
     imgui.begin_disabled(reading is None)
     if imgui.button("Copy ..."):
@@ -90,30 +75,6 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
             if imgui.menu_item_simple(name) and reading is not None:
                 imgui.set_clipboard_text(written(reading, indexing, state.options.notation))
         imgui.end_popup()
-    return state
-
-
-def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppState:
-    """Draw the pinned pixels as buttons: a click goes to a pin, a right click removes it."""
-    indexing = state.options.indexing
-    for count, pin in enumerate(pins):
-        name = f"{count + 1}: {indexing.text(pin.pixel)}"
-        side = imgui.get_frame_height()
-        if count:
-            follow(button_width(name) + side)
-        if pin.color is not None:
-            _swatch(tuple(part / 255 for part in pin.color), side)
-            imgui.same_line(0, 0)
-        if pin.pixel == pixel:
-            imgui.push_style_color(imgui.Col_.text, theme.legible(theme.MARK))
-        if imgui.button(f"{name}###pin{count}"):
-            state = state.with_options(replace(state.options, marked=pin.pixel))
-        if pin.pixel == pixel:
-            imgui.pop_style_color()
-        if imgui.is_item_clicked(imgui.MouseButton_.right):
-            kept = tuple(one for one in state.options.probe.pins if one != pin.pixel)
-            state = state.with_options(replace(state.options.probe, pins=kept))
-        imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
     return state
 
 

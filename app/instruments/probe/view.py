@@ -15,14 +15,11 @@ import numpy as np
 from imgui_bundle import imgui
 
 from lucida.app.images.pair.marks import walked
-from lucida.app.images.pair.view import RasterView
 from lucida.app.images.request import MIRROR_DEPTH
-from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Segments
-from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.diagram import Arrow, Item
 from lucida.app.instruments.outside.growing import stage_at, stages_of
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.instruments.probe import panel
-from lucida.app.instruments.probe.actions import PINNING
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.state.app_state import AppState
@@ -51,7 +48,6 @@ HINT = "Point at a pixel in an image or on the image plane. A click keeps it; th
 class ProbeView(Instrument):
     name = PROBE
     title = "Probe"
-    actions = PINNING
     keyboard = (("arrows in the probe", "another pixel; Shift: by ten"),)
     synonyms = {
         "Probe": "ray formula intersection pixel",
@@ -59,7 +55,6 @@ class ProbeView(Instrument):
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
-        view_of(views, RasterView).linked.pins = lambda state: state.options.probe.pins
         self._making: Background[Probe] | None = None
         self._probe: Probe | None = None
         self._wanted: Any = None  # the scene that is being prepared, or is
@@ -96,9 +91,6 @@ class ProbeView(Instrument):
         reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
         self.reading = reading
         host.apply(panel.toolbar(host.state, pixel, size, reading))
-        pins = self._pins(host, size)
-        if pins:
-            host.apply(panel.pin_row(host.state, pins, pixel))
         shown = None
         if reading is not None and not reading.is_outside:
             shown = reading.bytes, reading.display
@@ -120,7 +112,8 @@ class ProbeView(Instrument):
             stage = stage_at(position, stages) if position is not None else ""
             panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
         imgui.end_child()
-        self._show_outside(host, reading, size)
+        length = NORMAL * host.focus.reach
+        self._outside.show(PROBE, self._items(reading, length))
 
     # The readings.
 
@@ -154,19 +147,9 @@ class ProbeView(Instrument):
             return None
         images, options = state.images, state.options
         depth = MIRROR_DEPTH if options.mirrors else 0
-        self._readings.most = 1 + len(options.probe.pins)
         return self._readings(
             probe, pixel, camera, size, images.exposure_ev, images.transfer, options.shadows, depth
         )
-
-    def _pins(self, host: Host, size: Size) -> list[panel.Pin]:
-        state, camera = host.state, host.renderers.camera(host.state)
-        pins = []
-        for pixel in state.options.probe.pins:
-            inside = pixel[0] < size[1] and pixel[1] < size[0]
-            reading = self._reading(state, pixel if inside else None, camera, size)
-            pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
-        return pins
 
     def _walk(self, host: Host, size: Size) -> None:
         """Handle the arrow keys while the panel has them. They are taken from ImGui's navigation,
@@ -186,46 +169,11 @@ class ProbeView(Instrument):
                 host.state.with_options(replace(host.state.options, marked=pixel)), (PROBE, "walk")
             )
 
-    # In the outside view.
 
-    def _show_outside(self, host: Host, reading: Reading | None, size: Size) -> None:
-        state, camera = host.state, host.renderers.camera(host.state)
-        pins = [self._reading(state, pin, camera, size) for pin in state.options.probe.pins]
-        pinned = tuple(pin for pin in pins if pin is not None)
-        end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
-        self._outside.show(PROBE, self._items(reading, pinned, end, length))
-
-
-def _outside_items(
-    reading: Reading | None,
-    pinned: tuple[Reading, ...],
-    end: float,
-    normal: float,
-) -> tuple[Item, ...]:
-    """Return the lines of a reading and of the pins.
-
-    end: ray parameter at which a ray that hits nothing ends. normal: length of the arrow.
-    """
-    items: list[Item] = []
-    for pin in pinned:
-        t = pin.hit.t if pin.hit is not None else end
-        items.append(_ray(pin, t))
-        if pin.hit is not None:
-            items.append(Dot("pinned hit", "mark", np.array(pin.hit.point), 3.5))
-    if reading is not None and reading.hit is not None:
-        items += _normal(reading, normal)
-    return tuple(items)
-
-
-def _ray(pin: Reading, t: float) -> Segments:
-    """Return the viewing ray of a pin as far as t."""
-    origin = np.array(pin.origin)
-    segment = np.array([[origin, origin + t * np.array(pin.direction)]])
-    return Segments("pin", "ray", segment, 1.2, 0.9, hidden=0.2, dashed=True, layer=2)
-
-
-def _normal(reading: Reading, length: float) -> Sequence[Item]:
-    assert reading.hit is not None
+def _outside_items(reading: Reading | None, length: float) -> tuple[Item, ...]:
+    """Return the normal at a reading's hit. length: of the arrow."""
+    if reading is None or reading.hit is None:
+        return ()
     point = np.array(reading.hit.point)
     tip = point + length * np.array(reading.hit.normal)
-    return [Arrow("normal", "extra", point, tip, width=2.2, head=10.0)]
+    return (Arrow("normal", "extra", point, tip, width=2.2, head=10.0),)

@@ -20,7 +20,6 @@ from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.state.options.pair import PairOptions
 from lucida.app.state.options.photograph import PhotographOptions
 from lucida.app.state.options.poses import PosesOptions
-from lucida.app.state.options.probe import ProbeOptions
 from lucida.app.state.options.shared import SharedOptions
 from lucida.app.state.options.stepper import StepperOptions
 from lucida.app.state.options.your_code import YourCodeOptions
@@ -35,7 +34,6 @@ class Options(SharedOptions):
     compare: CompareOptions = field(default_factory=CompareOptions)
     outside: OutsideOptions = field(default_factory=OutsideOptions)
     objects: ObjectsOptions = field(default_factory=ObjectsOptions)
-    probe: ProbeOptions = field(default_factory=ProbeOptions)
     stepper: StepperOptions = field(default_factory=StepperOptions)
     costs: CostOptions = field(default_factory=CostOptions)
     laboratory: LaboratoryOptions = field(default_factory=LaboratoryOptions)

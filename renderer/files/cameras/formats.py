@@ -61,7 +61,7 @@ FORMATS = (
     Format("colmap", "COLMAP's model", "the files cameras and images", ("",)),
     Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, (".json",)),
     Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
-    Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml", ".json")),
+    Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml",)),
     Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),
 )
 

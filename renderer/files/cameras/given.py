@@ -21,14 +21,12 @@ class Options:
     """The command's options.
 
     pixel_origin: None for the format's own. size: for cameras that have none. ignore_distortion:
-    read a camera with a lens as a pinhole. ending: of the file to write, with its dot, if the
-    format has several.
+    read a camera with a lens as a pinhole.
     """
 
     pixel_origin: PixelOrigin | None = None
     size: Size | None = None
     ignore_distortion: bool = False
-    ending: str = ""
 
 
 @dataclass(frozen=True)

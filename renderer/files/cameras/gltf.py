@@ -76,7 +76,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     for number, posed in enumerate(cameras):
         camera, size = sized(posed, options)
         camera = rigid(camera, "gltf", size)
-        lenses.append(camera_table(camera, size, open_aspect=_is_open(posed, options)))
+        lenses.append(camera_table(camera, size))
         nodes.append({"name": posed.name, "camera": number, "matrix": node_matrix(camera)})
         if not posed.name:
             del nodes[-1]["name"]
@@ -96,11 +96,10 @@ def node_matrix(camera: Camera) -> list[float]:
     return numbers
 
 
-def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -> dict[str, Any]:
+def camera_table(camera: Camera, size: Size | None) -> dict[str, Any]:
     """Return an entry of a tree's cameras, for a rigid camera.
 
-    size: of the image, if known. open_aspect: leave the aspect ratio to the image. Raises
-    LucidaError for an off-centre viewport.
+    size: of the image, if known. Raises LucidaError for an off-centre viewport.
     """
     left, right, bottom, top = camera.viewport
     width, height = right - left, top - bottom
@@ -126,8 +125,7 @@ def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -
         }
     else:
         fields: dict[str, Any] = {"yfov": 2 * math.atan2(height / 2, camera.distance), **clip}
-        if not open_aspect:
-            fields["aspectRatio"] = width / height
+        fields["aspectRatio"] = width / height
         if camera.far is None:
             del fields["zfar"]  # glTF's infinite projection
         table = {"type": "perspective", "perspective": fields}
@@ -135,12 +133,6 @@ def camera_table(camera: Camera, size: Size | None, open_aspect: bool = False) -
     if made:
         table["extras"] = {UNCLIPPED: made}
     return table
-
-
-def _is_open(posed: PosedCamera, options: Options) -> bool:
-    """Return True if the file should leave the aspect ratio to the renderer."""
-    left, right, bottom, top = posed.camera.viewport
-    return posed.fit and (posed.size or options.size) is None and right - left <= top - bottom
 
 
 def _as_wide(camera: Camera, aspect: float) -> Camera:

@@ -42,26 +42,23 @@ Table = Mapping[str, Any]
 # The coefficients of Lens by their names here: four radial and two tangential ones.
 _OPENCV = {"k1": "k1", "k2": "k2", "k3": "k3", "k4": "r8", "p1": "p1", "p2": "p2"}
 _FISHEYE = {name: name for name in FISHEYE_NAMES}
-PANORAMA = "EQUIRECTANGULAR"
-# The model of Lens by the name of a camera_model; "" if all angles are those of a pinhole's lens.
+# The model of Lens by the name of a camera_model.
 _MODELS = {
     **dict.fromkeys(("", "PERSPECTIVE", "PINHOLE", "SIMPLE_PINHOLE"), "brown"),
     **dict.fromkeys(("SIMPLE_RADIAL", "RADIAL", "OPENCV"), "brown"),
     **dict.fromkeys(("SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE", "FISHEYE"), "fisheye"),
     "OPENCV_FISHEYE": "fisheye",
-    PANORAMA: "equirectangular",
 }
 # The camera_model that is written, by the model of Lens.
 _WRITTEN = {
     "brown": "OPENCV",
     "fisheye": "OPENCV_FISHEYE",
     "equidistant": "OPENCV_FISHEYE",
-    "equirectangular": PANORAMA,
 }
 LENSES = tuple(_WRITTEN)
 
 _USED = {
-    *("frames", "transform_matrix", "file_path", "camera_model", "is_fisheye", "latlong"),
+    *("frames", "transform_matrix", "file_path", "camera_model", "is_fisheye"),
     *("fl_x", "fl_y", "cx", "cy", "w", "h", "camera_angle_x", "camera_angle_y"),
     *_OPENCV,
 }
@@ -177,12 +174,11 @@ def _camera(table: Table, size: Size | None, folder: Path | None, options: Optio
             if side not in table:
                 raise LucidaError(side, "is missing", "give w and h, or neither and --size WxH")
         size = size_of("w", table["w"], table["h"])
-    is_panorama = table.get("camera_model") == PANORAMA or bool(table.get("latlong"))
-    if size is None and (is_panorama or "fl_x" in table or "camera_angle_x" not in table):
+    if size is None and ("fl_x" in table or "camera_angle_x" not in table):
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
     pixels = size or _ANY_SIZE
     K = _intrinsics(table, pixels, pixel_offset(options.pixel_origin or "corner"))
-    lens, ignored = _lens(table, is_panorama, options)
+    lens, ignored = _lens(table, options)
     try:
         with np.errstate(all="ignore"):
             pose = np.linalg.inv(world_from_camera)
@@ -206,9 +202,6 @@ def _intrinsics(table: Table, size: Size, offset: float) -> Floats:
     def entry(name: str, default: float) -> float:
         return number_of(name, table[name]) if name in table else default
 
-    if table.get("latlong"):  # of the whole sphere
-        fx, fy = width / (2 * math.pi), height / math.pi
-        return np.array([[fx, 0, width / 2], [0, fy, height / 2], [0, 0, 1.0]])
     if "fl_x" in table:
         fx = fy = entry("fl_x", 0.0)
     elif "camera_angle_x" in table:
@@ -219,8 +212,6 @@ def _intrinsics(table: Table, size: Size, offset: float) -> Floats:
         raise LucidaError("fl_x", "is missing", "give fl_x or camera_angle_x")
     fy = entry("fl_y", fy)
     cx, cy = entry("cx", width / 2) + offset, entry("cy", height / 2) + offset
-    if table.get("camera_model") == PANORAMA:
-        fx, fy = fx / math.pi, fy / math.pi
     return np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
 
 
@@ -233,15 +224,15 @@ def _half_width(table: Table, name: str) -> float:
     return math.tan(angle / 2)
 
 
-def _lens(table: Table, is_panorama: bool, options: Options) -> FileLens:
-    given = PANORAMA if is_panorama else table.get("camera_model", "")
+def _lens(table: Table, options: Options) -> FileLens:
+    given = table.get("camera_model", "")
     model = _MODELS.get(given) if isinstance(given, str) else None
     if model is None:
         problem = f"{given!r} is a lens that is not supported"
         raise LucidaError("camera_model", problem, "give images of a camera with another lens")
     if model == "brown" and table.get("is_fisheye") is True:
         model = "fisheye"
-    names = {"brown": _OPENCV, "fisheye": _FISHEYE}.get(model, {})
+    names = _FISHEYE if model == "fisheye" else _OPENCV
     found = {own: number_of(name, table[name]) for name, own in names.items() if name in table}
     return lens_of(model, found, options)
 
@@ -276,12 +267,8 @@ def _frame(
 ) -> dict[str, Any]:
     camera, size = in_image(posed, options, "NeRF")
     camera, (fx, fy, cx, cy) = pinhole(camera, size, "NeRF")
-    offset, frame = pixel_offset(origin), _coefficients(camera.lens, model)
-    if model == PANORAMA:
-        fx, fy = math.pi * fx, math.pi * fy
-    else:
-        angles = zip("xy", size, (fx, fy), strict=True)
-        frame |= {f"camera_angle_{axis}": 2 * math.atan(side / 2 / f) for axis, side, f in angles}
+    offset = pixel_offset(origin)
+    angles = zip("xy", size, (fx, fy), strict=True)
     return {
         "file_path": posed.name or posed.image or f"frame_{index:05}",
         "w": size[0],
@@ -290,6 +277,7 @@ def _frame(
         "fl_y": fy,
         "cx": cx - offset,
         "cy": cy - offset,
-        **frame,
+        **_coefficients(camera.lens, model),
+        **{f"camera_angle_{axis}": 2 * math.atan(side / 2 / f) for axis, side, f in angles},
         "transform_matrix": pose_of(camera).tolist(),
     }

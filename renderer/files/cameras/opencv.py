@@ -46,7 +46,6 @@ from lucida.renderer.files.cameras.storage import (
     Table,
     is_ini,
     table_in,
-    to_json,
     to_yaml,
 )
 from lucida.renderer.files.cameras.unused import entries_of, notes_on, numbers_in
@@ -126,8 +125,6 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "t": t[:, None],
         "rvec": to_vector(R)[:, None],
     }
-    if options.ending == ".json":
-        return {"": to_json({"conventions": " ".join(notes)} | table).encode()}
     return {"": to_yaml(table, notes).encode()}
 
 

@@ -77,19 +77,6 @@ def to_yaml(table: Table, comments: list[str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def to_json(table: Table) -> str:
-    """Return JSON that cv2.FileStorage reads."""
-    return json.dumps({name: _as_json(value) for name, value in table.items()}, indent=4) + "\n"
-
-
-def _as_json(value: Any) -> Any:
-    if not isinstance(value, np.ndarray):
-        return value
-    rows, cols = value.shape
-    data = value.ravel().tolist()
-    return {"type_id": "opencv-matrix", "rows": rows, "cols": cols, "dt": "d", "data": data}
-
-
 def _value(value: Any) -> Any:
     """Return a value in which a table that has data is only its data: a matrix, row by row."""
     if not isinstance(value, dict):

@@ -5,7 +5,6 @@ gltf_scene      the scene as a .glb file
 glb_tree        the tree of that file, and its binary part
 meshes          triangles as glTF needs them
 materials       the nearest of glTF's materials, and the lights' strengths
-checkers        checkers on texture coordinates
 """
 
 from lucida.renderer.files.export.export import ENDINGS, check_export_path, export_scene

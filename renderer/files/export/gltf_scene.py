@@ -17,7 +17,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.gltf import camera_table, node_matrix
 from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.export.checkers import with_checker_uv
 from lucida.renderer.files.export.glb_tree import GlbTree, glb_bytes
 from lucida.renderer.files.export.materials import (
     LeftOut,
@@ -28,11 +27,9 @@ from lucida.renderer.files.export.materials import (
 )
 from lucida.renderer.files.export.meshes import Triangles, arrays_of, unit_sphere, wound
 from lucida.renderer.files.models.gltf_textures import WRAP_NAMES
-from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.images.png import png_of
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
-    Checker,
     Color,
     DirectionalLight,
     Mesh,
@@ -47,7 +44,7 @@ from lucida.renderer.system.cancelling import check_cancelled
 DIELECTRIC = 0.04  # the reflectance of a non-metallic glTF material at normal incidence
 SKEWED = 1e-6  # with a larger cosine, a transform is not just rotation and scale
 SPHERE_RINGS = 64
-NEAREST, LINEAR, REPEAT = 9728, 9729, 10497  # filters, a wrap
+LINEAR = 9729  # a filter
 LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 
 
@@ -98,7 +95,7 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
     check_cancelled()
     shape, material = entry.shape, entry.material
     name = repr(entry.name) if entry.name else f"object {number}"
-    texture, checker = material.image, None
+    texture = material.image
     is_mapped = texture is not None and not isinstance(shape, Sphere)
     table = _material(material, is_mapped, name, left)
     if isinstance(shape, Sphere):
@@ -110,22 +107,12 @@ def _object_node(made: GlbTree, number: int, entry: Any, left: LeftOut) -> dict[
         primitive = made.primitive(unit_sphere, SPHERE_RINGS)
     else:
         own = arrays_of(shape)
-        if material.checker is not None and shape.colors is None:
-            checker = material.checker if with_checker_uv(wound(own), material.checker) else None
         if texture is not None:
             table["pbrMetallicRoughness"] |= _textured(made, material, texture, name, left)
-        elif checker is not None:
-            table["pbrMetallicRoughness"] |= _checker(made, material, name, left)
         place, linear = _place(shape)
-        primitive = made.primitive(
-            _triangles, own, texture, checker, linear, not material.single_sided
-        )
-    if material.checker is not None and checker is None:
-        left.add(
-            f"checker of {name}",
-            "glTF has pictures only, which fit faces along the object's axes; the mean of its "
-            "colours was written",
-        )
+        primitive = made.primitive(_triangles, own, texture, linear, not material.single_sided)
+    if material.checker is not None:
+        left.add(f"checker of {name}", "glTF has none; the mean of its colours was written")
     mesh = made.mesh(primitive, table, entry.name)
     node = {"mesh": mesh, "matrix": place.T.ravel().tolist()}
     return node | ({"name": entry.name} if entry.name else {})
@@ -147,14 +134,11 @@ def _place(mesh: Mesh) -> tuple[NDArray[np.float64], tuple[float, ...] | None]:
 def _triangles(
     own: Triangles,
     texture: Texture | None,
-    checker: Checker | None,
     linear: tuple[float, ...] | None,
     turns: bool,
 ) -> Triangles:
     found = wound(own, turns)
-    if checker is not None:
-        found = with_checker_uv(found, checker) or found
-    elif texture is not None:
+    if texture is not None:
         found = _with_uv(found, texture)
     if linear is None:
         return found
@@ -193,29 +177,8 @@ def _material(material: Material, is_mapped: bool, name: str, left: LeftOut) -> 
     }
 
 
-def _checker(made: GlbTree, material: Material, name: str, left: LeftOut) -> dict[str, Any]:
-    """Return the base colour of a checker on texture coordinates.
-
-    It is a picture of 2 x 2 pixels, times the maximum of its colours per channel, so that 8 bits
-    are enough.
-    """
-    assert material.checker is not None
-    colors = [
-        reflectance(color, name, left) for color in (material.diffuse, material.checker.diffuse)
-    ]
-    brightest = np.max(colors, axis=0)
-    first, other = np.array(colors) / np.where(brightest > 0, brightest, 1)
-    texels = to_srgb8([[first, other], [other, first]])
-    return {
-        "baseColorFactor": [*brightest.tolist(), 1.0],
-        "baseColorTexture": _picture(made, texels, NEAREST, (REPEAT, REPEAT)),
-    }
-
-
-def _picture(
-    made: GlbTree, texels: NDArray[np.uint8], filtered: int, wraps: Iterable[int]
-) -> dict[str, int]:
-    return {"index": made.texture(png_of(texels), filtered, filtered, *wraps)}
+def _picture(made: GlbTree, texels: NDArray[np.uint8], wraps: Iterable[int]) -> dict[str, int]:
+    return {"index": made.texture(png_of(texels), LINEAR, LINEAR, *wraps)}
 
 
 def _with_uv(found: Triangles, texture: Texture) -> Triangles:
@@ -233,11 +196,11 @@ def _textured(
     wraps = [numbers[way] for way in texture.wrap]
     table: dict[str, Any] = {
         "baseColorFactor": [*reflectance(material.diffuse, name, left), 1.0],
-        "baseColorTexture": _picture(made, texture.texels, LINEAR, wraps),
+        "baseColorTexture": _picture(made, texture.texels, wraps),
     }
     if (metal := material.metal) is not None:
         table |= {
-            "metallicRoughnessTexture": _picture(made, metal.texels, LINEAR, wraps),
+            "metallicRoughnessTexture": _picture(made, metal.texels, wraps),
             "metallicFactor": metal.metalness,
             "roughnessFactor": metal.roughness,
         }

@@ -87,22 +87,14 @@ def unit_sphere(rings: int) -> Triangles:
     """Return a sphere of radius 1, with twice as many segments around y as rings from pole
     to pole.
     """
-    segments = 2 * rings
-    polar = np.linspace(0, np.pi, rings + 1)[1:-1, None]
-    around = np.linspace(0, 2 * np.pi, segments, endpoint=False)
+    polar = np.linspace(0, np.pi, rings + 1)[:, None]
+    around = np.linspace(0, 2 * np.pi, 2 * rings + 1)
     x, z = np.sin(polar) * np.cos(around), -np.sin(polar) * np.sin(around)
-    middle = np.stack([x, np.broadcast_to(np.cos(polar), x.shape), z], axis=-1).reshape(-1, 3)
-    points = np.vstack([middle, (0, 1, 0), (0, -1, 0)]).astype(np.float32)
-    here = np.arange(segments)
-    after = (here + 1) % segments
-    first = segments * np.arange(rings - 2)[:, None]
-    upper, lower = first + here, first + segments + here
-    upper_next, lower_next = first + after, first + segments + after
-    last, top = segments * (rings - 2), segments * (rings - 1)
-    faces = [
-        np.stack([upper, lower, lower_next], axis=-1).reshape(-1, 3),
-        np.stack([upper, lower_next, upper_next], axis=-1).reshape(-1, 3),
-        np.column_stack([np.full(segments, top), here, after]),
-        np.column_stack([last + after, last + here, np.full(segments, top + 1)]),
-    ]
-    return Triangles(points, np.vstack(faces).astype(np.int32), points)
+    y = np.broadcast_to(np.cos(polar), x.shape)
+    points = np.stack([x, y, z], axis=-1).reshape(-1, 3).astype(np.float32)
+    number = np.arange(len(points)).reshape(x.shape)
+    upper, lower = number[:-1], number[1:]
+    left = np.stack([upper[:, :-1], lower[:, :-1], lower[:, 1:]], axis=-1)[:-1]
+    right = np.stack([upper[:, :-1], lower[:, 1:], upper[:, 1:]], axis=-1)[1:]  # none at a pole
+    faces = np.concatenate([left.reshape(-1, 3), right.reshape(-1, 3)]).astype(np.int32)
+    return Triangles(points, faces, points)

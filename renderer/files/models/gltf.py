@@ -83,12 +83,8 @@ class GltfContent:
     nodes: list[PlacedNode]
 
 
-def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfContent:
-    """Return the content of a .gltf or .glb file. Raises LucidaError.
-
-    images: for its textures.
-    is_mapped: all parts with texture coordinates.
-    """
+def read_gltf(path: Path, images: ModelImages) -> GltfContent:
+    """Return the content of a .gltf or .glb file. images: for its textures. Raises LucidaError."""
     file = OpenGltf(path)
     tree = file.tree
     nodes = list(placed_nodes(tree))
@@ -107,18 +103,14 @@ def read_gltf(path: Path, images: ModelImages, is_mapped: bool = False) -> GltfC
         given = entry.primitive
         material = None if given.material is None else materials[given.material]
         has_backs = material is not None and material.single_sided
-        places = _coordinates_of(tree, given, is_mapped)
+        places = _coordinates_of(tree, given)
         # A few bytes of JSON can show one buffer a thousand times: it is built once.
         numbers = given.indices, *map(given.attributes.get, TYPES), places
         key = given.mode, has_backs, *(_accessor(tree, number) for number in numbers)
         if key not in parts:
             check_cancelled()
             fields = _fields(file, given, entry.field)
-            colors = fields["vertex_colors"]
-            is_cut = material is not None and material.cutout is not None
-            if is_cut and colors is not None and colors.shape[1] == 4 and _is_clear(colors[:, 3]):
-                images.note("the opacity of vertices cuts no holes", "materials")
-            fields["vertex_colors"] = linear_colors(colors, linear=True)
+            fields["vertex_colors"] = linear_colors(fields["vertex_colors"], linear=True)
             fields["uv"] = _coordinates(file, places, images)
             parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
         placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
@@ -172,12 +164,9 @@ def _triangles(tree: Gltf, primitive: Primitive) -> int:
     return count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
 
 
-def _coordinates_of(tree: Gltf, primitive: Primitive, is_mapped: bool) -> int | None:
-    """Return the accessor of a primitive's texture coordinates, if its material has an image.
-
-    is_mapped: without an image, the accessor of its first coordinates.
-    """
-    name = "TEXCOORD_0" if is_mapped else ""
+def _coordinates_of(tree: Gltf, primitive: Primitive) -> int | None:
+    """Return the accessor of a primitive's texture coordinates: those of its material's image."""
+    name = "TEXCOORD_0"
     if primitive.material is not None:
         pbr = tree.materials[primitive.material].pbr_metallic_roughness
         if info := pbr.base_color_texture or pbr.metallic_roughness_texture:
@@ -192,11 +181,6 @@ def _coordinates(file: OpenGltf, number: int | None, images: ModelImages) -> NDA
     except LucidaError as error:
         images.note(str(error))
         return None
-
-
-def _is_clear(opacity: NDArray[Any]) -> bool:
-    most = np.iinfo(opacity.dtype).max if opacity.dtype.kind in "ui" else 1
-    return bool((opacity < most).any())
 
 
 def _fields(file: OpenGltf, primitive: Primitive, where: str) -> dict[str, Any]:

@@ -58,16 +58,8 @@ class BufferView(Table):
     byte_stride: Count | None = None
 
 
-class SparsePart(Value, frozen=True):
-    buffer_view: Index
-    byte_offset: Index = 0
-    component_type: int = 0  # of the indices
-
-
 class Sparse(Value, frozen=True):
-    count: Index
-    indices: SparsePart
-    values: SparsePart
+    """Numbers in place of some others, which are refused."""
 
 
 class Accessor(Value, frozen=True):

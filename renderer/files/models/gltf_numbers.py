@@ -16,10 +16,8 @@ from lucida.renderer.files.models.gltf_file import (
     TRIANGLE_LIST,
     Accessor,
     OpenGltf,
-    SparsePart,
     entry_at,
 )
-from lucida.renderer.scene.limits import BINARY_MODEL_BYTES
 from lucida.renderer.system.errors import LucidaError
 
 COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
@@ -41,46 +39,20 @@ def read_numbers(file: OpenGltf, number: int, types: tuple[str, ...], field: str
     Raises LucidaError.
     """
     accessor: Accessor = entry_at(file.tree.accessors, number, field)
-    field, sparse = f"accessors[{number}]", accessor.sparse
+    field = f"accessors[{number}]"
     kind = COMPONENT_TYPES.get(accessor.component_type)
     if accessor.type not in types or kind is None:
         problem = f"is {accessor.type[:20]} of type {accessor.component_type}"
         raise LucidaError(field, problem, "export it again")
+    if accessor.sparse is not None:
+        raise LucidaError(field, "is sparse, which is not read", "export it without")
+    data, stride = file.view(accessor.buffer_view, field)
     shape = accessor.count, COMPONENTS[accessor.type]
-    if sparse is None:
-        return _in_view(file, accessor, kind, shape, field)
-    if accessor.buffer_view is not None:
-        found = _in_view(file, accessor, kind, shape, field).copy()
-    elif accessor.count * kind.itemsize > BINARY_MODEL_BYTES:
-        raise LucidaError(field, f"declares {accessor.count} elements", "split the model")
-    else:
-        found = np.zeros(shape, kind)
-    field = f"{field}.sparse.indices"
-    index_kind = COMPONENT_TYPES.get(sparse.indices.component_type, kind)
-    places = whole_numbers(
-        _in_view(file, sparse.indices, index_kind, (sparse.count, 1), field), field
-    )
-    if places.max(initial=0) >= len(found):
-        problem = f"names element {places.max()}, counted from 0, of {len(found)}"
-        raise LucidaError(field, problem, "export it again")
-    found[places] = _in_view(file, sparse.values, kind, (sparse.count, shape[1]), field)
-    return found
-
-
-def _in_view(
-    file: OpenGltf,
-    part: Accessor | SparsePart,
-    kind: np.dtype[Any],
-    shape: tuple[int, int],
-    field: str,
-) -> NDArray[Any]:
-    """Return numbers in a buffer view. Raises LucidaError if they are not all there."""
-    data, stride = file.view(part.buffer_view, field)
     strides = stride or shape[1] * kind.itemsize, kind.itemsize
     try:
-        return np.ndarray(shape, kind, data, part.byte_offset, strides)
+        return np.ndarray(shape, kind, data, accessor.byte_offset, strides)
     except (TypeError, ValueError):  # NumPy compares them with the buffer
-        problem = f"declares {shape[0]} elements in a view of {len(data)} bytes"
+        problem = f"declares {accessor.count} elements in a view of {len(data)} bytes"
         raise LucidaError(field, problem, "it is damaged; export it again") from None
 
 

@@ -14,7 +14,6 @@ from lucida.renderer.files.models.apart import parts_apart
 from lucida.renderer.files.models.gltf import PlacedPart, read_gltf
 from lucida.renderer.files.models.gltf_cameras import camera_views
 from lucida.renderer.files.models.gltf_lights import scene_lights
-from lucida.renderer.files.models.model_kinds import check_kind
 from lucida.renderer.files.models.obj import read_obj
 from lucida.renderer.files.models.parts import Part, build_mesh
 from lucida.renderer.files.models.readers import read_off, read_ply, read_stl
@@ -67,11 +66,9 @@ def read_by(reader: Reader) -> AbstractContextManager[object]:
     return during(_reader, reader)
 
 
-def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
+def read_model(path: Path) -> ModelFile:
     """Return a model file's views and its objects, one for each of its geometries (glTF: each
     instance).
-
-    is_mapped: with the texture coordinates that the file has, even where it has no image.
 
     Units and axes are the file's own. Materials are the file's base colours, and the images that
     multiply them, if they can be read: see images.py. Vertex colours are read as sRGB, except in
@@ -79,7 +76,6 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
     damaged, holds no triangle, or too many.
     """
     ending = path.suffix.lower()
-    check_kind(path)
     if ending not in MODEL_ENDINGS:
         what = "is a scene file" if ending == ".toml" else f"ends in {ending!r}"
         raise LucidaError("", what, f"give one of {' '.join(MODEL_ENDINGS)}", str(path))
@@ -89,12 +85,12 @@ def read_model(path: Path, is_mapped: bool = False) -> ModelFile:
     with naming(path):
         try:
             if ending in (".glb", ".gltf"):
-                found = read_gltf(path, images, is_mapped)
+                found = read_gltf(path, images)
                 objects = _objects(path, found.parts, images)
                 views = camera_views(found.tree, found.nodes)
                 lights = scene_lights(found.tree, found.nodes, objects, images)
             else:
-                parts = READERS[ending](path, images, is_mapped)
+                parts = READERS[ending](path, images)
                 alone = len(parts) == 1
                 instances = [
                     PlacedPart(part, "" if alone else part.name, np.eye(4), part.material)

@@ -34,11 +34,10 @@ Floats = NDArray[np.float64]
 Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
 
 
-def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
+def read_obj(path: Path, images: ModelImages) -> list[Part]:
     """Return the parts of an .obj file: one for each object and material, in the file's order.
 
     images: for the textures of its materials.
-    is_mapped: all parts with texture coordinates.
     """
     lines = Lines(read_text_bytes(path))
     if not len(lines.numbers("f")):
@@ -62,17 +61,14 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
         normals = np.zeros((0, 3))
     normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
-    textured = [is_mapped or bool(material and material.texture) for _, _, material in named]
-    coordinates = _coordinates(lines) if any(textured) else np.zeros((0, 0))
-    if corners[1] is not None and any(textured):
+    coordinates = _coordinates(lines)
+    if corners[1] is not None:
         has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
         named = list(_by_coordinates(named, has_uv, images))
     parts = []
     for name, which, material in named:
         mine = [a if a is None else a[which] for a in corners]
-        is_textured = is_mapped or (material is not None and material.texture is not None)
-        uvs = coordinates if is_textured else np.zeros((0, 0))
-        source, faces, uv, normal = _merged(mine, len(uvs), len(normals) - 1)
+        source, faces, uv, normal = _merged(mine, len(coordinates), len(normals) - 1)
         parts.append(
             Part(
                 name,
@@ -81,7 +77,7 @@ def read_obj(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
                 None if normal is None else normals[normal],
                 linear_colors(vertices[source, 3:6]) if vertices.shape[1] >= 6 else None,
                 material=material,
-                uv=None if uv is None else uvs[uv, :2],
+                uv=None if uv is None else coordinates[uv, :2],
             )
         )
     return parts

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from lucida.renderer.camera.checks import LARGEST
 from lucida.renderer.files.models.polygons import check_corners
-from lucida.renderer.files.models.repairs import note_repairs
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.boxes import extent
 from lucida.renderer.scene.material import Material
@@ -69,28 +68,14 @@ def build_mesh(part: Part) -> Mesh | None:
     if count > 3 * len(faces):  # parts may share one list of vertices
         source, faces = used_vertices(faces)
         vertices, normals, colors, uv = _taken(source, vertices, normals, colors, uv)
-    lost_places = 0
     if uv is not None:
-        usable = np.abs(uv) <= LARGEST_UV  # false for NaN too
-        lost_places = int(np.count_nonzero(~usable.all(axis=1)))
-        uv = np.where(usable, uv, 0.0).astype(np.float32)
+        uv = np.where(np.abs(uv) <= LARGEST_UV, uv, 0.0).astype(np.float32)  # 0 for NaN too
     _check_used(vertices, faces)
     origin = own_origin(vertices, faces) if part.origin is None else part.origin
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
     merged = merge_positions(positions)
-    sound, repeats = _visible(positions, faces, merged, part.has_backs)
-    keep = sound & ~repeats
-    lost = 0 if normals is None else int(np.count_nonzero(~np.isfinite(normals).all(axis=1)))
-    note_repairs(
-        part.name,
-        {
-            "faces without an area, left out": int(np.count_nonzero(~sound)),
-            "faces with another one's corners, left out": int(np.count_nonzero(sound & repeats)),
-            "normals NaN or infinite, flat there": lost,
-            f"texture coordinates NaN or beyond {LARGEST_UV:g}, 0 is taken": lost_places,
-        },
-    )
+    keep = _visible(positions, faces, merged, part.has_backs)
     faces = faces[keep]
     if not len(faces):
         return None
@@ -182,8 +167,8 @@ def _visible(
     faces: NDArray[np.int64],
     merged: NDArray[np.int64],
     has_backs: bool,
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return which faces have an area, and which repeat an earlier face's positions: (m,) each.
+) -> NDArray[np.bool_]:
+    """Return which faces have an area and do not repeat an earlier face's positions: (m,).
 
     merged: the result of merge_positions(). has_backs: see Part.
     """
@@ -204,9 +189,8 @@ def _visible(
     order = np.argsort(mixed, kind="stable")
     here, before = order[1:], order[:-1]
     again = (i[here] == i[before]) & (j[here] == j[before]) & (k[here] == k[before])
-    repeats = np.zeros(len(faces), bool)
-    repeats[here[again]] = True
-    return sound, repeats
+    sound[here[again]] = False
+    return sound
 
 
 def _unit(normals: NDArray[np.float64] | None) -> NDArray[np.float32] | None:

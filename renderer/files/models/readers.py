@@ -47,11 +47,9 @@ _PLY_TEXTURE = re.compile(r"(?m)^comment TextureFile (.*)$")
 Columns = dict[str, NDArray[Any]]
 
 
-def read_ply(path: Path, images: ModelImages, is_mapped: bool = False) -> list[Part]:
-    """Return the mesh of a .ply file, text or binary.
-
-    images: for its texture; notes what is not read.
-    is_mapped: with texture coordinates, even where it has no image.
+def read_ply(path: Path, images: ModelImages) -> list[Part]:
+    """Return the mesh of a .ply file, text or binary. images: for its texture; notes what is not
+    read.
     """
     data = read_file(path, BINARY_MODEL_BYTES)
     end = _PLY_END.search(data[: 1 << 16])
@@ -85,7 +83,7 @@ def read_ply(path: Path, images: ModelImages, is_mapped: bool = False) -> list[P
             not_read += several
     if not_read:
         images.note(f"not read: {', '.join(not_read)}", "PLY")
-    return [replace(part, material=material, uv=part.uv if is_mapped or material else None)]
+    return [replace(part, material=material)]
 
 
 class _PlyElement(NamedTuple):
@@ -228,7 +226,7 @@ def _faces(
     return corners, *triangulated(points, corners, counts, images)
 
 
-def read_off(path: Path, images: ModelImages, _is_mapped: bool = False) -> list[Part]:
+def read_off(path: Path, images: ModelImages) -> list[Part]:
     """Return the mesh of an .off file, a text. images: notes what is not read."""
     text = re.sub(rb"#[^\n]*", b"", read_text_bytes(path)).lstrip()
     kind = re.match(rb"(?i)([a-z0-9]*?)off", text)
@@ -264,7 +262,7 @@ def read_off(path: Path, images: ModelImages, _is_mapped: bool = False) -> list[
     return [Part(path.stem, points, indices[cut])]
 
 
-def read_stl(path: Path, images: ModelImages, _is_mapped: bool = False) -> list[Part]:
+def read_stl(path: Path, images: ModelImages) -> list[Part]:
     """Return the solids of an .stl file, text or binary. images: notes what is not read."""
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")

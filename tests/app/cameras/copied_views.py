@@ -5,45 +5,23 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import assume
+from any_camera import cameras
 from hypothesis import strategies as st
 
 from lucida.app.cameras.reader import read_copied
 from lucida.app.cameras.text import Subject
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import volume
 from lucida.renderer.camera.lenses import MODELS, Lens
 from lucida.renderer.scene.model import View
 
 SIZE = (160, 90)
 NOW = View(Camera(eye=(9, 9, 9), distance=2.5, near=0.25), fit=True)
 BOUNDS = np.array([[x, y, z] for x in (-2, 2) for y in (-1, 2) for z in (-3, 2)], float)
-numbers = st.floats(-3, 3)
-vectors = st.tuples(numbers, numbers, numbers)
 
 
 def read_view(text: str, now: View) -> View:
     """The view of a text's camera."""
     return read_copied(text, now).view
-
-
-@st.composite
-def cameras(draw: st.DrawFn, volume_least: float = 0.02) -> Camera:
-    """Draw a camera: skewed, scaled, left-handed, off-axis, with clip planes or without."""
-    basis = np.array([draw(vectors) for _ in range(3)])
-    lengths = np.linalg.norm(basis, axis=1)
-    assume((lengths > 0.1).all())
-    assume(abs(volume(*(basis / lengths[:, None]))) > volume_least)
-    left, bottom = draw(numbers), draw(numbers)
-    return Camera(
-        draw(vectors),
-        *(tuple(row) for row in basis.tolist()),
-        draw(st.floats(0.1, 5)),
-        (left, left + draw(st.floats(0.05, 4)), bottom, bottom + draw(st.floats(0.05, 4))),
-        draw(st.sampled_from(("perspective", "parallel"))),
-        draw(st.none() | st.floats(0.05, 3)),  # over 1e-6 of any depth
-        draw(st.none() | st.floats(3.5, 50)),
-    )
 
 
 views = st.builds(View, cameras(), st.booleans())

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from lucida.app.cameras.basis import measures
@@ -37,17 +35,3 @@ def test_what_is_no_basis() -> None:
     assert math.isnan(found.angles_deg[2])
     assert found.determinant == 0
     assert math.isnan(measures((math.inf, 0, 0), (0, 1, 0), (0, 0, 1)).determinant)
-
-
-@given(vectors, vectors, vectors)
-def test_the_volume_is_the_parallelepiped_s(u, v, w) -> None:
-    """det squared is the determinant of the Gram matrix: lengths and angles alone."""
-    found = measures(u, v, w)
-    if 0 in found.lengths or any(map(math.isnan, found.angles_deg)):
-        assert abs(found.determinant) < 1e-6
-        return
-    uv, vw, wu = (math.cos(math.radians(angle)) for angle in found.angles_deg)
-    gram = 1 + 2 * uv * vw * wu - uv**2 - vw**2 - wu**2
-    assert found.determinant**2 == pytest.approx(
-        gram * np.prod(found.lengths) ** 2, rel=1e-6, abs=1e-9
-    )

@@ -123,12 +123,12 @@ def test_framing_keeps_the_directions(window: Window) -> None:
 
 def test_copy_and_paste(window: Window, clipboard: list[str]) -> None:
     start = window.state
-    for name in ("Copy camera", "View file", "Command line", "Python"):
+    for name in ("Copy camera", "View file", "Command line"):
         run(window, name)
         run(window, "Canonical camera")
         run(window, "Paste camera")
         assert window.state == start
-    assert len(window.said) == 8
+    assert len(window.said) == 6
     run(window, "Command line")
     assert clipboard[0].startswith("lucida render spheres -o ")
 

@@ -21,7 +21,7 @@ from lucida.renderer.system.errors import LucidaError
 ROOT = Path(__file__).parents[3]
 
 
-@pytest.mark.parametrize("form", ["view file", "command line", "Python"])
+@pytest.mark.parametrize("form", ["view file", "command line"])
 @given(view=views | lens_views())
 @example(view=View(Camera(eye=(-1e-9, 1e-300, -0.0), near=1e-7)))
 def test_what_is_copied_comes_back_exactly(form: Form, view: View) -> None:
@@ -39,17 +39,7 @@ def test_the_python_runs_as_it_is(view: View) -> None:
 @pytest.mark.parametrize(
     ("text", "camera"),
     [
-        (
-            "from lucida import Camera\nc = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)",
-            Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40),
-        ),
-        ("lucida.Camera.canonical()", Camera()),
-        (
-            "r.Camera(lens=r.Lens(model='brown', coefficients={'k1': -0.2}))",
-            Camera(lens=Lens("brown", {"k1": -0.2})),
-        ),
         ("--lens equisolid", replace(NOW.camera, lens=Lens("equisolid"))),
-        ("Camera((1, 2, 3), distance=2)", Camera((1, 2, 3), distance=2)),
         (
             "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfov_y_deg = 40",
             Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40),
@@ -89,21 +79,6 @@ def test_of_a_whole_scene_file_the_camera_is_read(camera: str, view: View) -> No
 
 
 @pytest.mark.parametrize(
-    ("text", "fit"),
-    [
-        ("View(Camera(), fit=True)", True),
-        ("View(Camera(), fit=False)", False),
-        ("View(Camera(), wide=True)", False),
-        ("View(Camera(), fit=wide)", False),
-        ("lucida.View(Camera(), fit=1)", True),
-        ("Picture(Camera(), fit=True)", False),
-    ],
-)
-def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> None:
-    assert read_view(text, NOW) == View(Camera(), fit)
-
-
-@pytest.mark.parametrize(
     ("text", "told"),
     [
         ("", "holds no camera"),
@@ -116,12 +91,6 @@ def test_a_view_in_python_is_fitted_where_it_says_so(text: str, fit: bool) -> No
         ("--eye=0,0", "is not 3 numbers"),
         ("--distance=-1", "--distance: -1 is not above 0"),
         ('--eye="0,0', "is not 3 numbers"),
-        ("Camera(eye=(0, 0, 5)", "not complete"),
-        ("Camera(eye=(0, 0, x))", "plain numbers"),
-        ("Camera(eye=(0, 0, 5), fov=3)", "fov"),
-        ("Camera(distance=-1)", "distance: -1 is not above 0"),
-        ("print('Camera (' + 'x')", "without a camera"),
-        ("Camera(eye=" + "(" * 5000, "not complete"),
         ("camera_from_world = [1, 2, 3]", "has 3 numbers; give 16"),
         (
             "camera_from_world = " + "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1",

@@ -12,7 +12,6 @@ from hypothesis import given
 from lucida.app.cameras.text import Subject, as_text
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import View
-from lucida.renderer.system.errors import LucidaError
 
 
 @given(views)
@@ -95,46 +94,6 @@ def test_matrices_out_of_other_programs(written: str) -> None:
     assert back.camera.eye == pytest.approx(camera.eye)
     assert back.camera.viewport == pytest.approx(camera.viewport)
     assert back.camera.near == pytest.approx(0.5)
-
-
-@pytest.mark.parametrize(
-    ("scale", "off", "is_read"),
-    [(1, 1e-6, True), (1, 1.2e-6, False), (100, 9e-5, True), (100, 2e-4, False)],
-)
-def test_a_matrix_is_affine_to_a_millionth_of_its_largest_number(
-    scale: float, off: float, is_read: bool
-) -> None:
-    text = (
-        f"camera_from_world = {scale} 0 0 {off}  0 {scale} 0 0  0 0 {scale} 0  1 1 1 1\n"
-        "clip_from_camera = 1 0 0 0  0 1 0 0  0 0 -1 0  0 0 0 1"
-    )
-    if is_read:
-        assert read_view(text, NOW).camera.is_parallel
-    else:
-        with pytest.raises(LucidaError, match="not affine"):
-            read_view(text, NOW)
-
-
-@pytest.mark.parametrize(
-    ("depth", "near", "far"),
-    [
-        ("-8 -3", 0.25, 0.5),
-        ("-0.2 -1", None, 10.0),  # near is in the eye's plane: nothing before it is drawn anyway
-        ("-0.2 1", None, None),
-        ("0.0 0", None, None),
-        ("-0.0 0", None, None),
-    ],
-)
-def test_of_parallel_matrices_clip_planes_in_front_of_the_eye_count(
-    depth: str, near: float | None, far: float | None
-) -> None:
-    scale, shift = depth.split()
-    text = (
-        "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n"
-        f"clip_from_camera = 1 0 0 0  0 1 0 0  0 0 {scale} 0  0 0 {shift} 1"
-    )
-    camera = read_view(text, NOW).camera
-    assert (camera.near, camera.far) == (near, far)
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,6 @@ from copied_views import NOW, SIZE, read_view
 from lucida.app.cameras.other_words import other_words
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.intrinsics import PixelOrigin
-from lucida.renderer.files.cameras import PosedCamera, written
-from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
@@ -40,16 +38,6 @@ def test_what_is_copied_is_pasted_by_its_own_pixel_origin(origin: PixelOrigin) -
     assert np.array_equal(np.array(names["t"]), t)
 
 
-@pytest.mark.parametrize("ending", ["", ".json"])
-@pytest.mark.parametrize("origin", ORIGINS)
-def test_a_file_of_opencv_is_read_by_the_origin_that_it_says(
-    origin: PixelOrigin, ending: str
-) -> None:
-    options = Options(pixel_origin=origin, ending=ending)
-    text = written([PosedCamera(AIMED, SIZE)], "opencv", options)[""].decode()
-    assert_same(read_view(text, NOW).for_size(SIZE), AIMED)
-
-
 def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
     lines = other_words(View(Camera((0, 0, 5))), (100, 100), "corner").read
     assert lines == (
@@ -63,13 +51,6 @@ def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
         "   0",
         "   5",
     )
-
-
-def test_the_origin_moves_the_principal_point_by_half_a_pixel() -> None:
-    centers, corners = (other_words(View(AIMED), SIZE, origin).read for origin in ORIGINS)
-    assert centers[3:] == corners[3:]
-    assert centers[0].split()[-1] == f"{SIZE[0] / 2 - 0.5:g}"
-    assert corners[0].split()[-1] == f"{SIZE[0] / 2:g}"
 
 
 def test_k_stands_as_it_was_pasted_and_beside_it_what_this_image_has() -> None:

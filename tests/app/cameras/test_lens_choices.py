@@ -78,35 +78,6 @@ def test_presets_of_the_camera_keep_the_lens_in_perspective():
     assert preset_view(front, view, BOX, BOX, 1.5).camera.lens is None
 
 
-@each_preset
-def test_a_point_follows_the_pointer_and_stays_under_the_wheel(preset):
-    camera = preset.of(BASE, SIZE[0] / SIZE[1])
-    start, end = camera.image_point(14, 20, SIZE), camera.image_point(22, 41, SIZE)
-    world = np.asarray(camera.eye) + 3.0 * camera.direction(*start)
-    for moved, wanted in (
-        (navigation.panned(camera, start, end, 3.0), (22, 41)),
-        (navigation.zoomed(camera, start, 1.3, 3.0), (14, 20)),
-    ):
-        assert moved.eye != camera.eye
-        row, column, _ = moved.project(world, SIZE)
-        assert (float(row), float(column)) == pytest.approx(wanted, abs=1e-6)
-
-
-def test_outside_of_the_lens_nothing_moves():
-    camera = ROUND.of(BASE, 1.0)
-    corner = camera.image_point(0, 0, (64, 64))
-    assert navigation.panned(camera, corner, (0.0, 0.0), 3.0) == camera
-    assert navigation.zoomed(camera, corner, 1.5, 3.0) == camera
-
-
-@each_preset
-def test_the_field_of_view_is_the_distance(preset):
-    camera = preset.of(BASE, SIZE[0] / SIZE[1])
-    wanted = 0.8 * camera.fov_y_deg
-    found = navigation.distance_for(camera, wanted)
-    assert replace(camera, distance=found).fov_y_deg == pytest.approx(wanted, abs=1e-4)
-
-
 BARREL = Lens("brown", {"k1": -0.2, "p1": 0.01})
 FISHEYE = Lens("fisheye", {"k1": 0.1})
 

@@ -57,17 +57,6 @@ class TestTraveller:
             assert not transition.under_way
             assert frames == 1 or middle not in (target, AppState.for_scene(scene))
 
-    def test_the_same_moment_has_the_same_camera(self, scene: Scene) -> None:
-        seen = []
-        for steps in (1, 5):
-            clock, transition, _ = self.begin(scene)
-            state = AppState.for_scene(scene)
-            for number in range(steps):
-                clock.s = 100.0 + 0.6 * DURATION_S * (number + 1) / steps
-                state = transition.step(state)
-            seen.append(state.camera)
-        assert seen[0] == seen[1]
-
     def test_another_change_of_the_view_ends_it_there(self, scene: Scene) -> None:
         clock, transition, _ = self.begin(scene)
         clock.s += 0.1
@@ -99,14 +88,6 @@ class TestTraveller:
         there = target_of(state, "Right")
         assert transition.begin(state, there, scene_focus(scene), SIZE) is there
         assert transition.under_way is False
-
-    def test_another_option_does_not(self, scene: Scene) -> None:
-        clock, transition, target = self.begin(scene)
-        clock.s += 0.1
-        state = with_options(transition.step(AppState.for_scene(scene)), shadows=True)
-        clock.s += DURATION_S
-        state = transition.step(state)
-        assert state == with_options(target, shadows=True)
 
     def test_all_of_it_is_one_step_of_undo(self, scene: Scene) -> None:
         clock, transition, target = self.begin(scene)

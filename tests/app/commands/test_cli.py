@@ -173,12 +173,6 @@ class TestMistakes:
             assert close and close[1] in (name, "scene", "scenes")
             assert bool(close[2]) == (name not in WITHOUT_FILE)
 
-    def test_a_word_like_no_command_before_a_scene(self, capsys):
-        assert main(["view", "x.obj"]) == 2
-        assert capsys.readouterr().err == (
-            "lucida: 'view' is neither a command nor a scene; see 'lucida --help'\n"
-        )
-
     def test_a_scene_s_name_that_is_like_no_command(self, monkeypatch, tmp_path):
         seen = []
         monkeypatch.setattr(view, "run", lambda arguments: seen.append(arguments.scene) or 0)

@@ -16,7 +16,6 @@ import pytest
 
 from lucida.app.cli import main
 from lucida.app.window.opening import open_sources
-from lucida.renderer.files import load_scene
 from lucida.renderer.system.errors import LucidaError
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="POSIX's special files and limits")
@@ -107,15 +106,6 @@ def test_a_special_file_is_not_opened_in_the_window(
         open_sources([name], False)
 
 
-@posix
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_special_file_is_no_texture(alarm: None, folder: Path, kind: str) -> None:
-    make(kind, folder / "f.png")
-    (folder / "scene.toml").write_text(TEXTURED, "utf-8")
-    with pytest.raises(LucidaError, match=r"f\.png' is (a folder|not an|not in the folder)"):
-        load_scene("scene.toml")
-
-
 RAYS = "def viewing_ray(i, j, width, height, camera):\n    return camera.eye, (0, 0, -1)\n"
 WRITERS = [
     "check --starter all -o out.py",
@@ -170,20 +160,6 @@ def test_no_earlier_results_stay_if_new_ones_cannot_be_written(
     with files_up_to(0):
         assert main(line) == 2
     assert not (folder / "out.json").exists()
-
-
-@posix
-def test_files_that_belong_together_stay_if_one_does_not_fit(folder: Path) -> None:
-    (folder / "view.toml").write_text(VIEW, "utf-8")
-    line = ["camera", "view.toml", "--size", "640x480", "--to", "colmap", "-o", "out"]
-    assert main(line) == 0
-    files = sorted((folder / "out").iterdir(), key=lambda file: file.stat().st_size)
-    sizes = [file.stat().st_size for file in files]
-    for file in files:
-        file.write_bytes(b"old")
-    with files_up_to(sizes[-1] - 1):
-        assert main(line) == 2
-    assert sizes[0] < sizes[-1] and {file.read_bytes() for file in files} == {b"old"}
 
 
 HOSTILE = "\\u001b[31mred\\u009b2J\\u202e"

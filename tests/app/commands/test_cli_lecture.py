@@ -76,12 +76,6 @@ options = [
         assert "formulas not checked" in said.out
 
 
-def test_checking_and_exporting_exclude_each_other(tmp_path, capsys):
-    assert main(["lecture", "--check", "--export", str(tmp_path / "out")]) == 2
-    assert "not allowed with" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
 def test_answers_in_the_place_of_a_scene(tmp_path, capsys):
     path = tmp_path / "answers.jsonl"
     path.write_text('{"lucida": "answer"}\n')
@@ -99,19 +93,6 @@ def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
         assert main([*command, str(path)]) == 2
         said = capsys.readouterr().err
         assert said == f"lucida: {path}: is a lecture, not a scene; lucida lecture {path}\n"
-
-
-def test_a_missing_model_is_told_with_the_folder_where_it_was_looked_for(
-    tmp_path, monkeypatch, capsys
-):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "notes").mkdir()
-    model = '[scenes.a]\n[[scenes.a.objects]]\ntype = "model"\nfile = "mesh/bunny.obj"\n'
-    text = LECTURE.replace('"spheres"', '"a"') + model
-    (tmp_path / "notes" / "x.toml").write_text(text)
-    assert main(["lecture", "notes/x.toml", "--check"]) == 2
-    folder = tmp_path / "notes" / "mesh"
-    assert f"bunny.obj: does not exist in {folder}; " in capsys.readouterr().err
 
 
 def test_every_step_is_exported_without_a_display(tmp_path):
@@ -143,12 +124,6 @@ def test_every_step_is_exported_without_a_display(tmp_path):
     for picture in pictures:
         assert picture.shape == (600, 900, 3) and picture.std() > 15
     assert np.abs(pictures[0].astype(int) - pictures[1]).mean() > 5
-
-
-def test_a_folder_that_cannot_be_made(tmp_path, capsys):
-    (tmp_path / "file").write_text("")
-    assert main(["lecture", "--export", str(tmp_path / "file")]) == 2
-    assert "file: is a file; give a folder" in capsys.readouterr().err
 
 
 def test_no_name_is_not_this_folder(tmp_path, capsys, monkeypatch):

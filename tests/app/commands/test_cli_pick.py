@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,13 +79,3 @@ def test_a_pixel_outside_of_the_lens_has_no_ray(capsys: pytest.CaptureFixture[st
     assert "none: outside of the lens" in told and "nan" not in told
     assert main([*outside, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ray"] is None
-
-
-def test_a_lens_from_anywhere_can_be_ignored(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    export = ["export", "spheres", "-o", str(tmp_path / "o.glb"), "--lens", "brown:k1=-0.2"]
-    assert main(export) == 2
-    assert "--ignore-distortion" in capsys.readouterr().err
-    assert main([*export, "--ignore-distortion"]) == 0
-    assert "ignored" in capsys.readouterr().err

@@ -102,18 +102,6 @@ class TestRender:
         with Image.open("a.png") as image:
             np.testing.assert_array_equal(image, to_srgb8(linear / 2))
 
-    def test_shadows_darken_and_mirrors_change_the_colour_only(self):
-        plain, shadows, mirrors = drawn("a"), drawn("b", "--shadows"), drawn("c", "--mirrors", "2")
-        assert (shadows <= plain + 1e-6).all()
-        assert (shadows < plain - 0.02).any()
-        assert (np.abs(mirrors - plain) > 0.02).any()
-        depth = ("--channel", "depth")
-        assert np.array_equal(drawn("d", *depth), drawn("e", *depth, "--shadows", "--mirrors", "2"))
-
-    def test_an_old_file_is_replaced(self):
-        Path("a.npy").write_bytes(b"old")
-        assert drawn("a").shape == (18, 32, 3)
-
 
 class TestCompare:
     def test_json_is_stable(self, capsys, gl_backend):
@@ -146,11 +134,6 @@ class TestCompare:
             with Image.open("d.png") as image:
                 colors = np.asarray(image)
             assert ((colors == nothing).all(axis=2)).mean() > 0.95  # the images agree
-
-    def test_a_gain_that_is_none_is_refused(self, capsys):
-        for gain in ("0", "-3", "nan", "inf", "x"):
-            assert main(["compare", "spheres", f"--gain={gain}"]) == 2
-            assert "is not a gain" in capsys.readouterr().err
 
     def test_disagreement_is_status_1(self, monkeypatch, capsys, gl_backend):
         import lucida.renderer.compare.raster_and_ray

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 import numpy as np
-import pytest
 
 from lucida.app.cli import main
 from lucida.renderer.files import load_scene
@@ -42,15 +41,6 @@ def test_a_scene_is_told_whole(capsys):
     assert "4   torus 'torus': 9216 triangles" in text and "odd" not in text
 
 
-@pytest.mark.parametrize(
-    ("words", "problem"), [(["no.toml"], "does not exist"), ([], "required"), (["--x"], "required")]
-)
-def test_a_mistake_is_one_line_and_status_2(words, problem, capsys):
-    assert main(["scene", *words]) == 2
-    error = capsys.readouterr().err
-    assert problem in error and error.count("\n") == 1
-
-
 def test_sound_shapes_are_not_odd():
     sound = [shapes.box(), shapes.torus(), shapes.cylinder(), shapes.cone(smooth=False)]
     small = [
@@ -73,17 +63,6 @@ def test_what_is_wrong_with_a_mesh_is_found():
     assert kinds(twice) == [("repeated-faces", 0), ("open", 0)]
     flat = Mesh(box.vertices, np.concatenate([box.faces, [[0, 0, 1]]]))
     assert ("flat-faces", 0) in kinds(flat)
-
-
-def test_what_a_reader_has_mended_is_told(capsys, tmp_path):
-    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn nan 0 1\nvn 0 0 1\n"
-    faces = "f 1//2 2//2 3//2\nf 2//2 3//2 1//2\nf 2//2 1//1 4//2\nf 1//2 1//2 4//2\n"
-    (tmp_path / "bad.obj").write_text(corners + faces)
-    (odd, *rest) = told(capsys, tmp_path / "bad.obj")["odd"]
-    assert odd["kind"] == "repaired" and "faces without an area, left out: 1" in odd["text"]
-    assert "faces with another one's corners, left out: 1" in odd["text"]
-    assert "normals NaN or infinite, flat there: 1" in odd["text"]
-    assert [entry["kind"] for entry in rest] == ["open"]
 
 
 ODD_LIGHTS = """\

@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 import unicodedata
 from pathlib import Path
 
 import pytest
 
-from lucida.app.checking.results.model import class_results, read_answers
-from lucida.app.checking.results.page import page as results_page
 from lucida.app.cli import main
-from lucida.app.lecture.reading import load_lecture
 from lucida.app.state.app_state import AppState
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
-from lucida.app.web.lecture.page import page
 from lucida.renderer.files import load_scene, save_scene
 from lucida.renderer.system.atomic import file_stem
 
@@ -81,29 +74,3 @@ def test_commands_and_files(scene_file: str, name: str, capsys: pytest.CaptureFi
     assert [path.name for path in Path(name).iterdir() if path.suffix == ".png"] == [
         f"{file_stem(name)}.png"
     ]
-
-
-def test_lectures_pages_and_results(name: str, tmp_path: Path) -> None:
-    lecture = tmp_path / f"{name}.toml"
-    text = f'lucida = 1\ntitle = "{name}"\n[[steps]]\ntitle = "{name}"\ntext = "{name}"\n'
-    lecture.write_text(text, "utf-8")
-    html = page(load_lecture(lecture), [()], True)
-    assert html.count(name) >= 3
-    answers = tmp_path / f"{name}.jsonl"
-    line = {
-        "lucida": "answer", "time": "2026-01-01T00:00:00Z", "sitting": "a", "step": name,
-        "right": False, "lecture": name, "answer": name, "reply": name, "name": name,
-    }  # fmt: skip
-    answers.write_text(json.dumps(line, ensure_ascii=False), "utf-8")
-    found, problems = read_answers([answers])
-    assert not problems
-    assert name in results_page(class_results(found, [name], problems))
-
-
-def test_a_terminal_without_unicode(scene_file: str) -> None:
-    environment = os.environ | {"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    command = [sys.executable, "-m", "lucida", "scene", scene_file]
-    root = Path(__file__).parents[3]
-    environment["PYTHONPATH"] = str(root)
-    done = subprocess.run(command, env=environment, capture_output=True, check=False)
-    assert done.returncode == 0 and not done.stderr, done.stderr

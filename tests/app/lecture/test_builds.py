@@ -160,8 +160,11 @@ class TestTheOlderFormat:
         lecture = read(
             f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
         )
-        (note,) = lecture.notes
+        (note,) = lecture.summary
         assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
+        one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
+        (note,) = read(one).summary
+        assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")
         assert load_lecture(BUILTIN).notes == ()
 
     def test_a_link_is_its_words(self):

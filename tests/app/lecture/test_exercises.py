@@ -48,17 +48,6 @@ class TestAnswers:
         assert number(text) == pytest.approx(value)
 
     @pytest.mark.parametrize(
-        "text",
-        [
-            "", "x", "1/0", "1e999", "2**9999", "__import__('os')", "sqrt(-1)", "sqrt(1, 2)",
-            "1 2", "True", "(" * 60 + ")" * 10, "9" * 81, "1j", "'1'", "sqrt", "[1]",
-        ],
-    )  # fmt: skip
-    def test_what_is_no_number(self, text):
-        with pytest.raises(LucidaError, match=r"is (not|empty|too long)|divides by zero"):
-            number(text)
-
-    @pytest.mark.parametrize(
         ("text", "told"),
         [
             (" ", "is empty; give a number"),
@@ -79,11 +68,6 @@ class TestAnswers:
     )
     def test_vectors(self, text):
         assert vector(text).tolist() == [0.125, 0.0, -1.0]
-
-    @pytest.mark.parametrize("text", ["", "1, 2", "1, 2, 3, 4", "1, , 3", "a b c"])
-    def test_what_is_no_vector(self, text):
-        with pytest.raises(LucidaError, match=r"three numbers|is not a number|is empty"):
-            vector(text)
 
     def test_how_solutions_are_written(self):
         assert [text_of(x) for x in (0.125, -0.0, 3.0, -2 / 3, 5 / 16, 0.70710678)] == [
@@ -186,21 +170,6 @@ class TestRays:
         names = {mistake.name for mistake, _ in mistakes(Camera(), 1, 5, (8, 8), Indexing.ARRAY)}
         assert "a whole pixel" in names and "no half pixel" not in names
         assert exercise.solution().startswith("Pixel (1, 5) lies")
-
-    @pytest.mark.parametrize("distance", [0.5, 3.0])
-    def test_backwards_is_told_at_every_distance(self, distance):
-        """x u + y v + d w, by hand: with d = 1 alone, d and d^2 are the same."""
-        camera = Camera(viewport=(-1.0, 1.0, -0.5, 0.5), distance=distance)
-        wrong = {mistake.name: ray for mistake, ray in mistakes(camera, 0, 0, (4, 2))}
-        assert wrong["along +w"].direction == pytest.approx([-0.75, 0.25, distance])
-        assert wrong["no distance"].direction == pytest.approx([-0.75, 0.25, -1.0])
-        assert wrong["the camera's coordinates"].direction == pytest.approx(
-            [-0.75, 0.25, -distance]
-        )
-        exercise = RayExercise("?", camera, (0, 0), (4, 2))
-        verdict = exercise.check({"origin": "0 0 0", "direction": f"-0.75, 0.25, {distance}"})
-        assert not verdict.right
-        assert "backwards" in verdict.text
 
     @pytest.mark.parametrize(
         ("exercise", "origin", "direction", "told", "field"),

@@ -101,16 +101,6 @@ def test_the_numbers_of_a_long_list_do_not_reach_its_items():
     assert min(mark.x for mark in marks) == 0
 
 
-def test_lines_are_filled_to_the_last_pixel():
-    """A word is 5 wide a letter, a space 5."""
-    assert rows(laid("abcd efgh", 45)) == [["abcd", "efgh"]]
-    assert rows(laid("abcd efgh", 44.9)) == [["abcd"], ["efgh"]]
-    assert laid("abcd efgh", 44.9).height == pytest.approx(23.6)
-    # A row's air stands above and below the highest: formulas are twice as high.
-    assert laid("a $x$ b").pieces[0].baseline == pytest.approx(0.9 + 16)
-    assert laid("a $x$ b").height == pytest.approx(0.9 + 20 + 0.9)
-
-
 def test_what_is_too_wide_goes_on_in_the_next_row():
     """The column is 100 wide, of which code has 90; a letter is 5 wide. Sizes stay."""
     formula = laid("$$\nabcdefgh = ijklmnop + qrstuvw\n$$").pieces

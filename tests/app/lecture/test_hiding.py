@@ -10,7 +10,7 @@ import pytest
 
 from lucida.app.cli import main
 from lucida.app.instruments.objects.choosing import chosen
-from lucida.app.lecture.hiding import HideExercise, percent
+from lucida.app.lecture.hiding import HideExercise
 from lucida.app.lecture.model import Step
 from lucida.app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from lucida.app.lecture.step_options import state_of
@@ -180,12 +180,6 @@ def test_mistakes_name_line_field_value_and_remedy(line, wrong, told):
     assert str(caught.value).startswith(expected), str(caught.value)
 
 
-def test_the_numbers_in_words():
-    assert [percent(part) for part in (1, 0.384, 0.0996, 0.0994, 0.02)] == [
-        "100 %", "38 %", "10 %", "9.9 %", "2.0 %",
-    ]  # fmt: skip
-
-
 def test_the_built_in_one_is_solved_by_its_answer():
     lecture = load_lecture(BUILTIN)
     step = next(one for one in lecture.steps if isinstance(one.exercise, HideExercise))
@@ -210,12 +204,6 @@ def test_objects_of_the_same_name_are_no_way_round(tmp_path):
         set_field(solved, twins[:1], "translate", [0, 0, -30]),  # now both are as one of them was
     ):
         assert said(one, scene) == (False, one.told["changed"])
-
-
-def test_who_hides_the_object_is_told_so():
-    one = task()
-    hidden = objects.hide(one.solved(one.scene), [one.item])
-    assert said(one, hidden) == (False, "The ball is not in the picture.")
 
 
 def test_the_solution_turns_the_object_as_it_was():

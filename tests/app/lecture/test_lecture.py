@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import fields
 
 import pytest
-from both_lectures import both_lectures
 from option_changes import with_options
 from sample_lecture import FILE, read
 
@@ -15,7 +14,6 @@ from lucida.app.lecture.step_options import ELSEWHERE, state_of
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options import Options
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files import load_scene
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -42,20 +40,6 @@ class TestReading:
         assert two.views == ("raster",) and two.part == "First"
         assert two.pixel is None and two.exercise is None and not two.changes
         assert two.scene.name == "still life" and two.view == two.scene.view
-
-    def test_a_step_is_a_state_whatever_was_before(self):
-        one, two, _ = read().steps
-        before = AppState.for_scene(load_scene("columns"))
-        before = with_options(
-            before, preferences={"presentation": True}, mirrors=True, images={"exposure_ev": 2.0}
-        )
-        state = state_of(one, before)
-        assert state.scene is one.scene and state.camera == one.view.camera
-        assert state.images.pixel_size == 8 and state.images.channel == "depth"
-        assert state.marked == (1, 2) and state.options.shadows
-        assert not state.options.mirrors and state.images.exposure_ev == 0.0
-        assert state.preferences.presentation  # the speaker's own
-        assert state_of(one, state_of(two, before)) == state
 
     def test_a_lecture_counts_pixels_in_one_way(self):
         """From 1; or from 0, in the file, in the window and in what is told of exercises."""
@@ -86,12 +70,6 @@ class TestReading:
         ):  # fmt: skip
             with pytest.raises(LucidaError, match=told):
                 read(text)
-
-    def test_the_built_in_lecture_counts_from_one_and_says_so_first(self):
-        lecture = both_lectures()
-        assert not any("one_based" in step.changes for step in lecture.steps)
-        first = next(build for build in lecture.builds if "j - 0.5" in build.text)
-        assert "from 1" in first.text
 
     def test_every_option_is_known_to_a_step(self):
         lines = [line for line in FILE.splitlines() if not line.startswith("options.")]

@@ -77,19 +77,6 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
     assert np.allclose(at["t = 1"], ray.origin + ray.direction)
 
 
-def test_pictures_are_by_the_algorithm_that_the_text_is_about() -> None:
-    rays = STEPS["Ray tracing"]
-    assert rays.changes["stepper"]["picture"] == "rays" and "raster" not in rays.views
-    views = STEPS["Where do viewing rays come from?"].views
-    assert "raster" not in views
-
-
-def test_the_end_answers_the_questions_of_the_beginning() -> None:
-    asked, answered = text_of("Today"), text_of("One camera, two renderers")
-    for word, answer in (("image", "image"), ("render", "Rendering"), ("rays", "Rays")):
-        assert word in asked and answer in answered
-
-
 def test_words_are_of_one_kind() -> None:
     for path in BUILTINS.values():
         everything = path.read_text(encoding="utf-8")

@@ -161,16 +161,6 @@ def test_vectors():
     assert read(vectors("u", more="tolerance = 1e-9")).steps[0].exercise.tolerance == 1e-9
 
 
-def test_pixels_at_the_border_of_an_image():
-    text = exercise("ray", "pixel = [5, 7]\nsize = [7, 5]")
-    assert read(text).steps[0].exercise.pixel == (4, 6)
-    for pixel in ("[6, 7]", "[5, 8]"):
-        assert told(text.replace("[5, 7]", pixel)) == (
-            f"steps[0].exercise.pixel: {pixel} is not in an image of 7x5;"
-            " give a row up to 5 and a column up to 7"
-        )
-
-
 def test_every_text_of_a_step_has_its_formulas_in_their_lines():
     """Lines 4 and on of a file; the same formula twice is two, also at a text's beginning."""
     text = '''\
@@ -223,14 +213,6 @@ wrong = [
         ("steps[1].exercise.question", "u", 24),
         ("steps[1].exercise.answers[1].wrong[1].feedback", "e", 33),
     ]
-
-
-def test_what_an_exercise_says_nothing_of():
-    """A ray's direction may have any length, a vector not."""
-    asked = read(exercise("ray", "pixel = [5, 7]\nsize = [7, 5]")).steps[0].exercise
-    assert (asked.scaled, asked.tolerance) == (True, 0.002)
-    asked = read(vectors("u")).steps[0].exercise
-    assert (asked.answers[0].scaled, asked.tolerance) == (False, 0.002)
 
 
 def test_files_elsewhere_are_named_whatever_names_them(tmp_path):

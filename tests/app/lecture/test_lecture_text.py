@@ -57,19 +57,6 @@ class TestText:
     def test_neighbours_of_one_style_are_one(self, text, line):
         assert texts.parse(text) == (texts.Paragraph(line),)
 
-    def test_blocks_that_follow_each_other_at_once(self):
-        words = texts.Words
-        assert texts.parse("```\na\n```\nb\n$$x$$\n$$\ny$$\nc") == (
-            texts.Code("a"),
-            texts.Paragraph((words("b"),)),
-            texts.DisplayedFormula("x"),
-            texts.DisplayedFormula("y"),
-            texts.Paragraph((words("c"),)),
-        )
-        assert texts.parse("- a\n  b\n  c\n- d\n  e") == (
-            texts.ItemList(((words("a b c"),), (words("d e"),))),
-        )
-
     def test_of_what_a_text_consists(self):
         text = "# $x$ head\n\n- one *two*\n- three\n\n```\na\nb\n```\n$$y$$\n> who $z$?\n\nso"
         blocks = texts.parse(text)
@@ -81,10 +68,6 @@ class TestText:
         assert texts.parse("a" * texts.LETTERS)
         with pytest.raises(texts.TextError, match="is a text of 50001 characters"):
             texts.parse("a" * (texts.LETTERS + 1))
-
-    def test_signs_that_mean_themselves(self):
-        (paragraph,) = texts.parse(r"\$5 and 3 * 4 * 5 and \*, `a*b*c`")
-        assert words_of(paragraph.line) == "$5 and 3 * 4 * 5 and *, a*b*c"
 
     @pytest.mark.parametrize(
         ("text", "line"), [("a\n\n$x", 2), ("a\n$$\nb", 1), ("x\n\n```\ny", 2), ("- a\n- $", 1)]

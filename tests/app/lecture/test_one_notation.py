@@ -25,7 +25,7 @@ from lucida.app.instruments.laboratory.sheet import Look
 from lucida.app.instruments.outside import figure
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Label, RayEnd
-from lucida.app.instruments.probe.copying import all_lines, as_julia, as_latex, as_python, as_text
+from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python, as_text
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.stepper import loop_parts, raster_parts
 from lucida.app.instruments.stepper.recording import Order
@@ -79,8 +79,7 @@ def probe(notation: Notation) -> Found:
             yield "probe", "plain", f"{line.name}: {line.text} {line.text_numbers}"
         yield "copied", "plain", as_text(reading, Indexing.ARRAY, notation).partition("\n")[2]
         yield "copied", "latex", as_latex(reading, Indexing.ARRAY, notation).partition("\n")[2]
-        for program in (as_python, as_julia):
-            yield "copied", "program", program(reading, Indexing.LECTURE, notation)
+        yield "copied", "program", as_python(reading, Indexing.LECTURE, notation)
 
 
 def mistakes(notation: Notation) -> Found:

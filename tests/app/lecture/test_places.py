@@ -35,34 +35,6 @@ class TestPlaces:
         assert places.line("t.many[1].in.missing") == 20
         assert places.line("nothing") == 1
 
-    def test_nothing_between_signs(self):
-        """Or all that may be: spaces about names, commas after the last, comments."""
-        text = (
-            "[t]#k = 9\n"  # 1
-            "t=1\n"
-            "k=[[1]]\n"  # 3
-            "m=[1,2,\n3]\n"  # 4, 5
-            "n={}\n"
-            'o="""\n\nx"""\n'  # 7 to 9
-            "p={a={},b={c=1}}\n"
-            "r=[{a=1},\n{b=[\n1]},\n{}]\n"  # 11 to 14
-            "[[u.v]]#k = 9\n"
-            "k=1\n"  # 16
-            "[ v . w ] #\n"
-            " x . y\t= [ # ]\n 1 , # ,\n 2 , ]\n"  # 18 to 20
-            "z = 1\n"
-        )
-        places = Places(text)
-        lines = {
-            "t": 1, "t.t": 2, "t.k": 3, "t.k[0][0]": 3, "t.m[1]": 4, "t.m[2]": 5, "t.n": 6,
-            "t.o": 8, "t.p.b.c": 10, "t.r[0].a": 11, "t.r[1]": 12, "t.r[1].b": 12,
-            "t.r[1].b[0]": 13, "t.r[2]": 14, "u.v[0]": 15, "u.v[0].k": 16,
-            "v.w": 17, "v.w.x": 18, "v.w.x.y": 18, "v.w.x.y[0]": 19, "v.w.x.y[1]": 20, "v.w.z": 21,
-        }  # fmt: skip
-        assert {field: places.line(field) for field in lines} == lines
-        # A table and an array of tables begin where the first of them does.
-        assert places.line("u") == places.line("u.v") == 15
-
     def test_paths(self):
         assert parsed_path("steps[3].camera.w") == ("steps", 3, "camera", "w")
         assert parsed_path("") == ()

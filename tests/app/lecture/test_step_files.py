@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from lucida.app.lecture.step_options import files_named, options_from_table, with_files
+from lucida.app.lecture.step_options import files_named, with_files
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -41,8 +41,3 @@ def test_files_are_named_though_something_else_is_wrong() -> None:
         "outside": 3,
     }
     assert list(files_named(tables)) == ["a.png"] and list(files_named(None)) == []
-
-
-def test_a_camera_is_a_table() -> None:
-    with pytest.raises(LucidaError, match=r"outside\.camera: is not a table; .*camera\.eye"):
-        options_from_table({"outside": {"camera": 3}})

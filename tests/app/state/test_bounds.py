@@ -14,11 +14,8 @@ from lucida.app.images.placement import STEPS
 from lucida.app.lecture.step_options import options_from_table
 from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import (
-    Accepted,
     AtMost,
-    Range,
     check,
-    clamped,
     range_of,
     whole_range_of,
 )
@@ -26,7 +23,6 @@ from lucida.app.state.options import Options
 from lucida.app.state.options.compare import CompareOptions
 from lucida.app.state.options.laboratory import LaboratoryOptions
 from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.state.options.probe import ProbeOptions
 from lucida.app.state.options.shared import Bookmark, ImageOptions, Preferences
 from lucida.app.state.options.stepper import StepperOptions
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
@@ -53,8 +49,6 @@ WRONG: list[tuple[str, str, Any, str, str]] = [
     ("outside", "bundle", [1, -1], "[1]", "-1 is out of range"),
     ("laboratory", "progress", -0.1, "", "-0.1 is out of range; give 0 to 4"),
     ("laboratory", "after_ev", 6.5, "", "6.5 is out of range; give -6 to 6"),
-    ("probe", "pins", [[0, 1], [2, -1]], "[1][1]", "-1 is out of range; give 0 to 16383"),
-    ("probe", "pins", [[0, 0]] * 257, "", "has 257 entries; give at most 256"),
     ("stepper", "canvas", [100_000, 100_000], "[0]", "100000 is out of range; give 1 to 64"),
     ("stepper", "canvas", [64, 49], "[1]", "49 is out of range; give 1 to 48"),
     ("stepper", "steps", [0, -1], "[1]", "-1 is out of range; give 0 to 1000000"),
@@ -87,13 +81,6 @@ def test_every_number_among_the_options_has_a_bound():
     found = dict(_numbers(Options, False, "options"))
     assert len(found) > 15
     assert [path for path, bounded in found.items() if not bounded] == []
-
-
-def test_every_list_among_the_options_has_a_length():
-    for kind in (Options, ProbeOptions):
-        for name, hint in get_type_hints(kind, include_extras=True).items():
-            if Ellipsis in get_args(hint) or Ellipsis in get_args(get_args(hint)[:1] or None):
-                assert any(isinstance(m, AtMost) for m in hint.__metadata__), name
 
 
 @pytest.mark.parametrize(("part", "field", "value", "entry", "told"), WRONG)
@@ -132,7 +119,6 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
         laboratory={"progress": 9.0, "phase": math.nan},
         stepper={"canvas": (16, 49)},
         marked=(-1, 3),
-        probe={"pins": tuple((k, k) for k in range(300))},
     )
     assert changed.images == replace(
         ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
@@ -141,17 +127,6 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
     assert changed.options.laboratory == LaboratoryOptions(progress=4.0)
     assert changed.options.stepper == StepperOptions(canvas=(16, 48))
     assert changed.marked == (0, 3)
-    assert changed.options.probe.pins == tuple((k, k) for k in range(44, 300))
-
-
-def test_what_is_within_bounds_is_the_same_value(state):
-    options = with_options(
-        state,
-        outside={"camera": Camera((9, 9, 9)), "bundle": (64, 0)},
-        bookmarks=(Bookmark(9, "far", state.view),),
-        marked=(16383, 0),
-    ).options
-    assert clamped(options) is options
 
 
 def test_sliders_take_their_limits_from_the_fields():
@@ -165,19 +140,6 @@ def test_what_steps_through_a_range_ends_at_its_bounds():
     assert (STEPS[0], STEPS[-1]) == range_of(ImageOptions, "magnification")
     assert (FONT_SCALES[0], FONT_SCALES[-1]) == range_of(Preferences, "font_scale")
     assert (NUMBERS[0], NUMBERS[-1]) == whole_range_of(Bookmark, "number")
-
-
-def test_the_ends_belong_to_a_bound_and_what_is_no_number_to_none():
-    check(Options, Options())
-    assert [Range(1, 4).problem(value) for value in (1, 4)] == [None, None]
-    for value in (math.nan, math.inf, -math.inf):
-        assert Range(1, 4).problem(value) == (f"{value:g} is out of range", "give 1 to 4")
-    assert AtMost(2).problem((1, 2)) is None
-    with pytest.raises(LucidaError, match=r"bookmarks\[0\].number: .* give 1 to 9"):
-        check(Options, Options(bookmarks=(Bookmark(10, "", View(Camera())),)))
-    assert Range(1, 4).clamped(math.nan, None) == 1
-    assert Range(1, 4).clamped(math.nan, 3.0) == 3.0
-    assert Accepted(Camera).clamped("no eye", (1, 2)) == (1, 2)
 
 
 def test_a_camera_among_a_lectures_options_is_a_table() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.session import LectureSession
 from lucida.app.lecture.view import LectureView
 from lucida.app.state.kept_lecture import KeptLecture
-from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
+from lucida.app.state.session import Arrangement, session_of
 from lucida.app.window.start import Start, begin_lecture, begin_session
 from lucida.renderer.files import load_scene
 from lucida.renderer.system.errors import LucidaError
@@ -174,15 +173,6 @@ def test_a_session_goes_from_step_to_step_and_no_further(file):
     assert session.step.title == "First"
 
 
-def test_a_step_is_there_with_its_scene_and_its_place(file):
-    session = LectureSession(load_lecture(file), file, (1, 0))
-    state = begin_session(folder=BUILTIN).state
-    here = replace(state, scene=session.step.scene, step=session.place)
-    assert session.kept(here).in_step
-    assert not session.kept(replace(here, scene=state.scene)).in_step
-    assert not session.kept(replace(here, step=(str(file), 0))).in_step
-
-
 def test_a_newer_version_goes_on_at_the_step_and_its_files_are_watched(file):
     session = LectureSession(load_lecture(file), file, (1, 0))
     session.error = "an older mistake"
@@ -215,17 +205,6 @@ def test_no_such_file_is_one_clear_error(kept):
 def test_a_number_of_no_step_is_the_nearest(number):
     session = LectureSession.resumed(KeptLecture(number=number))
     assert session.number == (0 if number < 0 else len(session.lecture.steps) - 1)
-
-
-def test_a_session_file_with_a_lecture_is_read_as_it_was_written(file, folder):
-    given(file, folder)
-    data = (folder / "session-1.json").read_bytes()
-    session = from_bytes(data)
-    assert from_bytes(to_bytes(session)) == session
-    table = json.loads(data)
-    table["lecture"]["number"] = "one"
-    with pytest.raises(LucidaError, match="damaged"):
-        from_bytes(json.dumps(table).encode())
 
 
 def test_what_the_user_agreed_to_read_elsewhere_comes_back_and_nothing_else(file, folder, tmp_path):

@@ -57,13 +57,6 @@ def test_a_file_that_was_changed_meanwhile_is_not_written_over(edited, tmp_path)
         documents.save(found)
 
 
-def test_a_saved_scene_is_read_from_its_file(edited):
-    session = session_of(AppState.for_scene(documents.save(edited)), Arrangement())
-    assert session.edited is None
-    unedited = session_of(AppState.for_scene(load_scene("spheres")), Arrangement())
-    assert unedited.edited is None
-
-
 @pytest.mark.parametrize("source", ["tent.obj", "still-life"])
 def test_edited_models_and_built_in_scenes_come_back(tmp_path, source):
     (tmp_path / "tent.obj").write_text(TENT)

@@ -3,12 +3,7 @@
 from __future__ import annotations
 
 import os
-import random
-import signal
-import subprocess
-import sys
 import threading
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -187,50 +182,3 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     monkeypatch.undo()
     keeper.close(session_of(state, ARRANGEMENT))
     assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)
-
-
-WRITER = """
-import sys
-from pathlib import Path
-from lucida.app.state.session import Arrangement, session_of, to_bytes
-from lucida.app.window.session_store import take_place
-from lucida.app.state.app_state import AppState
-from lucida.renderer.files import load_scene
-
-state = AppState.for_scene(load_scene("spheres"))
-place = take_place(Path(sys.argv[1]))
-print(place.path.name, flush=True)
-number = 0
-while True:
-    number += 1
-    windows = f"{number}" + "x" * 200_000 + f"{number}"
-    place.save(to_bytes(session_of(state, Arrangement("", (), windows))))
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
-def test_killed_at_any_moment_the_file_is_whole_and_its_place_is_free(tmp_path):
-    """The old file or the new one, never a part; and the lock ends with the process."""
-    rng = random.Random(4)
-    for _ in range(3):
-        writer = subprocess.Popen(
-            [sys.executable, "-c", WRITER, str(tmp_path)],
-            stdout=subprocess.PIPE,
-            text=True,
-            env=os.environ | {"PYTHONPATH": str(ROOT)},
-        )
-        assert writer.stdout is not None
-        assert writer.stdout.readline() == "session-1.json\n"
-        wait_for((tmp_path / "session-1.json").exists)
-        time.sleep(rng.uniform(0, 0.05))
-        writer.send_signal(signal.SIGKILL)
-        writer.wait()
-        writer.stdout.close()
-        windows = from_bytes((tmp_path / "session-1.json").read_bytes()).arrangement.windows
-        number = windows.partition("x")[0]
-        assert windows == number + "x" * 200_000 + number
-    place = take_place(tmp_path)
-    assert place is not None
-    assert place.load().message == ""
-    place.save(b"x")
-    place.release()

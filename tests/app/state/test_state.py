@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +14,6 @@ from lucida.app.cameras.basis import with_component, with_vector
 from lucida.app.cameras.editing import Draft, edit_component, edit_field
 from lucida.app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
 from lucida.app.state.changes import change
-from lucida.app.state.options import Options
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene import View
@@ -104,12 +103,6 @@ def test_undo_leaves_the_looks_as_they_are(looks: dict[str, dict[str, object]]) 
     assert seen.redo().present == with_options(moved(2.0), **looks)
     both = seen.change(moved(3.0))  # and the looks of before
     assert both.present == moved(3.0) and both.undo().present == moved(1.0)
-
-
-def test_undo_is_for_what_the_images_are() -> None:
-    for options in ({"images": {"resolution": (64, 36)}}, {"shadows": True}, {"mirrors": True}):
-        history = History(STATE).change(with_options(STATE, **options))
-        assert history.undo().present == STATE
 
 
 def test_undo_of_a_lectures_step_brings_its_display_back() -> None:
@@ -209,20 +202,6 @@ def test_a_vector_may_take_the_place_of_another(name: str, taken: str) -> None:
     assert camera.determinant * SKEWED.determinant > 0
 
 
-def test_an_axis_can_be_left_and_reached() -> None:
-    camera = with_component(Camera(), "w", 2, 0.5)
-    assert camera.w[2] == 0.5
-    assert np.linalg.norm(camera.w) == pytest.approx(1)
-    assert with_component(camera, "w", 2, 1.0).w == pytest.approx((0, 0, 1))
-
-
-def test_dragging_back_brings_everything_back() -> None:
-    state, draft = STATE, Draft.of(STATE.camera).begun()
-    for value in (0.3, 0.9, 1.7, -1.0, 0.2, 0.0):
-        state, draft = edit_component(state, draft, "w", 0, value)
-    assert np.allclose(state.camera.basis, STATE.camera.basis)
-
-
 def test_an_illegal_value_waits_and_the_camera_stays() -> None:
     state = replace(STATE, keep_orthonormal=False)
     draft = Draft.of(state.camera)
@@ -267,14 +246,6 @@ def test_a_legal_edit_does_not_wait_for_an_illegal_one() -> None:
     assert draft.error is None
 
 
-def test_the_basis_stays_orthonormal_while_something_else_is_illegal() -> None:
-    state, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
-    state, draft = edit_component(state, draft, "w", 0, 0.6)
-    assert state.camera.w[0] == 0.6
-    assert is_orthonormal(state.camera)
-    assert draft.is_wrong("distance")
-
-
 def test_a_draft_is_dropped_when_the_camera_changes_elsewhere() -> None:
     _, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
     assert draft.following(STATE.camera) is draft
@@ -299,16 +270,3 @@ def test_what_follows_from_a_change_of_the_window_is_no_step() -> None:
     amended = history.amended(moved(2.0))
     assert (amended.present, amended.past) == (moved(2.0), (STATE,))
     assert amended.change(moved(3.0), "a").past == (STATE,)
-
-
-def test_parts_of_the_options_find_their_place() -> None:
-    for entry in fields(Options):
-        part = getattr(Options(), entry.name)
-        if is_dataclass(part):
-            assert Options().with_parts(part) == Options()
-    outside, images = (
-        replace(STATE.options.outside, bundle=(3, 4)),
-        replace(STATE.images, grid=False),
-    )
-    both = STATE.with_options(outside, images).options
-    assert both == replace(STATE.options, outside=outside, images=images)

@@ -15,7 +15,6 @@ from lucida.app.cli import main
 from lucida.app.web.scene_page import scene_page
 from lucida.renderer.files.views import view_from_toml, view_table
 from lucida.renderer.images import picture
-from lucida.renderer.images import shared_numbers as shared
 from lucida.renderer.scene import (
     Checker,
     Material,
@@ -27,7 +26,7 @@ from lucida.renderer.scene import (
     Texture,
 )
 from lucida.renderer.scene.model import View
-from tests.support.browser import Page, chromium, unexplained
+from tests.support.browser import Page, unexplained
 from tests.support.page_cameras import LENSES, random_cameras, ray_error
 from tests.support.textured import noise
 
@@ -53,12 +52,6 @@ def _painted() -> Scene:
         view=View(Camera.look_at((0.5, 0.6, 6), (0, 0, 0), fov_y_deg=40), fit=True),
         name="painted",
     )
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as found:
-        yield found
 
 
 @pytest.fixture(scope="module")
@@ -116,16 +109,6 @@ def test_shadows_and_reflections(pages, scenes, page, tab):
     assert unexplained(image, picture(frame), frame.channel("primitive")).sum() <= 3
     for label in ("shadows", "reflections"):
         tab.get_by_label(label).uncheck()
-
-
-def test_numbers_of_shading_are_the_programs():
-    text = Path("app/web/modules/numbers.js").read_text()
-    found = re.findall(r"\b([A-Z][A-Z_]+) = (-?[\d.e-]+)[,;]", text)
-    shown = [(name, number) for name, number in found if name in vars(shared)]
-    assert len(shown) > 15
-    assert [(name, float(number)) for name, number in shown] == [
-        (name, getattr(shared, name)) for name, _ in shown
-    ]
 
 
 def test_camera_as_text_and_in_the_address(tab, page):

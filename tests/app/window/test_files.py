@@ -83,28 +83,6 @@ def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
         assert json.loads((tmp_path / "recent.json").read_bytes()) == newest[:MOST]
 
 
-def test_what_was_found_before_a_file_was_added_does_not_take_it_away(tmp_path, monkeypatch):
-    """The disk tells what was in the list after one more came in, and falls asleep again."""
-    (tmp_path / "recent.json").write_text('["/old.obj"]')
-    awake = {"/old.obj": threading.Event(), "/new.obj": threading.Event()}
-    asked = {name: threading.Event() for name in awake}
-
-    def exists(path):
-        asked[path].set()
-        return awake[path].wait(PATIENT_S)
-
-    monkeypatch.setattr("lucida.app.ui.recent._exists", exists)
-    recent = RecentFiles(tmp_path, lambda: None)
-    assert asked["/old.obj"].wait(PATIENT_S)
-    recent.add("/new.obj")
-    awake["/old.obj"].set()
-    assert asked["/new.obj"].wait(PATIENT_S)  # the thread has told of the old list
-    assert paths(recent) == ["/new.obj"]
-    awake["/new.obj"].set()
-    wait_for(lambda: paths(recent) == ["/new.obj", "/old.obj"])
-    recent.close()
-
-
 def test_two_windows_share_the_list(tmp_path):
     one, other = RecentFiles(tmp_path, lambda: None), RecentFiles(tmp_path, lambda: None)
     one.add("/a.obj")
@@ -149,15 +127,6 @@ def test_of_the_list_s_file_only_usable_paths_are_taken(tmp_path):
     recent.close()
     assert not Recent("/b").missing
     assert Recent("/a/b").folder == "/a"
-
-
-def test_a_list_that_is_only_looked_at_is_not_written(tmp_path):
-    listed = b'[ "/b" ]'
-    (tmp_path / "recent.json").write_bytes(listed)
-    recent = RecentFiles(tmp_path, lambda: None)
-    wait_for(lambda: bool(recent.entries))
-    recent.close()
-    assert (tmp_path / "recent.json").read_bytes() == listed
 
 
 # Folders.

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from any_camera import cameras
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lucida import Camera, LucidaError
@@ -13,30 +14,7 @@ from lucida.renderer.camera.camera import check_camera
 from lucida.renderer.camera.checks import LARGEST, SMALLEST, volume
 from lucida.renderer.scene.model import View
 
-numbers = st.floats(-3, 3, allow_nan=False)
-vectors = st.tuples(numbers, numbers, numbers)
 sizes = st.tuples(st.integers(1, 40), st.integers(1, 40))
-projections = st.sampled_from(["perspective", "parallel"])
-
-
-@st.composite
-def cameras(draw):
-    """Any legal camera: skewed, scaled and left-handed bases, off-axis viewports."""
-    basis = np.array([draw(vectors) for _ in range(3)])
-    lengths = np.linalg.norm(basis, axis=1)
-    assume((lengths > 0.1).all())
-    assume(abs(volume(*(basis / lengths[:, None]))) > 0.02)
-    left, bottom = draw(numbers), draw(numbers)
-    width, height = draw(st.floats(0.05, 4)), draw(st.floats(0.05, 4))
-    return Camera(
-        eye=draw(vectors),
-        u=basis[0],
-        v=basis[1],
-        w=basis[2],
-        distance=draw(st.floats(0.1, 5)),
-        viewport=(left, left + width, bottom, bottom + height),
-        projection=draw(projections),
-    )
 
 
 @given(cameras(), sizes, st.floats(0.01, 100))
@@ -67,17 +45,6 @@ def test_near_maps_to_minus_one_and_far_to_plus_one(camera, near, ratio):
                 np.testing.assert_allclose(
                     clip[:3] / clip[3], [x_clip, y_clip, expected], atol=1e-6
                 )
-
-
-@given(cameras(), sizes)
-def test_the_matrices_and_the_rays_see_the_same_pixel(camera, size):
-    i, j = size[1] // 2, size[0] // 3
-    origin, direction = camera.ray(i, j, size)
-    matrix = camera.clip_from_camera(0.01, 100.0) @ camera.camera_from_world
-    clip = matrix @ np.append(origin + 2.5 * direction, 1.0)
-    x, y = clip[:2] / clip[3]
-    assert (x + 1) / 2 * size[0] - 0.5 == pytest.approx(j, abs=1e-6)
-    assert (1 - y) / 2 * size[1] - 0.5 == pytest.approx(i, abs=1e-6)
 
 
 @given(cameras())
@@ -136,34 +103,6 @@ def test_look_at_names_what_is_wrong(arguments, field):
     with pytest.raises(LucidaError) as error:
         Camera.look_at((0, 0, 5), **arguments)
     assert error.value.field == field
-
-
-@pytest.mark.parametrize(
-    ("changes", "field", "value"),
-    [
-        ({"eye": (0, 0, math.nan)}, "eye", "nan"),
-        ({"eye": (0, 0, math.inf)}, "eye", "inf"),
-        ({"eye": (0, 0)}, "eye", "(0, 0)"),
-        ({"eye": "abc"}, "eye", "abc"),
-        ({"u": (1e200, 0, 0)}, "u", "1e+200"),
-        ({"w": (0, -1, 0)}, "w", "(0, -1, 0)"),
-        ({"distance": "far"}, "distance", "far"),
-        ({"viewport": (0, 1, 1, 1)}, "viewport", "(0, 1, 1, 1)"),
-        ({"viewport": (0, 1)}, "viewport", "(0, 1)"),
-        ({"projection": "fisheye"}, "projection", "fisheye"),
-        ({"near": 2, "far": 2}, "far", "2"),
-        ({"far": math.nan}, "far", "nan"),
-        ({"near": math.inf}, "near", "inf"),
-        ({"near": "close"}, "near", "close"),
-    ],
-)
-def test_an_illegal_camera_names_field_value_and_remedy(changes, field, value):
-    with pytest.raises(LucidaError) as error:
-        Camera(**changes)
-    assert error.value.field == field
-    assert value in error.value.problem
-    assert error.value.remedy
-    assert "\n" not in str(error.value)
 
 
 def test_denormal_numbers_are_legal():
@@ -252,6 +191,12 @@ def test_the_smallest_and_the_largest_numbers_are_legal():
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
+        ({"eye": (0, 0, math.nan)}, "eye: nan is not finite; give"),
+        ({"eye": (0, 0)}, "eye: (0, 0) is not 3 numbers; give"),
+        ({"eye": "abc"}, "eye: 'abc' is not 3 numbers; give"),
+        ({"projection": "fisheye"}, "projection: 'fisheye' is unknown; give"),
+        ({"far": math.nan}, "far: nan is not finite; give"),
+        ({"distance": "far"}, "distance: 'far' is not a number; give"),
         ({"distance": 0}, "distance: 0 is not above 0; give"),
         ({"distance": SMALLEST / 2}, "distance: 5e-13 is not above 1e-12; give"),
         ({"distance": -3}, "distance: -3 is not above 0; give"),
@@ -285,16 +230,3 @@ def test_what_is_no_camera_is_refused():
         check_camera(View(camera))
     with pytest.raises(LucidaError, match="is of type str, not a Camera; give a Camera"):
         check_camera("front")
-
-
-def test_three_vectors_span_a_volume():
-    """The determinant by its six products, one number at a time."""
-    for u, v, w, wanted in (
-        ((2, 0, 0), (0, 3, 0), (0, 0, 5), 30),
-        ((2, 0, 0), (0, 0, 3), (0, 5, 0), -30),
-        ((0, 2, 0), (0, 0, 3), (5, 0, 0), 30),
-        ((0, 2, 0), (3, 0, 0), (0, 0, 5), -30),
-        ((0, 0, 2), (3, 0, 0), (0, 5, 0), 30),
-        ((0, 0, 2), (0, 3, 0), (5, 0, 0), -30),
-    ):
-        assert volume(u, v, w) == wanted

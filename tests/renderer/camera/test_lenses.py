@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 
 from lucida import Camera, LucidaError
-from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.distortion import Distortion, Point
 from lucida.renderer.camera.lenses import MODELS, Lens
 from lucida.renderer.camera.undistort import undistorted, undistorted_camera
 
@@ -122,28 +120,6 @@ def test_points_outside_of_a_lens_have_no_direction() -> None:
         assert np.isnan(one.direction(1.05 * fold, 0.0)).all()
     assert np.isnan(Lens("equirectangular").direction(3.2, 0.0)).all()
     assert np.isnan(Lens("orthographic").direction(1.1, 0.0)).all()
-
-
-@pytest.mark.parametrize(
-    "coefficients",
-    [{"p1": 1e6}, {"p1": 0.1, "p2": -0.3}, {"s1": 0.5, "s2": -1.0}, {"k4": -1.0, "p1": 0.05}],
-)
-def test_little_work_is_done_for_points_outside_of_a_lens(
-    coefficients: dict[str, float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    steps, own = 0, Distortion.newton_step
-
-    def counted(self: Distortion, a: Floats, b: Floats, x: Floats, y: Floats) -> Point:
-        nonlocal steps
-        steps += a.size
-        return own(self, a, b, x, y)
-
-    monkeypatch.setattr(Distortion, "newton_step", counted)
-    a, b = np.meshgrid(np.linspace(-0.9, 0.9, 64), np.linspace(-0.5, 0.5, 36))
-    lens = Lens("brown", coefficients)
-    seen = np.isfinite(lens.direction(a, b)[0])
-    assert seen.any() and steps < 10 * a.size
-    assert not np.isnan(Camera(lens=lens).fov_x_deg)
 
 
 @pytest.mark.parametrize(

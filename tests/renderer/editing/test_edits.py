@@ -12,7 +12,6 @@ from lucida.renderer.editing import changing, materials, moving, objects
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene import flatten
-from lucida.renderer.scene.model import Scene
 from lucida.renderer.scene.shapes import placement
 from lucida.renderer.system.errors import LucidaError
 
@@ -99,11 +98,6 @@ def test_every_kind_can_be_added_and_gets_a_name_of_its_own(scene, kind):
     assert objects.delete(second, [one, two]).objects == scene.objects
 
 
-def test_a_new_light_shines_from_its_place_to_the_origin_or_else_down(scene):
-    assert objects.new_table(scene, "directional", (1, 2, 3))["direction"] == [-1, -2, -3]
-    assert objects.new_table(scene, "directional")["direction"] == [0.5, -0.8, -0.6]
-
-
 def test_a_model_is_added_and_its_file_is_watched(scene, tmp_path):
     (tmp_path / "more").mkdir()
     file = tmp_path / "more" / "roof.obj"
@@ -181,16 +175,3 @@ def test_of_a_model_the_material_of_its_file_is_begun_with(scene):
     assert shiny.objects[3].material.diffuse == own.diffuse
     back = changing.set_field(shiny, [tent], "material", None)
     assert back.objects[3].material == own
-
-
-def test_lights_are_the_default_ones_until_one_is_changed():
-    scene = changing.as_tables(load_scene("still-life"))
-    assert not changing.has_default_lights(scene)
-    tables = {k: v for k, v in changing.origin_of(scene)[1].items() if k != "lights"}
-    plain = changing.with_tables(scene, tables)
-    assert changing.has_default_lights(plain)
-    light = next(row.item for row in outline(plain) if row.is_light)
-    changed = changing.set_field(plain, [light], "color", (1, 0, 0))
-    assert not changing.has_default_lights(changed)
-    assert len(changed.lights) == len(plain.lights)
-    assert not changing.has_default_lights(Scene(objects=()))

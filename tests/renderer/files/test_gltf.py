@@ -8,13 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gltf_files import CORNERS, TRIANGLE, gltf, load_gltf
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 from test_models import corners, mesh_of, write
 
 from lucida.app.cli import main
 from lucida.renderer.files import load_scene
-from lucida.renderer.scene import Material, flatten, framing
+from lucida.renderer.scene import Material, framing
 from lucida.renderer.scene.metal import METAL_DIFFUSE
 from lucida.renderer.system.errors import LucidaError
 
@@ -33,16 +31,6 @@ def test_gltf_instances_stand_where_their_nodes_put_them(tmp_path: Path) -> None
     expected = [[0, 0, 4, 10], [0, 3, 0, 0], [-2, 0, 0, 0], [0, 0, 0, 1]]
     np.testing.assert_allclose(mesh_of(first).transform, expected, atol=1e-12)
     np.testing.assert_allclose(mesh_of(second).transform[:3, 3], [13, 2, -1], atol=1e-12)
-
-
-def test_gltf_without_scenes_shows_its_roots(tmp_path: Path) -> None:
-    nodes = [{"children": [1]}, {"mesh": 0}, {"mesh": 0}]
-    assert len(load_gltf(gltf(scenes=[], nodes=nodes), tmp_path).objects) == 2
-
-
-def test_gltf_hidden_nodes_are_left_out(tmp_path: Path) -> None:
-    nodes = [{"mesh": 0, "scale": [0, 1, 1]}, {"mesh": 0}]
-    assert len(load_gltf(gltf(scenes=[], nodes=nodes), tmp_path).objects) == 1
 
 
 def test_gltf_colours_are_linear_and_normals_kept(tmp_path: Path) -> None:
@@ -133,30 +121,6 @@ def test_a_gltf_leaf_of_two_turned_faces_has_both_where_it_is_single_sided(tmp_p
         np.testing.assert_array_equal(entry.shape.faces, faces)
 
 
-@pytest.mark.parametrize(("mode", "opacity"), [("MASK", 254), ("MASK", 255), ("OPAQUE", 0)])
-def test_opacity_of_gltf_vertices_that_should_cut_holes_costs_a_line(
-    mode: str, opacity: int, tmp_path: Path
-) -> None:
-    colors = np.array([[255, 51, 0, opacity]] * 3, "u1")
-    tree = gltf(TRIANGLE | {"COLOR_0": colors, "material": 0}, materials=[{"alphaMode": mode}])
-    notes = load_gltf(tree, tmp_path).notes
-    assert len(notes) == ((mode, opacity) == ("MASK", 254))
-    assert all(note.endswith("the opacity of vertices cuts no holes") for note in notes)
-
-
-@settings(
-    max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-@given(scale=st.floats(1e-6, 1e100), angle=st.floats(-7, 7))
-def test_gltf_quaternions_of_any_length_turn(scale: float, angle: float, tmp_path: Path) -> None:
-    rotation = [0, 0, scale * math.sin(angle / 2), scale * math.cos(angle / 2)]
-    tree = gltf(nodes=[{"mesh": 0, "rotation": rotation}])
-    turned = mesh_of(load_gltf(tree, tmp_path).objects[0]).transform
-    cosine, sine = math.cos(angle), math.sin(angle)
-    expected = [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]]
-    np.testing.assert_allclose(turned[:3, :3], expected, atol=1e-9)
-
-
 def test_gltf_quantised_positions(tmp_path: Path) -> None:
     tree = gltf({"POSITION": (CORNERS * 127).astype("i1")})
     mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
@@ -190,26 +154,6 @@ def test_gltf_modes(mode: int, tmp_path: Path) -> None:
     for other in (0, 1, 2, 3):
         with pytest.raises(LucidaError, match="holds no triangle"):
             load_gltf(gltf(primitive | {"mode": other}), tmp_path)
-
-
-@pytest.mark.parametrize("has_view", [True, False])
-def test_gltf_sparse_numbers_are_put_in(has_view: bool, tmp_path: Path) -> None:
-    moved = np.array([[7, 0, 0], [0, 7, 0]], "<f4")
-    blobs = np.array([0, 2], "<u2").tobytes(), moved.tobytes()
-    tree = gltf({"POSITION": AROUND[:3]}, blobs=blobs)
-    indices = {"bufferView": 1, "componentType": 5123}
-    tree["accessors"][0]["sparse"] = {"count": 2, "indices": indices, "values": {"bufferView": 2}}
-    if not has_view:
-        del tree["accessors"][0]["bufferView"]
-    mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
-    np.testing.assert_array_equal(
-        mesh.vertices[mesh.faces], [[[7, 0, 0], AROUND[1] * has_view, [0, 7, 0]]]
-    )
-
-
-def test_a_model_s_scene_flattens(tmp_path: Path) -> None:
-    flat = flatten(load_gltf(gltf(), tmp_path))
-    np.testing.assert_array_equal(flat.bounds, [[0, 0, 0], [1, 1, 0]])
 
 
 # Cameras, which become views.

@@ -13,11 +13,7 @@ from textured import noise
 
 from lucida.renderer.files.texture_images import FoundImage, ModelImages, decode_image, inner_path
 from lucida.renderer.raster.tables import TABLE_WIDTH
-from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE
-from lucida.renderer.scene.material import Material
-from lucida.renderer.scene.model import Scene, SceneObject, Sphere
-from lucida.renderer.scene.texture import Texture
 from lucida.renderer.system.errors import LucidaError
 
 USUAL_SIDE = 16384  # GL_MAX_TEXTURE_SIZE of graphics cards, and of Mesa's software
@@ -94,16 +90,6 @@ def test_names_that_lead_outside(tmp_path: Path) -> None:
     for name in ("..", "a/../../b.png", "/b.png", "\\\\host\\b.png", "C:/b.png", "\0"):
         with pytest.raises(LucidaError, match="is not in the folder"):
             inner_path(name, tmp_path)
-
-
-def test_too_many_texels_for_one_scene(monkeypatch) -> None:
-    monkeypatch.setattr("lucida.renderer.scene.flat_textures.TEXELS", 100)
-    balls = tuple(
-        SceneObject(Sphere(), Material(texture=Texture(noise(6, 6, seed)))) for seed in range(3)
-    )
-    flatten(Scene(balls[:2]))
-    with pytest.raises(LucidaError, match="textures: the scene's images have more than"):
-        flatten(Scene(balls))
 
 
 def test_the_images_of_a_model_are_counted_together_and_each_once(monkeypatch) -> None:

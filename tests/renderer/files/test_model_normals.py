@@ -10,7 +10,7 @@ import pytest
 from test_models import TRIANGLE, load_one, write
 
 from lucida.renderer.files.models.parts import Part, build_mesh
-from lucida.renderer.scene import Mesh, normals, shapes
+from lucida.renderer.scene import Mesh, shapes
 from lucida.renderer.scene.normals import face_normals, merge_positions
 
 # Normals and repair.
@@ -45,16 +45,6 @@ def test_the_crease_angle_decides(turn_deg: float, vertices: int) -> None:
     mesh = build_mesh(Part("p", points, [[0, 1, 2], [1, 0, 3]]))
     assert mesh is not None
     assert len(mesh.vertices) == vertices
-
-
-def test_normals_are_weighted_by_the_corners_angles(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(normals, "CREASE_DEG", 95.0)
-    # A cube's corner, one of its three sides cut in two: its normal is the diagonal all the same.
-    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0]]
-    faces = np.array([[0, 4, 1], [0, 2, 4], [0, 3, 2], [0, 1, 3]])
-    _, new_faces, smooth = normals.smooth_normals(np.array(points, np.float32), faces)
-    tip = new_faces[0, 0]
-    np.testing.assert_allclose(smooth[tip], -np.ones(3) / math.sqrt(3), atol=1e-6)
 
 
 def test_faces_without_area_and_repeated_faces_go() -> None:

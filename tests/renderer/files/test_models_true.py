@@ -13,9 +13,7 @@ import pytest
 from gltf_files import gltf, load_gltf
 from PIL import Image
 
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
-from lucida.renderer.files.export import export_scene
 from lucida.renderer.scene import DirectionalLight, PointLight, Scene, framing
 from lucida.renderer.system.errors import LucidaError
 
@@ -129,30 +127,6 @@ def test_faces_without_normals_are_flat_beside_those_that_have_some(tmp_path: Pa
     np.testing.assert_array_equal(found, [[0, 0, 1] * 3, [0] * 9, [0] * 9])
 
 
-# Kinds.
-
-
-@pytest.mark.parametrize("ending", ["fbx", "obj", "stl", "ply", "gltf"])
-@pytest.mark.parametrize(
-    ("content", "kind"),
-    [
-        (b"Kaydara FBX Binary  \0\x1a\0", "FBX"),
-        (b"; FBX 7.3.0 project file\n", "FBX"),
-        (b'\xef\xbb\xbf<?xml version="1.0"?>\n<COLLADA version="1.4.1">', "COLLADA"),
-        (b"#usda 1.0\n", "USD"),
-        (b"PK\x03\x04" + bytes(40), "a ZIP archive"),
-        (b"BLENDER-v300", "Blender's"),
-        (b"ISO-10303-21;\nHEADER;\n", "STEP"),
-        (b"MM\x20\0\0\0" + bytes(26), "3DS"),
-    ],
-)
-def test_other_programs_kinds_are_named_by_their_content(
-    content: bytes, kind: str, ending: str, tmp_path: Path
-) -> None:
-    with pytest.raises(LucidaError, match=f"t.{ending}: is {kind}.*, which is not read; export"):
-        loaded(tmp_path, f"t.{ending}", content)
-
-
 def test_a_text_that_is_no_obj_is_told_what_was_looked_for(tmp_path: Path) -> None:
     with pytest.raises(LucidaError, match="has no line that begins with v or f"):
         loaded(tmp_path, "t.obj", "hello\n")
@@ -197,8 +171,6 @@ def test_ply_textures(head: str, body: str, tmp_path: Path) -> None:
     assert entry.material.texture is not None and not scene.notes
     np.testing.assert_array_equal(entry.shape.uv, entry.shape.vertices[:, :2])
     assert area(scene) == pytest.approx(1)
-    bare = loaded(tmp_path, "t.ply", head.replace("comment TextureFile my t.png\n", "") + body)
-    assert bare.objects[0].shape.uv is None and not bare.notes
     several = head.replace("format", "comment TextureFile b.png\nformat")
     assert note(loaded(tmp_path, "t.ply", several + body)) == "PLY: not read: b.png, my t.png"
 
@@ -264,24 +236,6 @@ def test_gltf_lights_shine_as_brightly_as_the_file_s(tmp_path: Path) -> None:
     assert note(scene) == "lights: all are 1e+03 times darker than in the file"
     scene = lit(tmp_path, {"type": "spot"})
     assert scene.lights == framing.LIGHTS and note(scene) == "lights: not shown: spot lights"
-
-
-def test_lights_of_an_export_are_read_as_they_were(tmp_path: Path) -> None:
-    (tmp_path / "t.obj").write_text(f"{SQUARE}f 1 2 3 4\n")
-    table = '[[objects]]\ntype = "model"\nfile = "t.obj"\n'
-    lamps = '[[lights]]\ntype = "point"\nposition = [1, 2, 3]\ncolor = [0.5, 0.4, 0.3]\n'
-    sun = '[[lights]]\ntype = "directional"\ndirection = [0, -1, -2]\ncolor = [0.2, 0.1, 0]\n'
-    (tmp_path / "s.toml").write_text(table + lamps + sun)
-    scene = load_scene(tmp_path / "s.toml")
-    export_scene(tmp_path / "s.glb", scene, Camera.canonical(), (40, 40))
-    for was, now in zip(scene.lights, load_scene(tmp_path / "s.glb").lights, strict=True):
-        assert now.color == pytest.approx(was.color)
-        assert type(now) is type(was)
-    (tmp_path / "b.toml").write_text(table.replace("t.obj", "s.glb"))
-    assert any("a scene file has its own" in line for line in load_scene(tmp_path / "b.toml").notes)
-
-
-CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4")
 
 
 def test_extensions_that_are_not_read_are_named_or_refused(tmp_path: Path) -> None:

@@ -12,7 +12,6 @@ from random_edits import check_same
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene, save_scene
-from lucida.renderer.images.frame import check_size
 from lucida.renderer.scene import (
     Checker,
     DirectionalLight,
@@ -89,30 +88,6 @@ def test_numpy_s_numbers_are_written_as_numbers(tmp_path):
     found = load_scene(tmp_path / "scene.toml")
     check_same(found, scene)
     assert found.objects[0].shape == Sphere((0, 1, 2), 1.5)
-
-
-@pytest.mark.parametrize(
-    ("make", "field"),
-    [
-        (lambda: Camera(distance="2"), "distance"),
-        (lambda: Camera(eye=("1", "2", "3")), "eye"),
-        (lambda: Camera(near=True), "near"),
-        (lambda: check_size("64"), "size"),
-        (lambda: check_size((64.5, 48)), "size"),
-        (lambda: Camera().fitted((-4, -3)), "size"),
-        (lambda: Camera.look_at((0, 0, 5), (0, 0, 0), aspect="2"), "aspect"),
-        (lambda: Camera.look_at((0, 0, 5), (0, 0, 0), distance="2"), "distance"),
-        (lambda: Sphere(radius="1"), "radius"),
-        (lambda: Material(shininess="50"), "shininess"),
-        (lambda: Material(diffuse="abc"), "diffuse"),
-        (lambda: Checker(size=None), "size"),
-        (lambda: PointLight(("0", "1", "2")), "position"),
-    ],
-)
-def test_what_is_no_number_is_refused_as_what_it_is(make, field):
-    with pytest.raises(LucidaError, match=r"is not (a number|two whole|a width|3 numbers)") as told:
-        make()
-    assert told.value.field == field
 
 
 def test_what_the_format_cannot_hold_is_said_and_nothing_written(tmp_path):

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import math
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from gltf_files import gltf
 from test_scene_files import BALL, TRIANGLE, scene
 
-from lucida.app.checking.task_file import load_tasks
-from lucida.app.lecture.reading import load_lecture
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
-from lucida.renderer.files.reading import read_file
-from lucida.renderer.scene import Mesh, Sphere, View, flatten
+from lucida.renderer.scene import Mesh, View, flatten
 from lucida.renderer.system.errors import LucidaError
 
 # Built-in scenes.
@@ -55,24 +49,6 @@ def _world(mesh: Mesh) -> np.ndarray:
     return mesh.vertices @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
 
 
-def test_the_default_scene_shows_near_far_and_hidden_things() -> None:
-    read = load_scene(BUILTIN_SCENES[0])
-    size = (640, 360)
-    camera = read.view.for_size(size)
-    centers = [
-        entry.shape.center if isinstance(entry.shape, Sphere) else _world(entry.shape).mean(0)
-        for entry in read.objects
-    ]
-    seen = camera.project(np.array(centers[1:]), size)  # the first one is the floor
-    assert ((seen.row > 0) & (seen.row < size[1])).all()
-    assert ((seen.column > 0) & (seen.column < size[0])).all()
-    assert seen.parameter.max() > 2 * seen.parameter.min()
-    kinds = {type(entry.shape) for entry in read.objects}
-    assert kinds == {Sphere, Mesh}
-    assert any(entry.material.checker for entry in read.objects)
-    assert any(max(entry.material.specular) > 0.3 for entry in read.objects)
-
-
 # Names and endings.
 
 
@@ -90,7 +66,6 @@ def test_the_default_scene_shows_near_far_and_hidden_things() -> None:
         ("a" * 5000, "scene: 'aaaa"),
         ("a" * 5000 + ".obj", "aaaa"),
     ],
-    ids=range(10),
 )
 def test_unknown_sources(source: str, message: str, tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
@@ -165,53 +140,3 @@ def test_a_scene_out_of_reach_says_so(radius: float) -> None:
 
 
 # A missing file, what is beside it, and which of these is suggested.
-SUGGESTED = [
-    ("buny.obj", ["bunny.obj"], "bunny.obj"),
-    ("Bunny.OBJ", ["bunny.obj"], "bunny.obj"),
-    ("bunny2.obj", ["bunny.obj"], "bunny.obj"),
-    ("bunny.glb", ["bunny.gltf", "bunny.bin"], "bunny.gltf"),
-    ("bunny.ob", ["bunny.obj"], "bunny.obj"),
-    ("scene.toml", ["scene1.obj", "scene1.json"], ""),
-    ("BoxTextured0.bin", ["BoxTextured.gltf", "BoxTextured0.png"], ""),
-    ("BoxTextured0.bin", ["BoxTextured.gltf", "boxtextured0.bin"], "boxtextured0.bin"),
-    ("wall_baseColor.png", ["wall_normal.png", "wall_occlusion.png"], ""),
-    ("wall_baseColor.png", ["wall_base_color.png"], "wall_base_color.png"),
-]
-
-
-@pytest.mark.parametrize(("missing", "beside", "close"), SUGGESTED)
-def test_what_is_suggested_for_a_missing_file(
-    tmp_path: Path, missing: str, beside: list[str], close: str
-) -> None:
-    for name in beside:
-        (tmp_path / name).write_bytes(b"x")
-    with pytest.raises(LucidaError) as error:
-        read_file(tmp_path / missing, 1)
-    assert error.value.problem == "does not exist"
-    assert error.value.remedy == (f"did you mean {str(tmp_path / close)!r}?" if close else NONE)
-
-
-NONE = "check its name"
-MODEL = '[[objects]]\ntype = "model"\nfile = "{}"\n'
-GLTF = json.dumps(gltf(buffers=[{"byteLength": 44, "uri": "model0"}]))
-REFERRERS = {  # what names a missing file of a similar name
-    "model.gltf": ("model0", GLTF),
-    "lecture.toml": (
-        "lectures.toml",
-        'title = "L"\n[[steps]]\ntitle = "S"\nscene = "lectures.toml"\n',
-    ),
-    "tasks.toml": ("task.toml", '[[tasks]]\nkind = "viewing-ray"\nviews = ["task.toml"]\n'),
-}
-
-
-@pytest.mark.parametrize("name", REFERRERS)
-def test_the_file_that_names_a_missing_one_is_not_suggested(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    missing, text = REFERRERS[name]
-    Path(name).write_text(text if text == GLTF else f"lucida = 1\n{text}", "utf-8")
-    load = {"lecture.toml": load_lecture, "tasks.toml": load_tasks}.get(name, load_scene)
-    with pytest.raises(LucidaError, match=re.escape(missing)) as error:
-        load(name)
-    assert "did you mean" not in str(error.value)

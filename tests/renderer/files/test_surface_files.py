@@ -155,18 +155,9 @@ def test_an_export_to_gltf_says_what_was_read(material: dict[str, Any], tmp_path
 
 WRONG = [
     ("cutout = 0", "materials.m.cutout: 0 is not an opacity above 0"),
-    ("cutout = -1.5", "materials.m.cutout: -1.5 is not an opacity above 0"),
-    ("cutout = nan", "materials.m.cutout: nan is not finite"),
-    ("metal = 'none.png'", "materials.m.metal: 'none.png' does not exist"),
     ("metal = { file = 'a.png', metalness = 2 }", "materials.m.metal.metalness: 2 is outside 0"),
-    (
-        "metal = { file = 'a.png', roughness = nan }",
-        "materials.m.metal.roughness: nan is not",
-    ),
     ("metal = 'a.png'\nchecker = {}", "materials.m.metal: is given, and so is a checker"),
-    ("texture = { file = 'a.png', rotate_deg = inf }", "materials.m.texture.rotate_deg: inf is"),
     ("texture = { file = 'a.png', rotate_deg = 3 }", "objects[0].material: turns its texture"),
-    ("single_sided = 1", "materials.m.single_sided: is a whole number"),
 ]
 
 

@@ -13,13 +13,8 @@ import pytest
 from PIL import Image
 
 from lucida import Camera, Frame, LucidaError, Tracer, View, load_scene, picture
-from lucida.renderer.camera.lenses import MODELS, Lens
-from lucida.renderer.compare.raster_and_ray import compare
-from lucida.renderer.files.cameras import CameraSet, PosedCamera
-from lucida.renderer.notebook import explore
+from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.notebook.display import camera_svg
-from lucida.renderer.scene import flatten
-from lucida.renderer.scene.focus import scene_focus
 
 SIZE = (40, 30)
 
@@ -33,23 +28,6 @@ def frame() -> Frame:
 
 def opened(data: bytes) -> np.ndarray:
     return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
-
-
-def test_texts_are_short(frame: Frame) -> None:
-    scene = load_scene("columns")
-    camera = scene.view.for_size(SIZE)
-    values = [scene, scene.objects[0], scene.view, camera, frame, frame.show("depth")]
-    values += [camera.intrinsics(SIZE), camera.rays(SIZE), compare(scene, camera, SIZE)]
-    values += [CameraSet("view", (PosedCamera(camera),) * 1000, points=np.zeros((1000, 3)))]
-    values += [camera.project(np.ones((999, 3)), SIZE), flatten(scene), scene_focus(scene)]
-    lens = Lens("brown", dict.fromkeys(MODELS["brown"], 1e-5 / 3))
-    values += [replace(camera, lens=lens), explore(scene), Tracer(scene)]
-    values += [LucidaError("field", "problem" * 9999, "remedy" * 9999)]
-    for value in values:
-        assert len(repr(value)) < 1500, type(value)
-    assert repr(scene) == "Scene('columns': 51 objects, 3,458 triangles, 2 lights)"
-    assert repr(camera.project((0, 0, 0), SIZE)).startswith("Projected(row=")
-    assert repr(frame).startswith("Frame(40x30: color, depth, normal, id; ")
 
 
 def test_a_frame_is_its_picture(frame: Frame) -> None:

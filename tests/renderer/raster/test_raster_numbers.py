@@ -8,18 +8,13 @@ from raster_scenes import CHECKERED, SIZE, WIDE, agrees, square, triangle
 from trace_reference import reference
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.raster import setup
-from lucida.renderer.raster.prepared import scene_setup
-from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import (
     Checker,
-    Mesh,
     PointLight,
     Scene,
     SceneObject,
     Sphere,
 )
-from lucida.renderer.scene.positions import world_corners
 
 
 class TestNumbers:
@@ -94,40 +89,3 @@ class TestNumbers:
             )
             frame = agrees(rasterizer, scene, Camera())
             assert frame.depth[18, 24] == pytest.approx(3 * scale, rel=1e-2)
-
-    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-    def test_the_planes_of_objects_are_those_of_their_triangles_in_the_world(
-        self, projection, monkeypatch
-    ):
-        """However many objects there are in a block, and wherever each of them stands."""
-        rng = np.random.default_rng(4)
-        tetrahedron = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]) + 1000.0
-        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-        transforms = np.tile(np.eye(4), (40, 1, 1))
-        transforms[:, :3, :3] += rng.uniform(-0.4, 0.4, (40, 3, 3))
-        transforms[::3, :3, 0] *= -1
-        transforms[:, :3, :3] *= 10 ** rng.uniform(-3, 3, (40, 1, 1))
-        turned = transforms[:, :3, :3] @ np.full(3, 1000.0)
-        transforms[:, :3, 3] = rng.uniform(-1, 1, (40, 3)) - (0, 0, 5) - turned
-        meshes = [Mesh(tetrahedron, faces, transform=matrix) for matrix in transforms]
-        camera = Camera(eye=(0.3, 0.2, 4), projection=projection)
-        flat = flatten(Scene(tuple(map(SceneObject, meshes))))
-        prepared = scene_setup(flat)
-        space = setup.image_space(camera, SIZE, flat, prepared)
-        bases = setup.plane_bases(flat, prepared, space)
-        corners = world_corners(flat, np.arange(160))
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        start = space.eye + space.across
-        height = np.einsum("ni,ni->n", normals, corners[:, 0] - start)
-        along = normals @ np.stack([space.step_x, space.step_y, space.direction], axis=1)
-        if camera.is_parallel:
-            expected = np.stack([-along[:, 0], -along[:, 1], height], axis=1) / along[:, 2:]
-        else:
-            expected = along / height[:, None]
-        for few in (1, 100):
-            monkeypatch.setattr(setup, "FEW_OBJECTS", few)
-            rows = np.zeros((160, 3), np.float32)
-            setup.triangle_rows(flat, prepared, bases, camera.is_parallel, rows[:7])
-            setup.triangle_rows(flat, prepared, bases, camera.is_parallel, rows[7:], 7)
-            size = np.abs(expected).max(axis=1, keepdims=True)
-            np.testing.assert_allclose(rows / size, expected / size, atol=1e-5)

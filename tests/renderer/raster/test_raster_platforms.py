@@ -11,7 +11,6 @@ import pytest
 from import_path import import_path
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files import load_scene
 from lucida.renderer.raster import Display, Look, Rasterizer, Section, contexts, current
 from lucida.renderer.raster.packages import SYSTEMS, remedy, this_system
 from lucida.renderer.raster.resources import check
@@ -52,37 +51,6 @@ def test_what_was_current_before_is_so_afterwards(foreign, gl_backend):
         rasterizer.draw(Camera(), (3, 3))
         assert foreign.texture((2, 2), 4, bytes(16)).read() == bytes(16)
     assert texture.read() == bytes(range(16))
-
-
-@pytest.mark.parametrize("scene", [load_scene("still-life"), load_scene("spheres")])
-def test_both_platforms_draw_the_same(scene):
-    frames = []
-    for backend in ("egl", "osmesa"):
-        try:
-            rasterizer = Rasterizer(scene, backend=backend)
-        except LucidaError as error:
-            pytest.skip(str(error))
-        with rasterizer:
-            frames.append(rasterizer.render(scene.view.for_size((96, 64)), (96, 64)))
-    np.testing.assert_array_equal(frames[0].id, frames[1].id)
-    np.testing.assert_allclose(frames[0].depth, frames[1].depth, rtol=1e-6)
-    np.testing.assert_allclose(frames[0].color, frames[1].color, atol=1e-5)
-
-
-@on_each_platform
-def test_each_may_be_used_inside_the_other(gl_backend):
-    with Rasterizer(painted(1), backend=gl_backend) as outer:
-        for backend in ("egl", "osmesa"):
-            try:
-                inner = Rasterizer(painted(2), backend=backend)
-            except LucidaError as error:
-                pytest.skip(str(error))
-            with inner, outer.current() as gl:
-                texture = gl.texture((2, 2), 4, bytes(range(16)))
-                assert color_of(inner) == 2
-                assert color_of(outer) == 1
-                assert texture.read() == bytes(range(16))
-                assert gl.error == "GL_NO_ERROR"
 
 
 def test_a_windows_context_is_drawn_in_and_left_as_it_was(foreign):

@@ -29,7 +29,7 @@ from tools.conformance.measured import Checked, Job, Measured, measured
 
 KINDS = (
     *("simple radial", "radial", "opencv", "plumb bob", "four radial", "simple fisheye", "fisheye"),
-    *("equidistant", "equirectangular"),
+    "equidistant",
 )
 
 
@@ -94,8 +94,6 @@ def _lenses(job: Job) -> Measured:
 
 def _bent(frame: dict[str, Any], x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats]:
     """Return where a lens sees directions: x right, y down, z forward."""
-    if frame["camera_model"] == "EQUIRECTANGULAR":
-        return np.arctan2(x, z) / np.pi, np.arctan2(y, np.hypot(x, z)) / np.pi
     across, a, b = np.hypot(x, y), x / z, y / z
     if frame["camera_model"] == "OPENCV_FISHEYE":
         a, b = (part / across * np.arctan2(across, z) for part in (x, y))

@@ -52,36 +52,35 @@ def check(job: Job) -> Checked:
 def _ours(cv2: Any, job: Job) -> Measured:
     errors = []
     for number, case in enumerate(cases(job, straight_camera)):
-        K, R, t, rvec, lens = _stored(cv2, job.folder, case, (".yml", ".json")[number // 2 % 2])
+        K, R, t, rvec, lens = _stored(cv2, job.folder, case)
         turn = rvec if number % 2 else cv2.Rodrigues(R)[0]
         seen, _ = cv2.projectPoints(case.points, turn, t, K, lens)
         errors.append(seen[:, 0] + CORNER - case.pixels)
-    return measured("our .yml and .json, read by cv2", errors)
+    return measured("our .yml, read by cv2", errors)
 
 
 def _ours_skewed(cv2: Any, job: Job) -> Measured:
     errors = []
     for case in cases(job, skewed_camera):
-        K, R, t, _, _ = _stored(cv2, job.folder, case, ".yml")
+        K, R, t, _, _ = _stored(cv2, job.folder, case)
         errors.append(sight(K, R, t[:, 0], case.points) + CORNER - case.pixels)
     return measured("ours with a skew or a mirror, read by cv2, K (R p + t) by hand", errors)
 
 
 def _our_lenses(cv2: Any, job: Job) -> Measured:
     errors = []
-    for number, case in enumerate(lens_cases(job, KINDS)):
-        ending = (".yml", ".json")[number // len(KINDS) % 2]
-        K, _, t, turn, lens = _stored(cv2, job.folder, case, ending)
+    for case in lens_cases(job, KINDS):
+        K, _, t, turn, lens = _stored(cv2, job.folder, case)
         project = cv2.fisheye.projectPoints if lens.size == 4 else cv2.projectPoints
         seen, _ = project(case.points[:, None], turn, t, K, lens)
         errors.append(seen.reshape(-1, 2) + CORNER - case.pixels)
     return measured(f"our lenses, {len(KINDS)} kinds", errors, beside=True)
 
 
-def _stored(cv2: Any, folder: Path, case: Case, ending: str) -> list[Floats]:
+def _stored(cv2: Any, folder: Path, case: Case) -> list[Floats]:
     """Return K, R, t, rvec and the distortion that FileStorage reads in our file."""
-    path = folder / f"ours{ending}"
-    path.write_bytes(case.file("opencv", Options(ending=ending)))
+    path = folder / "ours.yml"
+    path.write_bytes(case.file("opencv", Options()))
     storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_READ)
     size = tuple(int(storage.getNode(f"image_{side}").real()) for side in ("width", "height"))
     if size != case.size:

@@ -15,7 +15,6 @@ from PIL import Image
 
 from lucida import LucidaError, __version__, load_scene
 from lucida.app.cameras.films import frames, workers
-from lucida.app.cameras.films.encoding import film_writer
 from lucida.app.cameras.films.paths import around
 from lucida.app.cli import main
 from lucida.renderer.scene.focus import scene_focus
@@ -184,19 +183,3 @@ def test_what_else_is_in_a_folder_stays(animate):
     Path("a.gif.frames/000001.png").unlink()
     assert animate("--orbit", "-o", "a.gif", "--frames", "2", *SMALL)[0] == 0
     assert pictures("a.gif.frames") == {"notes.txt": b"mine"}
-
-
-def test_an_mp4_holds_the_colours_of_bt_709(tmp_path):
-    """Decoded by hand: Y from 16 to 235, Cb and Cr within 112 of 128."""
-    colors = [(0, 255, 0), (255, 0, 0), (0, 0, 255), (200, 100, 50)]
-    frames = [tmp_path / f"{number}.png" for number in range(len(colors))]
-    for frame, color in zip(frames, colors, strict=True):
-        Image.new("RGB", (64, 48), color).save(frame)
-    list(film_writer(tmp_path / "a.mp4", (64, 48), 10.0)(tmp_path / "a.mp4", frames))
-    with av.open(str(tmp_path / "a.mp4")) as container:
-        planes = [frame.to_ndarray().astype(float) for frame in container.decode(video=0)]
-    for plane, color in zip(planes, colors, strict=True):
-        y = (plane[:48].mean() - 16) / 219
-        u, v = ((part.mean() - 128) / 224 for part in (plane[48:60], plane[60:]))
-        found = 255 * np.array([y + 1.5748 * v, y - 0.1873 * u - 0.4681 * v, y + 1.8556 * u])
-        assert found == pytest.approx(color, abs=3)

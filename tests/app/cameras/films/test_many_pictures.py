@@ -14,7 +14,6 @@ from lucida import Camera, LucidaError, Tracer, load_scene
 from lucida.app.cli import main
 from lucida.app.commands import render_many
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras import PosedCamera
 from lucida.renderer.images import picture
 
 SCENE, SIZE = load_scene("still-life"), (80, 100)
@@ -110,13 +109,6 @@ def test_all_cameras_of_a_data_set(data_set):
         assert file.channels()["Z"].pixels.shape == (16, 24)
 
 
-def test_a_data_set_of_one_camera(data_set):
-    content = json.loads(Path("transforms.json").read_text())
-    Path("transforms.json").write_text(json.dumps(content | {"frames": content["frames"][:1]}))
-    status, out, _ = data_set("-o", "one", *VIEW, "--renderer", "ray")
-    assert status == 0 and out.startswith("one: 1 image, ") and Path("one/IMG 1.png").is_file()
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -135,9 +127,3 @@ def test_mistakes_with_many_pictures_cost_one_line(render, options, message):
     status, out, err = render(*options)
     assert (status, out) == (2, "") and message in err and err.count("\n") == 1
     assert not any(Path().iterdir())
-
-
-def test_names_are_those_of_the_photographs_if_they_differ():
-    cameras = [PosedCamera(Camera(), image=f"{folder}/x.jpg") for folder in "ab"]
-    assert render_many.file_names(cameras) == ["000000", "000001"]
-    assert render_many.file_names([PosedCamera(Camera(), name="left: 1")]) == ["left- 1"]

@@ -12,7 +12,6 @@ from lucida.app.images.compare import comparing
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import ImageOptions
 from lucida.renderer.compare.raster_and_ray import CAUSES, SHADING, UNEXPLAINED, compare_frames
-from lucida.renderer.images.difference import LARGEST_GAIN
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import Scene
 
@@ -106,14 +105,6 @@ def test_the_worst_pixel_is_the_channels(state):
         for channel in ("color", "depth", "normal")
     }
     assert worst == {"color": (3, 4), "depth": (1, 1), "normal": (2, 7)}
-
-
-def test_gain_and_divider_stay_within_their_limits(state):
-    assert comparing.with_gain(state, 0.1).options.compare.gain == 1
-    assert comparing.with_gain(state, 1e9).options.compare.gain == LARGEST_GAIN
-    assert comparing.with_gain(state, 16).options.compare.gain == 16
-    assert comparing.with_divider(state, -1).options.compare.divider == 0
-    assert comparing.with_divider(state, 2).options.compare.divider == 1
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lucida.app.instruments.laboratory.displays import COLORS, DISPLAYS, FADING, MARKED, course
+from lucida.app.instruments.laboratory.displays import DISPLAYS, FADING
 
 MOMENTS = 3000
 TUBE, DLP, LCD, LED = DISPLAYS
@@ -31,21 +31,6 @@ def test_the_mean_over_a_cycle_is_the_share_of_white_that_the_color_is(kind, col
     np.testing.assert_allclose(share, color, atol=4 / MOMENTS / white.mean())
     assert light.min() >= 0 and light.max() <= 1
     assert not light[:, 0, 0].any()  # black stays dark
-
-
-@pytest.mark.parametrize("kind", DISPLAYS, ids=lambda kind: kind.title)
-def test_the_chart_of_the_gray_pixel_has_as_much_of_each_color(kind):
-    assert len({*COLORS[MARKED].tolist()}) == 1 and 0 < COLORS[MARKED][0] < 1
-    red, green, blue = course(kind).mean(axis=0).tolist()
-    assert red == pytest.approx(green) == pytest.approx(blue) and red > 0
-
-
-def test_each_makes_gray_in_its_own_way(color):
-    light = [cycle(kind, color, 300) for kind in (LED, DLP, LCD)]
-    assert set(np.unique(light[0])) == set(np.unique(light[1])) == {0, 1}  # on, or off
-    assert (light[1].max(axis=(1, 2)) > 0).sum(axis=1).max() == 1  # one colour at a time
-    np.testing.assert_array_equal(light[2], np.broadcast_to(color, light[2].shape))
-    np.testing.assert_array_equal(DLP.light(color, 0.1)[..., 0], color[..., 0] > 0.3)
 
 
 def test_a_tube_is_scanned_line_by_line_and_fades():

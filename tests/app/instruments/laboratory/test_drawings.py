@@ -18,7 +18,6 @@ from lucida.app.instruments.outside.figure import Figure, Label, Line, Picture, 
 from lucida.app.instruments.outside.svg import svg
 from lucida.app.state.options.laboratory import LONGEST, LaboratoryOptions
 from lucida.app.ui import palettes, theme
-from lucida.app.ui.uploads import nearest
 from lucida.renderer.camera.camera import Camera
 
 # Of sheets, with the heights of the windows that they are in; the last is a phone's page.
@@ -101,18 +100,6 @@ def test_discs_of_light_add_where_they_overlap():
     assert len(LIGHTS) == 3
 
 
-def test_the_region_of_two_discs_is_a_lens():
-    """Its area is 2 r^2 acos(d / 2r) - d / 2 sqrt(4 r^2 - d^2)."""
-    distance, radius = 3.0, 2.0
-    region = light.overlap(np.array([(0.0, 0.0), (distance, 0.0)]), radius)
-    x, y = region.T
-    area = 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))
-    exact = 2 * radius**2 * np.arccos(distance / 2 / radius)
-    exact -= distance / 2 * np.sqrt(4 * radius**2 - distance**2)
-    assert area == pytest.approx(exact, rel=0.01)
-    assert not len(light.overlap(np.array([(0.0, 0.0), (4.1, 0.0)]), radius))
-
-
 def test_bars_of_storage_are_to_scale():
     figure = figure_of("storage", progress=3.0)
     lengths = [np.ptp(part.points[:, 0]) for part in figure.parts if isinstance(part, Polygon)]
@@ -147,15 +134,6 @@ def test_rulers_lead_to_the_camera_s_u_and_v():
     assert {"6.5", "0.65", "0.15", "2.5", "0.25", "-0.25"} <= texts
 
 
-def test_pixels_are_the_mean_of_the_shapes():
-    look = look_of(palettes.LIGHT)
-    picture = shapes.bitmap(shapes.house(look), (64, 64)).astype(int)
-    assert abs(picture[0, 0] - np.multiply(255, look.ground)).max() <= 1
-    assert abs(picture[44, 12] - np.multiply(255, look.fill)).max() <= 1  # the wall
-    fine = shapes.bitmap(shapes.house(look), (128, 128)).reshape(64, 2, 64, 2, 3).mean(axis=(1, 3))
-    assert abs(fine - picture).mean() < 3
-
-
 def test_both_representations_show_the_same_part():
     for progress, zoom in ((0.0, 1), (1.0, 4), (2.0, 16)):
         raster, vector = (part for part in figure_of("shapes", progress=progress).parts
@@ -172,17 +150,3 @@ def test_few_pixels_are_numbered_and_counted():
     texts = [part.text for part in figure.parts if isinstance(part, Label)]
     assert texts[:14] == [*"12345678", *"123456"]
     assert texts[14:] == ["8 x 6 pixels", "3 numbers each: 144 numbers"]
-
-
-def test_the_spectrum_of_a_colour_looks_like_it():
-    nm = np.linspace(400, 700, 301)
-    for channel in range(3):
-        energy = images.spectrum(np.eye(3, dtype=np.float32)[channel], nm)
-        assert nm[energy.argmax()] == images.PEAKS[channel][0]
-        assert np.argmax(images.cone_light(nm[[energy.argmax()]])[0]) == channel
-
-
-def test_a_magnified_picture_has_the_pixels_of_the_picture():
-    picture = np.random.default_rng(1).integers(0, 256, (60, 80, 3), np.uint8)
-    big = nearest(picture, (16, 12), (0.5, 0.5), (0.05, 0.05))
-    assert np.array_equal(big[::4, ::4], picture[30:33, 40:44])

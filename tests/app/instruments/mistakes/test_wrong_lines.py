@@ -14,7 +14,6 @@ from lucida.app.images.ray_pictures import RayPainter
 from lucida.app.instruments.mistakes import model
 from lucida.app.instruments.mistakes.model import Situation
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.picture_grid import columns_for
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files import load_scene
 from lucida.renderer.images import to_srgb8
@@ -79,15 +78,6 @@ def test_the_corners_and_the_marked_pixel_s_ray_are_the_wrong_camera_s(painter) 
     assert both.ray is not None and np.array_equal(both.ray.direction, directions[now.pixel])
 
 
-def test_differences_are_told() -> None:
-    changed = np.zeros((10, 100), bool)
-    assert "nowhere" in model.told_difference(changed)
-    changed[0, :7] = True
-    assert model.told_difference(changed) == "7 pixels of 1000"
-    changed[:5] = True
-    assert model.told_difference(changed) == "50 % of the pixels"
-
-
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
     for mistake in program.mistakes:
@@ -108,15 +98,6 @@ def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
     third = next(one for one in program.mistakes if not one.keys & {"x", "y"})
     names = model.switched(program, (first.name, second.name), third.name)
     assert names == (second.name, third.name)  # the last one stays
-
-
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_lines_are_folded_without_loss(program) -> None:
-    for mistake in program.mistakes:
-        for _, code in mistake.lines:
-            rows = model.folded(code, 30)
-            assert all(len(row) <= 30 for row in rows)
-            assert " ".join(" ".join(rows).split()) == " ".join(code.split())
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
@@ -147,20 +128,6 @@ def test_sizes_and_pixels_of_pictures() -> None:
         assert model.scaled_pixel(pixel, old, new) == scaled
 
 
-def test_a_mark_beside_the_images_marks_nothing() -> None:
-    """It is of a larger image, or of a layout with others."""
-    for marked, pixel in (((59, 79), (47, 63)), ((60, 79), None), ((59, 80), None)):
-        assert situation(with_options(STATE, marked=marked)).pixel == pixel
-
-
 def test_unknown_names_are_told() -> None:
     names = tuple(mistake.name for program in PROGRAMS for mistake in program.mistakes)
     assert model.unknown((*names, "no such thing")) == ("no such thing",)
-
-
-def test_pictures_stand_as_large_as_they_can() -> None:
-    assert columns_for(3, 4 / 3, (900, 200), 20, 10) == (3, pytest.approx(240))
-    assert columns_for(3, 4 / 3, (300, 900), 20, 10)[0] == 1
-    columns, width = columns_for(5, 1.0, (630, 430), 20, 10)
-    assert (columns, width) == (3, pytest.approx(190))
-    assert columns_for(2, 1.0, (10, 10), 20, 10)[1] == 0  # no room: nothing, and no error

@@ -10,7 +10,6 @@ from lucida.app.instruments.objects.choosing import (
     choose,
     choose_also,
     chosen,
-    everything,
     item_at,
     picked,
     rows_of,
@@ -41,12 +40,6 @@ def test_a_click_chooses_what_is_under_it_and_nothing_else(state):
     assert chosen(other) == (rows_of(state.scene)[0].item,)
 
 
-def test_a_click_on_the_background_chooses_nothing_unless_it_adds(state):
-    one = picked(state, 0, more=False)
-    assert chosen(picked(one, None, more=False)) == ()
-    assert picked(one, None, more=True) is one
-
-
 def test_shift_adds_and_takes_away(state):
     first, second = items_of(state)[:2]
     both = choose_also(choose(state, (first,)), second)
@@ -70,14 +63,6 @@ def test_walking_goes_round_in_the_order_of_the_list_both_ways(state):
         seen += chosen(state)
     assert seen == [*items, items[0]]
     assert chosen(walked(state, -1)) == (items[-1],)
-
-
-def test_walking_and_choosing_all_pass_over_hidden_and_locked(state):
-    items = items_of(state)
-    scene = objects.hide(state.scene, [items[0]], True)
-    state = with_scene(state, set_field(scene, [items[1]], "locked", True))
-    assert chosen(walked(state, 1)) == (items[2],)
-    assert chosen(everything(state)) == tuple(items[2:])
 
 
 def test_what_is_deleted_is_no_longer_chosen_and_is_again_after_undo(state):

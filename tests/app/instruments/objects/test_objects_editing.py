@@ -10,11 +10,10 @@ import pytest
 from lucida.app.instruments.objects import editing
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of, unlocked
 from lucida.app.state.app_state import AppState
-from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import set_field
 from lucida.renderer.editing.moving import bounds_of
 from lucida.renderer.files import SCENE_NAMES, load_scene
-from lucida.renderer.scene.focus import object_corners, scene_focus
+from lucida.renderer.scene.focus import scene_focus
 from lucida.renderer.scene.model import Scene
 
 
@@ -27,20 +26,9 @@ def items_of(state: AppState) -> list[int]:
     return [row.item for row in rows_of(state.scene) if row.item is not None]
 
 
-@pytest.mark.parametrize("kind", [*objects.SHAPES, *objects.LIGHTS])
-def test_what_is_added_is_chosen(state, kind):
-    focus = scene_focus(state.scene)
-    after = editing.added(state, kind, focus)
-    (item,) = chosen(after)
-    (row,) = (row for row in rows_of(after.scene) if row.item == item)
-    assert row.kind == kind
-    assert len(rows_of(after.scene)) == len(rows_of(state.scene)) + 1
-    assert after.view == state.view
-
-
 @pytest.mark.parametrize("name", SCENE_NAMES)
 @pytest.mark.parametrize("kind", ["sphere", "box", "point"])
-def test_what_is_added_is_in_the_picture_and_in_no_other_object(name, kind):
+def test_what_is_added_is_in_the_picture(name, kind):
     """As large as they allow: the scene is not swallowed, nothing is out of the picture."""
     state = AppState.for_scene(load_scene(name))
     focus = scene_focus(state.scene)
@@ -50,10 +38,6 @@ def test_what_is_added_is_in_the_picture_and_in_no_other_object(name, kind):
     seen = after.camera.project(corners, (1, 1))
     assert (seen.parameter > 0).all()
     assert (np.abs([seen.row, seen.column]) < 0.5).all(), (seen.row, seen.column)
-    for _, entry in state.scene.visible:
-        others = object_corners(entry)
-        apart = (others.min(axis=0) >= high) | (others.max(axis=0) <= low)
-        assert apart.any() or kind == "box"  # a box's corners reach beyond its ball
     if focus.framed.size and kind != "point":
         assert 0.02 < np.ptp(corners, axis=0).max() / np.ptp(focus.framed, axis=0).max() < 0.5
 

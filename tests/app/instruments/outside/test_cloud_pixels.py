@@ -126,22 +126,3 @@ def test_what_reaches_behind_the_eye_that_looks_is_cut_there(
     assert (above.max(axis=2) > 0).sum() <= 16  # the other half of the line is not mirrored there
     behind = a_cloud(points[1:], line + np.array([0.0, 0.0, 4.0]))
     assert drawn(rasterizer, behind, camera).max() == 0
-
-
-def some(count: int, lines: int) -> Cloud:
-    generator = np.random.default_rng(5)
-    ends = generator.uniform(-0.9, 0.9, (lines, 2, 3))
-    ends[:, 1] = ends[:, 0] + 0.2 * (ends[:, 1] - ends[:, 0])
-    return a_cloud(generator.uniform(-1, 1, (count, 3)), ends)
-
-
-def test_no_camera_breaks_it(rasterizer: Rasterizer) -> None:
-    for camera in (
-        Camera.look_at((1e6, 0, 0), (0, 0, 0)),
-        Camera.look_at((1e-6, 0, 0), (0, 0, 0)),
-        Camera(eye=(0.0, 0.5, 0.5), viewport=(-1e6, 1e6, -1e6, 1e6), projection="parallel"),
-        Camera.look_at((0, 0, -9), (0, 0, -10)),
-    ):
-        assert drawn(rasterizer, some(50, 20), camera).shape == (SIZE[1], SIZE[0], 3)
-    assert drawn(rasterizer, a_cloud(), LOOKING).max() == 0
-    assert drawn(rasterizer, a_cloud([(0, 0, 0)], reach=0.0), LOOKING).max() == 255

@@ -20,7 +20,6 @@ from lucida.app.instruments.outside.figure import (
     Figure,
     PlaneImage,
     dashes,
-    divided,
     figure_parts,
     plane_t,
     with_picture,
@@ -118,16 +117,6 @@ def test_lines_are_dashed_behind_objects_and_solid_before_them() -> None:
             assert np.allclose(ends, columns + 0.5, atol=2.5)  # to the pixels of the depths
             assert hidden.opacity == 0.5
             assert svg(figure).count("stroke-dasharray") == 1
-
-
-def test_a_divided_segment_is_the_whole_segment() -> None:
-    t = np.full((10, 40), np.inf, np.float32)
-    t[:, 15:25] = 1.0
-    whole = np.array([[[0.0, 5.0], [40.0, 5.0]]])
-    pieces, behind = divided(whole, np.array([[2.0, 2.0]]), t, True)
-    assert behind.tolist() == [False, True, False]
-    assert np.allclose(pieces[:, :, 0], [[0, 15], [15, 25], [25, 40]])
-    assert divided(whole, np.array([[0.5, 0.5]]), t, True)[1].tolist() == [False]
 
 
 def test_the_image_plane_hides_lines_behind_it_but_not_its_own() -> None:

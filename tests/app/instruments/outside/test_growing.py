@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from looked_at import SIZE, cameras
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
-from lucida.app.instruments.outside.diagram import Arrow, Label, RayEnd, Segments, runs
-from lucida.app.instruments.outside.figure import Figure, figure_parts
+from lucida.app.instruments.outside.diagram import Arrow, Label, RayEnd, Segments
 from lucida.app.instruments.outside.growing import (
     STAGES,
     grown_diagram,
@@ -21,9 +20,6 @@ from lucida.app.instruments.outside.growing import (
     shares,
     stage_at,
 )
-from lucida.app.instruments.outside.projected import project
-from lucida.app.instruments.outside.screen import OutsideScreen
-from lucida.app.instruments.outside.svg import svg
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.text import formulas
 from lucida.app.state.options.outside import OutsideOptions
@@ -114,16 +110,3 @@ def test_each_term_is_in_the_formulas_of_its_step(title) -> None:
         assert any(lit), stage
         assert all(part in latex for part, latex in zip(lit, formulas(step.blocks), strict=True))
     assert stage_at(END) == "" and not any(lit_in(f, "") for f in formulas(step.blocks))
-
-
-def test_a_label_s_vectors_are_bold_also_in_a_file() -> None:
-    assert runs("-d vec(w)", False) == [("-d ", False), ("w", True)]
-    items = grown_diagram(
-        Content(CAMERA, SIZE, OutsideOptions(formula=4.0), 9.0, marked=RayEnd((5, 50), 2))
-    )
-    looking = Camera.look_at((6.0, 4.0, 8.0), (2.0, 1.0, 3.0))
-    screen = OutsideScreen(looking, (200, 150))
-    t = np.full((150, 200), np.inf, np.float32)
-    parts = figure_parts(project(items, screen), lambda *_: (1.0, 1.0, 1.0), screen, t)
-    text = svg(Figure((200, 150), parts, 1.0, None))
-    assert '>u <tspan font-weight="bold">u</tspan></text>' in text and "vec(" not in text

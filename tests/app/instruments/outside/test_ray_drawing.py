@@ -7,14 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.images.picking import line_meetings
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, RayEnd, Segments
 from lucida.app.instruments.outside.ray_drawing import half_line, meetings, rays_to
 from lucida.app.instruments.outside.simple_camera import pixel_numbers, simple_camera, simple_ray
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files import load_scene
 
 CAMERA = Camera.canonical()
 SIZE = (10, 10)
@@ -53,13 +51,6 @@ def test_of_all_meetings_the_least_t_above_0_wins() -> None:
     assert [one.name for one in items if isinstance(one, Dot) and one.role == "mark"] == ["t = 0.8"]
     (ray,) = (one for one in items if isinstance(one, Segments) and one.name == "ray")
     assert np.allclose(ray.segments[0, 1], (0.12, 0.2, -0.8))
-
-
-def test_a_line_meets_objects_ahead_and_behind() -> None:
-    scene = load_scene("canonical")
-    found = line_meetings(scene, np.array([0.0, 0.0, -4.5]), np.array([0.0, 0.0, -1.0]))
-    assert found == pytest.approx((-2.0, 0.94, 0.94), abs=0.2) or found[0] == pytest.approx(-1.0)
-    assert any(t < 0 for t in found)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from lucida.app.instruments.outside.diagram import Dot, Label, Segments
-from lucida.app.instruments.outside.paint import DARKER, FIXED, role_color
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.outside.second_camera import (
@@ -17,7 +16,6 @@ from lucida.app.instruments.outside.second_camera import (
     corner_rays,
     second_camera,
 )
-from lucida.app.ui import contrast, palettes
 from lucida.renderer.camera.camera import Camera
 
 SIZE = (40, 30)
@@ -59,13 +57,6 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert np.allclose(dot.point, corner) and text.text == "pixel (1, 1)"
 
 
-def test_corners_are_taken_in_the_order_of_the_image() -> None:
-    rays = np.arange(3 * 4 * 3, dtype=float).reshape(3, 4, 3)
-    origins, directions = corner_rays(rays, -rays)
-    assert np.array_equal(origins, [rays[0, 0], rays[0, 3], rays[2, 3], rays[2, 0]])
-    assert np.array_equal(directions, -origins)
-
-
 def test_a_parallel_camera_has_no_eye_and_its_plane_is_where_its_rays_begin() -> None:
     given = second(replace(CAMERA, projection="parallel"))
     items = second_camera(given, REACH)
@@ -98,16 +89,3 @@ def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
         assert isinstance(way, Segments)
         assert np.allclose(way.segments[0], [(1, 0, 0), (1, 0, end)])
         assert len(named(items, "second hit")) == hits
-
-
-@pytest.mark.parametrize("ground", [(0.0, 0.0, 0.0), (0.2, 0.2, 0.25), (0.7, 0.8, 0.9), (1, 1, 1)])
-def test_its_colour_is_seen_on_every_ground(ground) -> None:
-    color = role_color("other", ground)
-    assert contrast.contrast((color.x, color.y, color.z), ground) >= contrast.SEEN
-
-
-def test_its_colour_is_seen_on_light_paper() -> None:
-    for color, ground in ((DARKER["other"], palettes.LIGHT), (FIXED["other"], palettes.DARK)):
-        behind = ground.BACKGROUND
-        behind = behind.x, behind.y, behind.z
-        assert contrast.contrast((color.x, color.y, color.z), behind) >= contrast.SEEN

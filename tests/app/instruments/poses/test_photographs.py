@@ -40,14 +40,6 @@ def test_a_photograph_is_read_small_with_its_proportions(tmp_path: Path, ending:
     assert np.abs(corners - pixels[[0, 0, -1, -1], [0, -1, 0, -1]]).max() < 12
 
 
-@pytest.mark.parametrize("mode", ["L", "RGBA", "P", "I;16"])
-def test_pictures_of_all_kinds_are_colours(tmp_path: Path, mode: str) -> None:
-    Image.new(mode, (6, 4)).save(tmp_path / "a.png")
-    found = read_photograph(with_images(tmp_path, "a.png"), 0)
-    assert found.pixels is not None and found.pixels.shape == (4, 6, 3)
-    assert found.pixels.dtype == np.uint8
-
-
 def test_what_is_not_there_is_told_by_name(tmp_path: Path) -> None:
     poses = with_images(
         tmp_path, "images/0001.png", str(tmp_path / "images" / "2.png"), "/data/x/3.png"
@@ -73,11 +65,6 @@ def test_what_is_no_picture_is_told(tmp_path: Path, data: bytes) -> None:
     found = read_photograph(with_images(tmp_path, "a.png"), 0)
     assert found.pixels is None
     assert found.problem == "a.png is no picture that can be read."
-
-
-def test_names_that_no_disk_takes_are_not_there(tmp_path: Path) -> None:
-    for name in ("a\0b.png", "x" * 5000):
-        assert read_photograph(with_images(tmp_path, name), 0).problem.endswith("is not there.")
 
 
 def test_they_are_read_in_a_thread_and_a_few_are_kept(tmp_path: Path) -> None:

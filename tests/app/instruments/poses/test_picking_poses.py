@@ -11,7 +11,7 @@ from sets_of_cameras import a_set, ring
 
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.poses.model import LINES, PoseSet, frusta, pose_set
-from lucida.app.instruments.poses.picking import AS_NEAR_PX, REACH_PX, picked
+from lucida.app.instruments.poses.picking import picked
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.cameras import CameraSet
 
@@ -65,36 +65,3 @@ def test_one_that_reaches_behind_the_eye_that_looks_is_found() -> None:
     spots = screen.spots(ends)
     assert spots is not None
     assert picked(poses, LENGTH, screen, tuple(spots[0][:2].mean(axis=0).tolist())) == 0
-
-
-@pytest.mark.parametrize("looking", [ABOVE, PARALLEL])
-@pytest.mark.parametrize("seed", range(3))
-def test_the_nearest_line_is_found_and_of_equally_near_ones_the_one_in_front(
-    looking: Camera, seed: int
-) -> None:
-    """Against points along every line; where two lines are about as near, either may be found."""
-    poses, screen = a_set(40), OutsideScreen(looking, SIZE, symbol_px=2.0)
-    length, near_px, reach_px = 3.0, 2 * AS_NEAR_PX, 2 * REACH_PX
-    part = np.linspace(0, 1, 201)[:, None]
-    lines = frusta(poses, length)
-    points = lines[:, None, 0] + part * (lines[:, 1] - lines[:, 0])[:, None]
-    places, _ = screen.on_screen(screen.homogeneous(points.reshape(-1, 3)))
-    depths = (points.reshape(-1, 3) - looking.eye) @ -np.asarray(looking.w)
-    owner = np.arange(len(places)) // (201 * LINES)
-    found = 0
-    for place in np.random.default_rng(seed).uniform((100, 60), (540, 420), (60, 2)):
-        away = np.linalg.norm(places - place, axis=1)
-        close = np.flatnonzero(away <= away.min() + near_px)
-        sure = np.flatnonzero(away <= away.min() + 1.4 * near_px)
-        front = owner[close[np.argmin(depths[close])]]
-        if abs(away.min() - reach_px) < 0.5:
-            continue
-        got = picked(poses, length, screen, tuple(place.tolist()))
-        if away.min() > reach_px:
-            assert got is None
-        elif owner[sure[np.argmin(depths[sure])]] == front:
-            rest = depths[sure][owner[sure] != front]
-            if not len(rest) or rest.min() > depths[close].min() + 0.05:
-                assert got == front
-                found += 1
-    assert found > 3

@@ -13,13 +13,11 @@ from sets_of_cameras import SIZE, a_set, ring
 from lucida.app.instruments.outside.frustum import plane_corners
 from lucida.app.instruments.poses.model import (
     LINES,
-    LONGEST,
     NO_POINTS,
     cloud,
     frusta,
     looked_from,
     matching,
-    outermost,
     pose_set,
     walked,
 )
@@ -61,12 +59,6 @@ def test_a_parallel_camera_has_a_box() -> None:
     assert np.allclose(sides @ np.asarray(camera.v), [camera.viewport[k] for k in (3, 3, 2, 2)])
 
 
-def test_some_are_drawn_as_they_are_among_all() -> None:
-    poses = a_set(6)
-    all_of_them = frusta(poses, 0.3).reshape(6, LINES, 2, 3)
-    assert np.array_equal(frusta(poses, 0.3, [4, 1]), all_of_them[[4, 1]].reshape(-1, 2, 3))
-
-
 def test_points_are_framed_without_strays_and_drawn_in_no_order() -> None:
     places = np.linspace(-1, 1, 1000)[:, None] * [1.0, 0.5, 0.25]
     places[0], places[1] = (1e6, 0, 0), (np.nan, 0, 0)
@@ -104,26 +96,6 @@ def test_a_cloud_is_of_what_is_to_be_seen() -> None:
     assert np.allclose(edges[0], 2 * edges[1])
 
 
-def test_what_is_outermost_is_about_as_large_as_all() -> None:
-    points = np.random.default_rng(2).normal(size=(5000, 3)) * (3.0, 1.0, 0.2)
-    few = points[outermost(points)]
-    assert len(few) <= 96
-    for way in np.random.default_rng(3).normal(size=(50, 3)):
-        whole, kept = (points @ way).max(), (few @ way).max()
-        assert 0.9 * whole <= kept <= whole
-    assert len(outermost(points[:0])) == 0
-    places = np.concatenate([points, [[1e5, 0, 0]]])
-    assert np.abs(a_set(4, points=places).hull).max() < 20
-
-
-def test_many_cameras_are_drawn_smaller_and_one_at_all() -> None:
-    lengths = [a_set(count).length for count in (2, 50, 1000)]
-    assert lengths[0] > lengths[1] > lengths[2] > 0.01
-    alone = a_set(1, points=np.array([[-1.0, 0, 0], [1.0, 0, 0]]))
-    size = np.linalg.norm(alone.high - alone.low) / 2
-    assert alone.length == pytest.approx(LONGEST * size) and a_set(1).length > 0
-
-
 def test_names_leave_out_the_folder_that_all_are_in() -> None:
     assert a_set(2).names == ("000.png", "001.png")
     named = [
@@ -137,11 +109,6 @@ def test_names_leave_out_the_folder_that_all_are_in() -> None:
     assert pose_set(Path("f"), CameraSet("nerf", tuple(nameless))).names == ("0", "1")
     same = [replace(posed, name="a/1") for posed in ring(2)]
     assert pose_set(Path("f"), CameraSet("nerf", tuple(same))).names == ("1", "1")
-
-
-def test_a_folder_is_told_with_the_one_that_it_is_in() -> None:
-    assert a_set(path="/data/garden/sparse/0").title == "sparse/0"
-    assert a_set(path="/data/lego/transforms.json").title == "transforms.json"
 
 
 def test_a_lens_bends_the_frusta_and_is_kept() -> None:

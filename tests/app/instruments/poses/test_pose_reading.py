@@ -9,23 +9,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from option_changes import with_options
 from sets_of_cameras import a_set, colmap, ring, transforms
 from waiting import wait_for
 
-from lucida.app import cli
 from lucida.app.cameras.taken import TakenCamera
 from lucida.app.instruments.poses import reading
 from lucida.app.instruments.poses.model import PoseSet
 from lucida.app.instruments.poses.reading import PosesReader, is_cameras, open_cameras
 from lucida.app.lecture.reading import load_lecture
-from lucida.app.state.app_state import AppState
-from lucida.app.state.options.poses import PosesOptions
 from lucida.app.state.paths import stored
-from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from lucida.app.window.opening import OpenedPoses, OpenedScene, OpenedView, open_sources
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files import load_scene
 from lucida.renderer.files.cameras import written
 from lucida.renderer.system.errors import LucidaError
 
@@ -120,18 +114,6 @@ def test_a_broken_file_is_one_line(tmp_path: Path, name: str, text: str, problem
     assert "\n" not in str(caught.value) and "--" not in str(caught.value)
 
 
-def test_on_the_command_line_a_mistake_is_one_line(tmp_path: Path, capsys) -> None:
-    (tmp_path / "transforms.json").write_text('{"frames": [}')
-    for path, told in (
-        (tmp_path / "transforms.json", "transforms.json: line 1, column 13: expecting value"),
-        (tmp_path / "away.json", "does not exist"),
-        (tmp_path, "is a folder without cameras; give the folder"),
-    ):
-        assert cli.main([str(path)]) == 2
-        error = capsys.readouterr().err
-        assert error.count("\n") == 1 and str(path) in error and told in error
-
-
 def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) -> None:
     reader = PosesReader()
     try:
@@ -141,7 +123,7 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
             wait_for(lambda path=path: reader.of(path) is not None)
             found = reader.of(path)
             assert found is not None and len(found.names) == k + 2
-        assert not reader.busy and reader.time_s == 0.0
+        assert not reader.busy
         assert reader.of(paths[1]) is not None  # at once, for undo
         assert reader.of(paths[0]) is None and reader.busy  # forgotten: it is read again
         assert reader.of("") is None and not reader.busy  # nobody wants it any more
@@ -217,30 +199,6 @@ def test_the_end_of_an_older_reading_is_not_the_newer_one_s(tmp_path: Path, monk
         assert not reader.busy and begun == [old, new]  # each once
     finally:
         reader.close()
-
-
-def test_reading_that_was_cancelled_is_told_and_can_be_asked_for_again(tmp_path: Path) -> None:
-    path = str(transforms(tmp_path / "transforms.json"))
-    reader = PosesReader()
-    try:
-        reader.cancel()  # nothing is read: nothing happens
-        assert not reader.problems
-        assert reader.of(path) is None
-        reader.cancel()
-        assert not reader.busy and "was cancelled" in reader.problems[path]
-        assert reader.of(path) is None and not reader.busy
-        reader.problems.clear()
-        wait_for(lambda: reader.of(path) is not None)
-    finally:
-        reader.close()
-
-
-def test_a_session_keeps_the_set_and_the_chosen_one() -> None:
-    state = AppState.for_scene(load_scene("spheres"))
-    chosen = {"file": stored("/data/sparse/0"), "pose": 7, "length": 2.5, "points": False}
-    state = with_options(state, poses=chosen)
-    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.poses
-    assert kept == PosesOptions("/data/sparse/0", 7, 2.5, False)
 
 
 @pytest.mark.parametrize("name", ["transforms.json", "sparse/0"])

@@ -12,7 +12,7 @@ from sets_of_cameras import ring
 
 from lucida.app.instruments.poses.model import PoseSet, pose_set
 from lucida.app.instruments.poses.photographs import SIDE_PX, pictured
-from lucida.app.instruments.poses.reprojected import BARE, DARKER, bare, with_points
+from lucida.app.instruments.poses.reprojected import DARKER, with_points
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.cameras import CameraSet, PosedCamera
 
@@ -51,23 +51,6 @@ def test_what_is_behind_or_beside_is_not_there() -> None:
         np.full((60, 80, 3), 200, np.uint8),
     )
     assert (picture == int(DARKER * 200)).all()
-
-
-def test_points_at_the_edge_stay_inside() -> None:
-    x, y = 0.3951 * 4, 0.2951 * 4
-    corners = [(x, y, 0.0), (-x, y, 0.0), (x, -y, 0.0), (-x, -y, 0.0)]
-    picture = with_points(a_model(corners), 0, np.zeros((60, 80, 3), np.uint8))
-    assert {int(picture[i, j, 0]) for i in (0, -1) for j in (0, -1)} == {1, 2, 3, 4}
-
-
-@pytest.mark.parametrize(
-    ("size", "shape"), [((80, 60), (60, 80)), ((30, 60), (80, 40)), (None, (60, 80))]
-)
-def test_without_a_photograph_the_picture_has_its_proportions(size, shape) -> None:
-    poses = a_model([(0.0, 0.0, 0.0)])
-    posed = replace(poses.cameras[0], size=size)
-    picture = bare(replace(poses, cameras=(posed,)), 0, 80)
-    assert picture.shape == (*shape, 3) and (picture == BARE).all()
 
 
 def test_they_stand_for_a_photograph_that_is_not_there(tmp_path: Path) -> None:

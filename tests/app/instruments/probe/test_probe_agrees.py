@@ -8,14 +8,13 @@ import math
 import numpy as np
 import pytest
 from read_pixels import ALL, BALL, SIZE, cameras, line
-from trace_reference import closest, random_camera, random_scene
 
 from lucida.app.instruments.probe.color_formulas import color_lines
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.ui.explaining.notation import number
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
-from lucida.renderer.images.display import encode_srgb, to_srgb8
+from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
     DirectionalLight,
@@ -51,23 +50,6 @@ def test_readings_are_what_the_tracer_draws(name):
                 assert max(abs(a - b) for a, b in zip(reading.bytes, shown, strict=True)) <= 1
                 if fast.primitive[pixel] == frame.primitive[pixel]:
                     np.testing.assert_allclose(reading.color, fast.color[pixel], atol=1e-3)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_random_scenes_against_trying_every_primitive(seed):
-    random = np.random.default_rng(seed)
-    scene, camera = random_scene(random), random_camera(random, near_far=seed % 2 == 0)
-    probe, size = Probe(scene), (12, 9)
-    rays = camera.rays(size)
-    hits = closest(probe.flat, *(part.reshape(-1, 3) for part in rays), camera.t_range)
-    for pixel in np.ndindex(9, 12):
-        at = pixel[0] * 12 + pixel[1]
-        if hits.doubtful[at]:
-            continue
-        hit = probe.at(pixel, camera, size).hit
-        assert (hit.primitive if hit else -1) == hits.primitive[at]
-        if hit:
-            assert hit.t == pytest.approx(hits.t[at], rel=1e-9)
 
 
 # The colour.
@@ -124,15 +106,6 @@ def test_a_colour_term_by_term():
     terms.append(line(lines, "specular 2").value)
     assert tuple(map(sum, zip(*terms, strict=True))) == pytest.approx(line(lines, "sum").value)
     assert f"max(0, {number(shading.lamps[0].n_dot_l)})" in line(lines, "diffuse 1").text_numbers
-
-
-def test_a_linear_display_leaves_out_the_curve():
-    probe = Probe(BALL)
-    curved = probe.at((0, 0), Camera.canonical(), SIZE)
-    linear = probe.at((0, 0), Camera.canonical(), SIZE, transfer="linear")
-    assert curved.display == pytest.approx(tuple(encode_srgb((0.25, 0.5, 0.75)).tolist()))
-    assert linear.display == (0.25, 0.5, 0.75)
-    assert linear.bytes == (64, 128, 191)
 
 
 def floor_and_ball(mirror: float) -> Scene:

@@ -31,7 +31,6 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.scene.model import (
     DirectionalLight,
-    Mesh,
     Scene,
     SceneObject,
     Sphere,
@@ -206,53 +205,6 @@ def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open():
     assert hit_lines(far)[4].text.startswith("vec(n) = (vec(x) - vec(c))")
 
 
-def test_powers_of_ten_are_in_brackets_beside_another_factor():
-    def lines(scene: Scene, distance: float, eye=(0, 0, 0)) -> dict[str, list[str]]:
-        return by_key(Probe(scene).at((0, 0), Camera(eye, distance=distance), (1, 1)))
-
-    small = Scene((SceneObject(Sphere((0, 0, -2e-5), 1e-5)),))
-    one, other = lines(small, 1.0), lines(small, 1e-5)
-    assert one["point"][1].startswith("= (0, 0, 0) + (1e-05) (0, 0, -1) = ")
-    assert one["sphere"][1].endswith("|^2 = (1e-05)^2")
-    assert " - (1e-05) (0, 0, 1) = " in other["direction"][1]
-    assert " * (3e-10))) / (1e-10) = 1" in other["t"][1]
-    triangle = Scene((SceneObject(Mesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])),))
-    inside = lines(triangle, 1.0, (4 * 2.0**-17, 1, 2))["inside"][1]
-    assert " + (7.63e-06) (4, 0, 0) + 0.25 (0, 4, 0)" in inside
-
-
-def test_a_triangles_normal_is_the_cross_product_in_the_formula():
-    """With the sign that turns it to the viewer, wherever the corners are."""
-    rng, signs = np.random.default_rng(5), []
-    for _ in range(20):
-        corners = rng.uniform(-1, 1, (3, 3)).astype(np.float32)
-        middle = corners.mean(axis=0)
-        camera = Camera((float(middle[0]), float(middle[1]), 5), projection="parallel")
-        reading = Probe(Scene((SceneObject(Mesh(corners, [[0, 1, 2]])),))).at(
-            (0, 0), camera, (1, 1)
-        )
-        a, b, c = corners.astype(float)
-        up = np.cross(b - a, c - a)
-        line = hit_lines(reading)[3]
-        sign = "" if up[2] > 0 else "-"
-        assert line.text == f"vec(n) = {sign}(vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|"
-        assert line.latex.startswith(rf"\mathbf{{n}} = {sign}\frac{{(\mathbf{{b}} - ")
-        assert line.value == pytest.approx(tuple(np.copysign(1, up[2]) * up / np.linalg.norm(up)))
-        signs.append(sign)
-    assert 5 < signs.count("-") < 15
-
-
-def test_the_sign_of_what_is_interpolated_is_that_of_the_place():
-    """Near the second and third corner, whose normals point the other way than the first's."""
-    away = [0.1, 0, -(0.99**0.5)]
-    mesh = Mesh(SMOOTH.vertices, SMOOTH.faces, normals=[[0, 0, 1], away, away])
-    reading = Probe(Scene((SceneObject(mesh),))).at((0, 0), Camera((1.75, 1.75, 2)), (1, 1))
-    assert (reading.hit.b1, reading.hit.b2) == (0.4375, 0.4375)
-    mean = np.array([0.125, 0.4375, 0.4375]) @ mesh.normals
-    assert reading.hit.normal == pytest.approx(tuple(-mean / np.linalg.norm(mean)))
-    assert hit_lines(reading)[4].text.startswith("vec(n) = -(b_0 vec(n_a) + ")
-
-
 def test_a_light_behind_the_surface_and_one_that_is_too_bright():
     reading = in_the_shell()
     lines, names = by_key(reading), {one.key: one.name for one in color_lines(reading)}
@@ -354,23 +306,6 @@ def test_a_copied_program_has_one_notation(notation):
 def lensed() -> Reading:
     camera = Camera(lens=Lens("brown", {"k1": -0.2, "p1": 0.01}))
     return Probe(BALL).at((0, 1), camera, (3, 2))
-
-
-def test_a_copied_program_says_what_its_lines_are():
-    reading = on_the_floor()
-    program = as_python(reading)
-    assert "\ni, j = 3, 1  # row and column, counted from 1, as in the lecture\n" in program
-    arrays = as_python(reading, Indexing.ARRAY)
-    assert "\ni, j = 2, 0  # row and column, counted from 0, as arrays are\n" in arrays
-    told = [line.partition("# ")[2] for line in program.splitlines()]
-    light = told.index("Blinn and Phong's light; colours are linear.")
-    assert [line for line in told[light + 1 :] if line] == [
-        "light 1",
-        "light 2 is shadowed",
-        "mirrored ray 1",
-        "mirrored ray 2",
-        "The display: exposure, curve, 8 bits.",
-    ]
 
 
 def test_copied_formulas_stand_below_one_another():

@@ -47,23 +47,6 @@ def standings(*spheres: tuple[float, float], **clip: float) -> list[list[str]]:
     return [[crossing.standing for crossing in meeting.crossings] for meeting in by_number]
 
 
-def test_what_is_not_asked_for_is_not_looked_up():
-    scene = Scene(
-        (SceneObject(FLOOR, MIRROR), SceneObject(Sphere((0, 5, 0), 1))), (PointLight((0, 9, 9)),)
-    )
-    reading = read(scene)
-    assert reading.bounces == () and reading.exposure_ev == 0
-    assert [(meeting.name, meeting.kind) for meeting in reading.meetings] == [
-        ("object 0", "mesh"),
-        ("object 1", "sphere"),
-    ]
-    assert len(reading.corners) == 3 and reading.sphere is None
-    seen = read(scene, (0, 9, 0))
-    assert seen.corners == () and seen.sphere == ((0, 5, 0), 1)
-    flat = flatten(scene)
-    assert Probe(scene, flat).flat is flat
-
-
 def test_an_empty_scene_and_a_pixel_that_is_not_there():
     probe = Probe(Scene(()))
     assert probe.at((3, 2), Camera.canonical(), (64, 48)).meetings == ()
@@ -88,11 +71,6 @@ def test_what_is_cut_off_stands_before_what_is_missed():
     scene = Scene(tuple(SceneObject(Sphere(at, 1)) for at in places))
     reading = Probe(scene).at((0, 0), Camera(far=6), (1, 1))
     assert [meeting.object for meeting in reading.meetings] == [4, 2, 1, 0, 3]
-
-
-def test_bytes_are_rounded_to_the_nearest():
-    dim = Scene((), background=(0.0055, 0.0061, 1))  # 1.40, 1.56
-    assert read(dim, transfer="linear").bytes == (1, 2, 255)
 
 
 # Shadows.
@@ -132,14 +110,6 @@ def test_what_is_between_shadows_however_near(height):
     # Beyond a point light nothing shadows; nor beside the way.
     assert lit(light, sun, blocker=plate(5, 0)) == [True, False]
     assert lit(light, sun, blocker=plate(height, 3)) == [True, True]
-
-
-@pytest.mark.parametrize("way", [(1.0, 0.0), (0.6, 0.8)])
-def test_what_is_at_a_light_shadows_before_it_and_not_behind(way):
-    """At an angle too, where the ray begins less far from the light than from the surface."""
-    light = PointLight((0, 5 * way[0], 5 * way[1]))
-    for away, is_lit in ((5 + 1e-8, True), (5 - 1e-8, False)):
-        assert lit(light, blocker=plate(away * way[0], away * way[1], way)) == [is_lit]
 
 
 # Mirrored rays.
@@ -191,14 +161,3 @@ def test_between_two_mirrors_light_fades_as_often_as_asked_for():
         (0.5, 0.25, 0)
     ]
     assert weights(Scene((SceneObject(FLOOR, dull), SceneObject(ceiling, half))), 3) == []
-
-
-def test_a_ray_mirrored_at_an_edge_sees_what_is_ahead():
-    """Its line does not meet the mirror: the ball is its first crossing of all."""
-    mirror = Mesh([[0, 0, -1], [0, 0, 1], [2, 0, 0]], [[0, 1, 2]])
-    ball = SceneObject(Sphere((3, 3, 0), 0.5), name="ball")
-    reading = read(
-        Scene((SceneObject(mirror, MIRROR), ball)), (1e-9 - 3, 3, 0), (1, -1, 0), mirror_depth=1
-    )
-    (bounce,) = reading.bounces
-    assert bounce.hit is not None and bounce.hit.object == 1

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from recorded_runs import TWO_BALLS, cameras
+from recorded_runs import TWO_BALLS
 
 from lucida.app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
 from lucida.app.instruments.stepper.loops import image_order
@@ -17,14 +16,12 @@ from lucida.app.instruments.stepper.programs import (
     IMAGE_ORDER,
     OBJECT_ORDER,
     RAY_TRACING,
-    Line,
     LoopRun,
     hits_of,
     run_part,
     whole_program,
 )
 from lucida.app.instruments.stepper.source import shown_lines
-from lucida.app.ui.explaining.languages import julia
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files import load_scene
@@ -81,17 +78,6 @@ def test_each_whole_number_of_the_option_is_a_run() -> None:
         assert run_part(option) == part
 
 
-def test_ray_tracing_sets_every_pixel_once_the_background_too() -> None:
-    run = LoopRun(BALLS, RAY_TRACING)
-    told = image_order(Model(TWO_BALLS), CAMERA, SIZE).array
-    np.testing.assert_array_equal(run.at(1).canvas, told)
-    for part in np.linspace(0.01, 0.99, 20):
-        done = set_pixels(run, part).ravel()
-        assert done[: done.sum()].all()
-        canvas = run.at(part).canvas.reshape(-1, 3)
-        np.testing.assert_array_equal(canvas[done], told.reshape(-1, 3)[done])
-
-
 def test_a_scene_without_objects_is_background() -> None:
     hits = hits_of(Model(Scene((), background=(0.5, 0.5, 0.5))), CAMERA, (2, 2))
     assert (LoopRun(hits, RAY_TRACING).at(1).canvas == 0.5).all()
@@ -101,18 +87,7 @@ def test_a_scene_without_objects_is_background() -> None:
 # The program on the screen draws the image, in each notation and language.
 
 
-class FromOne:
-    """A canvas whose rows and columns are counted from 1."""
-
-    def __init__(self, made: np.ndarray) -> None:
-        self.made = made
-
-    def __setitem__(self, pixel: tuple[int, int], value: tuple[float, ...]) -> None:
-        assert min(pixel) >= 1
-        self.made[pixel[0] - 1, pixel[1] - 1] = value
-
-
-def drawn_by(lines: tuple[str, ...], scene: Scene, camera: Camera, from_one: bool) -> np.ndarray:
+def drawn_by(lines: tuple[str, ...], scene: Scene, camera: Camera) -> np.ndarray:
     """Run a program's text; vectors are of the camera, in letters or in words."""
     model, array = Model(scene), np.full((SIZE[1], SIZE[0], 3), np.nan)
     vectors = {name: np.array(getattr(camera, name)) for name in ("eye", "u", "v", "w")}
@@ -127,7 +102,7 @@ def drawn_by(lines: tuple[str, ...], scene: Scene, camera: Camera, from_one: boo
         "color": lambda hit: hit.color,
     }
     exec(compile("\n".join(lines), "program", "exec"), names)
-    names["render"](model.objects, FromOne(array) if from_one else array)  # type: ignore[operator]
+    names["render"](model.objects, array)  # type: ignore[operator]
     return array
 
 
@@ -137,54 +112,17 @@ def hit_of(model, camera, thing, origin, direction):
     return SimpleNamespace(t=hit.t, color=color_at(model, ray, hit))
 
 
-def read_back(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """Julia's lines as Python."""
-    found = []
-    for line in lines:
-        if line.strip() != "end":
-            line = re.sub(r"\b1:(\w+)$", r"range(1, \1 + 1)", line)
-            line = re.sub(r"\b0:(\w+) - 1$", r"range(\1)", line).replace("function ", "def ")
-            opens = line.strip().startswith(("def ", "for ", "if "))
-            found.append(line + ":" if opens else line)
-    return tuple(found)
-
-
 @pytest.mark.parametrize("notation", ["book", "code"])
-@pytest.mark.parametrize("language", ["python", "julia"])
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_the_whole_program_draws_the_image(projection, language, notation) -> None:
+def test_the_whole_program_draws_the_image(projection, notation) -> None:
     scene = load_scene("canonical")
     own = scene.view.for_size(SIZE)
     simple = replace(Camera.canonical(), projection=projection)
     for camera in (simple, replace(own, projection=projection, viewport=(-0.4, 0.5, -0.3, 0.6))):
         texts = tuple(line.text for line in whole_program(camera))
         assert ("left" in texts[4]) == (camera is not simple) and len(texts) <= 15
-        if language == "julia":
-            shown = "\n".join(shown_lines(texts, notation))
-            lines = read_back(julia.loops(shown, Indexing.LECTURE).lines)
-        else:
-            lines = shown_lines(texts, notation, Indexing.LECTURE)
+        lines = shown_lines(texts, notation, Indexing.LECTURE)
         told = image_order(Model(scene), camera, SIZE).array
-        np.testing.assert_allclose(
-            drawn_by(lines, scene, camera, language == "julia"), told, atol=1e-9
-        )
+        np.testing.assert_allclose(drawn_by(lines, scene, camera), told, atol=1e-9)
         run = LoopRun(hits_of(Model(scene), camera, SIZE), whole_program(camera))
         np.testing.assert_allclose(run.at(1).canvas, told, atol=1e-9)
-
-
-def test_lines_are_lit_when_they_run() -> None:
-    lines = (Line("once", "once"), Line("row", "row"), *RAY_TRACING)
-    run = LoopRun(BALLS, lines)
-    first = run.at(1e-9)
-    assert set(first.lit) == {0} and first.pixel == (0, 0)
-    steps = {n: sum(run.at(p).lit.get(n, 0) > 0 for p in np.linspace(0, 1, 4000)) for n in range(6)}
-    assert 0 < steps[1] < steps[5] < steps[4]
-
-
-def test_the_cameras_of_other_kinds_have_hits_too() -> None:
-    for camera in cameras(TWO_BALLS, np.random.default_rng(3)):
-        np.testing.assert_allclose(
-            LoopRun(hits_of(Model(TWO_BALLS), camera, SIZE), RAY_TRACING).at(1).canvas,
-            image_order(Model(TWO_BALLS), camera, SIZE).array,
-            atol=1e-9,
-        )

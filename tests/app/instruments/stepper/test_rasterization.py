@@ -3,15 +3,13 @@ triangle; what its parts say of a pixel."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from recorded_runs import TWO_BOXES, last, recorded
+from recorded_runs import TWO_BOXES, recorded
 from textured import noise, wall
 
-from lucida.app.instruments.stepper import model as stepper
 from lucida.app.instruments.stepper.loop_parts import Model
 from lucida.app.instruments.stepper.loops import image_order, rasterization
 from lucida.app.instruments.stepper.model import moment_at
@@ -23,16 +21,13 @@ from lucida.app.instruments.stepper.raster_parts import (
     project,
     t_of,
     triangles,
-    whole_within,
 )
 from lucida.app.instruments.stepper.recording import Order
-from lucida.renderer.camera.camera import NEAREST, Camera
-from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Mesh, PointLight, Scene, SceneObject, Sphere
 from lucida.renderer.scene.texture import Texture
-from lucida.renderer.trace import Tracer
 
 SIZE = (20, 15)
 
@@ -55,20 +50,6 @@ SQUARE = Scene(
     background=(1.0, 0.0, 1.0),
 )
 SQUARE_SEEN = Camera(viewport=(-0.4, 0.4, -0.4, 0.4))
-
-
-@pytest.mark.parametrize("size", [(8, 6), (16, 12), (7, 9)])
-@pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_depths_are_the_ray_parameters(projection: str, size: Size) -> None:
-    camera = Camera(
-        (0.1, 0.2, 0.5), (1, 0.2, 0.1), (-0.3, 1.1, 0), (0.1, 0.02, 0.9), 1.2,
-        (-1, 1, -0.8, 0.7) if projection == "perspective" else (-2.5, 2.5, -2, 2), projection,
-    )  # fmt: skip
-    depth = last(recorded(TWO_BOXES, Order.RASTER, camera, size)).depth
-    with Tracer(TWO_BOXES, method="reference") as tracer:
-        exact = tracer.render(camera, size, ("depth",)).channel("depth")
-    assert np.isfinite(exact).sum() > 3
-    np.testing.assert_allclose(depth, exact, rtol=1e-6)
 
 
 def test_spheres_are_there_before_the_triangles() -> None:
@@ -140,51 +121,6 @@ def test_holes_are_seen_through(projection) -> None:
     np.testing.assert_allclose(ours, by_rays, atol=1e-8)
     seen = (ours != np.array(model.background)).any(axis=2).mean()
     assert 0.4 < seen < 0.95  # of what fills the image without holes
-
-
-@pytest.mark.parametrize(
-    ("t", "camera", "pieces", "least", "most"),
-    [
-        ((2, 4, 6), Camera(), 1, 2, 6),
-        ((2, 4, 6), Camera(near=1, far=8), 1, 2, 6),
-        ((2, 4, 6), Camera(near=3), 2, 3, 6),
-        ((2, 4, 6), Camera(far=5), 2, 2, 5),
-        ((2, 4, 6), Camera(near=3, far=5), 3, 3, 5),
-        ((2, 2.25, 6), Camera(near=2.125), 2, 2.125, 6),
-        ((2, 2.25, 6), Camera(near=2.5), 1, 2.5, 6),
-        # Behind the eye, or in its plane, 1/t is no number: a part of the farthest t is kept away.
-        ((-1, 4, 10), Camera(), 2, 10 * NEAREST, 10),
-        ((0, 4, 10), Camera(), 2, 10 * NEAREST, 10),
-        ((1e-7, 4, 10), Camera(), 1, 1e-7, 10),
-        ((-1, 4, 10), Camera(projection="parallel"), 2, 0, 10),
-    ],
-)
-def test_a_triangle_is_cut_where_rays_begin_and_end(t, camera, pieces, least, most) -> None:
-    corners = np.array([(0, 0, -t[0]), (1, 0, -t[1]), (0, 1, -t[2])], np.float32)
-    scene = Scene((SceneObject(Mesh(corners, np.array([[0, 1, 2]], np.int32))),))
-    found = list(triangles(Model(scene), camera))
-    assert len(found) == pieces
-    heights = [-point[2] for piece in found for point in piece.points]
-    assert (min(heights), max(heights)) == pytest.approx((least, most), abs=1e-12)
-    assert all((piece.shares is WHOLE) == (least == t[0] and most == t[2]) for piece in found)
-
-
-def test_two_triangles_are_cut_at_the_same_point_of_their_edge() -> None:
-    """To the last bit, so that no pixel is lost between them."""
-    rng = np.random.default_rng(4)
-    for _ in range(40):
-        floor = turned(shapes.rectangle(9.0, 40.0), tuple(rng.uniform(-20, 20, 3)))
-        scene = Scene(
-            (
-                SceneObject(
-                    shapes.transformed(floor, shapes.placement(tuple(rng.uniform(-3, 3, 3))))
-                ),
-            )
-        )
-        first, second = (set(), set())
-        for piece in triangles(Model(scene), Camera(near=1.5)):
-            (second if piece.primitive else first).update(piece.points)
-        assert len(first & second) == 2  # of the diagonal an end, and where it is cut
 
 
 # Edge functions.
@@ -264,26 +200,3 @@ def test_a_pixel_on_an_edge_is_inside_and_its_test_gives_the_t_that_is_written()
     t = run.values["t"][1]
     written = run.depth_t.upto(len(run.depth_t))
     assert len(written) == 81 and np.isin(written, t).all()
-
-
-def test_the_turns_are_those_of_the_triangles_and_of_their_boxes_pixels() -> None:
-    run = recorded(TWO_BOXES, Order.RASTER)
-    counted = 0
-    for triangle in triangles(run.model, run.camera):
-        rows, columns = box_around(*project(triangle, run.camera, SIZE), SIZE)
-        counted += len(rows) * len(columns)
-    assert len(run.pixel_steps) == counted > len(run.write_steps) > 0
-    begun = run.object_steps.upto(len(run.object_steps))
-    turns = [moment_at(run, int(step)).triangle.primitive for step in begun]
-    assert turns == list(range(24))
-    assert stepper.next_object(run, int(begun[3])) == int(begun[4])
-
-
-def test_whole_numbers_within():
-    assert whole_within(1.0, 3.0, 9) == range(1, 4)
-    assert whole_within(1 + 9e-7, 3 - 9e-7, 9) == range(1, 4), "but for rounding"
-    assert whole_within(1 + 1.1e-6, 3 - 1.1e-6, 9) == range(2, 3)
-    assert whole_within(-math.inf, math.inf, 5) == whole_within(-0.1, 4.1, 5) == range(5)
-    assert whole_within(0.5, 3.5, 5) == range(1, 4)
-    for low, high in ((3.2, 3.8), (-9.0, -0.5), (4.5, 9.0), (math.inf, -math.inf)):
-        assert len(whole_within(low, high, 5)) == 0

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import sys
 import threading
-from itertools import count
-from types import SimpleNamespace
 
 import pytest
 from recorded_runs import SIZE, TWO_BALLS, last, recorded
@@ -43,19 +41,6 @@ def test_a_run_ends_at_the_most_steps(monkeypatch) -> None:
     run = Recording(Model(TWO_BALLS), Camera.canonical(), SIZE, Order.IMAGE)
     run.run()
     assert run.truncated and not run.complete and len(run) == 100
-
-
-def test_a_run_leaves_the_interpreter_to_others_now_and_then(monkeypatch) -> None:
-    """After half a second here, of a clock that is looked at every eighth step."""
-    run = Recording(Model(TWO_BALLS), Camera.canonical(), (4, 3), Order.IMAGE)
-    breaks: list[int] = []
-    clock = SimpleNamespace(
-        perf_counter=count(100.0, 0.25).__next__, sleep=lambda _: breaks.append(len(run))
-    )
-    monkeypatch.setattr(recording, "time", clock)
-    monkeypatch.setattr(recording, "BREAK_AFTER_S", 0.5)
-    run.run()
-    assert breaks == list(range(17, len(run) + 1, 24))
 
 
 def test_a_failing_run_says_why(monkeypatch) -> None:

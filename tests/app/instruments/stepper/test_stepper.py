@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, last, recorded
+from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, recorded
 
 from lucida.app.instruments.stepper import model as stepper
 from lucida.app.instruments.stepper.loop_parts import MISS, Hit, Model, ViewingRay
@@ -19,8 +19,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.raster_and_ray import compare_frames
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.images.frame import CHANNELS
-from lucida.renderer.scene.material import Material
-from lucida.renderer.scene.model import Scene, SceneObject
 from lucida.renderer.trace import Tracer
 
 # One image, proved against the fast renderers.
@@ -79,16 +77,6 @@ def test_lines_are_run_in_the_loops_order(order: Order) -> None:
 
 
 @pytest.mark.parametrize("order", Order)
-def test_of_two_things_in_one_place_the_first_is_seen(order: Order) -> None:
-    for place in (TWO_BALLS.objects[0].shape, TWO_BOXES.objects[0].shape):
-        colors = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
-        objects = tuple(SceneObject(place, Material(color)) for color in colors)
-        run = recorded(Scene(objects, TWO_BALLS.lights), order, size=(6, 5))
-        red, green, _ = last(run).canvas.reshape(-1, 3).T
-        assert red.any() and not green.any()
-
-
-@pytest.mark.parametrize("order", Order)
 def test_every_moment_follows_from_the_one_before(order: Order) -> None:
     """The canvas and the depth buffer change by what the line before says."""
     run = recorded(SCENES[order], order, size=(6, 5))
@@ -112,18 +100,6 @@ def test_every_moment_follows_from_the_one_before(order: Order) -> None:
     assert before.finished
     assert not moment_at(run, len(run) - 2).finished
     assert moment_at(run, -5).step == 0 and moment_at(run, 10**9).step == len(run) - 1
-
-
-def test_what_is_not_yet_set_shows() -> None:
-    """Image order has no background until the ray has been found to hit nothing."""
-    by_image, by_object = (recorded(SCENES[order], order) for order in (Order.IMAGE, Order.RASTER))
-    halfway = moment_at(by_image, len(by_image) // 2)
-    unset = np.isnan(halfway.canvas).all(axis=2).ravel()
-    assert np.array_equal(unset, np.arange(300) >= by_image.write_steps.count_upto(halfway.step))
-    assert halfway.depth is None
-    cleared = moment_at(by_object, by_object.object_steps[0])
-    assert (cleared.canvas == (0.25, 0.5, 0.75)).all()
-    assert cleared.depth is not None and (cleared.depth == math.inf).all()
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
@@ -151,16 +127,6 @@ def test_variables_are_the_lectures(projection: str) -> None:
             assert now.ray.direction == pytest.approx((u, v, -1))
         checked += 1
     assert checked > 30
-
-
-def test_the_ray_s_closest_hit_so_far() -> None:
-    run = recorded(TWO_BALLS, Order.IMAGE)
-    turn = next(s for s in run.pixel_steps.upto(300) if moment_at(run, s).pixel == (7, 10))
-    turns = run.object_steps.upto(len(run.object_steps))
-    first = turns[turns > turn][:2]
-    assert moment_at(run, turn).t == moment_at(run, first[0]).t == math.inf
-    far = moment_at(run, first[1]).t
-    assert moment_at(run, first[1] + 3).t < far < math.inf
 
 
 # Ways to go on.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from html import unescape
 from itertools import zip_longest
@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from both_lectures import both_lectures
 
 from lucida.app.images.request import MIRROR_DEPTH
 from lucida.app.instruments.laboratory.looks import look_of
@@ -37,11 +36,6 @@ SEEN = (320, 180)  # an image's size where a build says none: app/web/lecture/de
 WITH_RAY = ("raster", "ray", "outside", "compare", "mistakes")
 RAY = re.compile(r"Pixel (\([^)]*\)) is marked: its ray has p = (\(.*?\)) and d = (\(.*?\)),")
 Said = dict[str, Any]
-
-
-@pytest.fixture(scope="module")
-def lecture() -> Lecture:
-    return both_lectures()
 
 
 @pytest.fixture(scope="module")
@@ -165,27 +159,3 @@ def differences(shown: list[Said], html: str) -> list[str]:
 
 def test_the_page_shows_what_the_window_shows(shown: list[Said], html: str) -> None:
     assert differences(shown, html) == []
-
-
-def _spoiled(html: str, part: str, change: Callable[[dict[str, Any]], Any]) -> str:
-    """Return a page with a fault in the first live figure that has a part."""
-    data = json.loads(DATA.search(html)[0])  # type: ignore[index]
-    change(next(one for one in data["figures"].values() if part in one["options"]))
-    return DATA.sub(lambda _: json.dumps(data).replace("<", "\\u003c"), html)
-
-
-FAULTS: dict[str, Callable[[str], str]] = {
-    "a build is missing": lambda html: SECTION.sub("", html, count=1),
-    "a picture is missing": lambda html: html.replace('<figure class="view', "<figure", 1),
-    "a ray": lambda html: html.replace(" and d = (", " and d = (-", 1),
-    "a word of a drawing": lambda html: re.sub(r"(<text[^>]*>)", r"\1not ", html, count=2),
-    "a camera": lambda html: _spoiled(html, "mark", lambda one: one["camera"]["eye"].reverse()),
-    "a pixel": lambda html: _spoiled(html, "mark", lambda one: one["options"].update(mark=[0, 0])),
-}
-
-
-@pytest.mark.parametrize("fault", FAULTS)
-def test_a_fault_is_found(shown: list[Said], html: str, fault: str) -> None:
-    spoiled = FAULTS[fault](html)
-    assert spoiled != html
-    assert differences(shown, spoiled)

@@ -6,7 +6,6 @@ from imgui_bundle import hello_imgui
 from option_changes import with_options
 from window_driver import RASTER, RAY, Driver, Key
 
-from lucida.app.instruments.probe.view import PROBE
 from lucida.app.instruments.stepper.view import STEPPER, StepperView
 from lucida.app.ui import layout
 
@@ -79,31 +78,6 @@ def drive_a_box_over_the_views_keeps_its_keys(d: Driver) -> None:
     d.ctx.yield_(3)
     assert not d.window.files.dialog.is_open
     assert [right(d), right(d)] == [1, 1]
-
-
-def drive_in_a_maximised_image(d: Driver) -> None:
-    enter(d, "Side by side")
-    stage = d.window.shell.stage
-    stage.maximise(RASTER)
-    d.settle()
-    d.ctx.mouse_teleport_to_pos((600, 300))
-    for key in (PALETTE, ESCAPE):
-        d.ctx.key_press(key)
-        d.ctx.yield_(3)
-    assert [right(d), right(d)] == [1, 1]
-    stage.maximise()
-    d.ctx.yield_(3)
-
-
-def drive_after_a_click_in_the_probe(d: Driver) -> None:
-    """Which moves the mark too, where it has the keyboard: by one, not by two."""
-    enter(d, "Probe")
-    d.ctx.item_click(f"//###{PROBE}/Pin")
-    d.ctx.yield_(2)
-    assert [right(d), right(d)] == [1, 1]
-    rest(d)
-    assert [right(d), right(d)] == [1, 1]
-    leave(d)
 
 
 def drive_after_a_click_in_the_stepper(d: Driver) -> None:

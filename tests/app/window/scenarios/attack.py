@@ -12,8 +12,6 @@ from lucida.app.images.pair.view import RAY
 from lucida.app.ui import layout
 from lucida.app.window.platform import set_size
 
-PROJECTIONS = ("perspective", "parallel")
-
 
 def resize(d: Driver, size: tuple[int, int]) -> None:
     """Resize the window, in its own thread, and wait until that is drawn."""
@@ -67,24 +65,3 @@ def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
         d.ctx.item_click(f"//{CAMERA}/Try again")
         d.until(lambda: not stage.failed.errors)
     d.settle()
-
-
-def drive_the_projection_stays_legible_in_a_narrow_panel(d: Driver) -> None:
-    d.window.change(with_options(d.window.state, preferences={"font_scale": 3.0}))
-    resize(d, (640, 480))
-    boxes = [d.ctx.item_info(f"//{CAMERA}/{name}").rect_full for name in PROJECTIONS]
-    assert boxes[0].max.x <= boxes[1].min.x or boxes[0].max.y <= boxes[1].min.y
-    resize(d, SIZE)
-
-
-def drive_sizes_do_not_grow_with_every_change_of_the_type(d: Driver) -> None:
-    """Scaled again and again, ImGui's smallest window would be larger than the screen."""
-    style, sizes = imgui.get_style(), set()
-    for _ in range(4):
-        for theme, scale in (("light", 0.75), ("light", 2.0), ("dark", 3.0), ("dark", 1.0)):
-            looks = {"theme": theme, "font_scale": scale}
-            d.window.change(with_options(d.window.state, preferences=looks))
-            d.ctx.yield_(3)
-        sizes.add((style.window_min_size.x, style.grab_min_size, style.scrollbar_size))
-    assert len(sizes) == 1, sizes
-    assert d.window.renderers.size[1] < SIZE[1]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-from imgui_bundle import imgui
 from window_driver import RASTER, SIZE, Driver, Key, changed
 
 
@@ -104,43 +102,9 @@ def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     assert changed(before[0], d.images()[0]) == 0
 
 
-def drive_a_left_handed_skewed_camera_agrees(d: Driver) -> None:
-    d.ctx.item_click("//Camera/keep orthonormal")
-    d.type("u.x", "-0.8")
-    d.type("u.y", "0.25")
-    d.type("v.y", "1.4")
-    d.agreeing_images()
-    d.ctx.item_click("//Camera/keep orthonormal")
-    assert d.window.state.camera.determinant < 0
-    basis = d.window.state.camera.basis
-    assert np.allclose(basis.T @ basis, np.eye(3))
-    d.agreeing_images()
-
-
 def drive_letters_typed_into_a_field_are_no_shortcuts(d: Driver) -> None:
     d.ctx.item_double_click(d.field("eye.y"))
     d.ctx.key_chars_replace("po")
     d.ctx.key_press(int(Key.p))
     d.ctx.key_press(int(Key.escape))
     assert d.window.state == d.start
-
-
-def drive_the_distance_is_not_dragged_below_zero(d: Driver) -> None:
-    d.drag_field("distance", -280)
-    d.drag_field("distance", -280)
-    assert 0 < d.window.state.camera.distance < d.start.camera.distance
-    for _ in range(12):
-        d.drag_field("distance", -280)
-    assert d.window.views["Camera"].draft.error is None
-    assert d.window.state.camera.distance > 0
-    d.type("distance", "0.00002")
-    assert d.window.state.camera.distance == 0.00002
-
-
-def drive_the_camera_panel_stays_wide_enough_for_its_numbers(d: Driver) -> None:
-    node = d.ctx.get_window_by_ref("//Camera").dock_node
-    wide = node.size.x
-    imgui.internal.dock_builder_set_node_size(node.id_, (150, node.size.y))
-    d.ctx.yield_(4)
-    assert d.ctx.get_window_by_ref("//Camera").size.x > wide - 3
-    d.agreeing_images()

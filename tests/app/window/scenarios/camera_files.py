@@ -11,7 +11,6 @@ import numpy as np
 from imgui_bundle import imgui
 from window_driver import PATIENT_S, Driver, Key
 
-from lucida.app.ui import theme
 from lucida.app.window import exporting
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
@@ -72,33 +71,6 @@ def drive_a_camera_is_copied_and_pasted(d: Driver) -> None:
     assert "pasted from the clipboard: " in said(d)
 
 
-def drive_what_a_format_cannot_hold_is_told_and_nothing_copied(d: Driver) -> None:
-    imgui.set_clipboard_text("as before")
-    d.press(int(Key.p))
-    assert d.window.state.camera.is_parallel
-    d.ctx.menu_click("//##MainMenuBar/Edit/Copy camera as/OpenCV")
-    d.ctx.yield_(2)
-    message = d.window.files.message
-    assert "Nothing was copied as OpenCV. " in message and "\n" not in message
-    assert imgui.get_clipboard_text() == "as before"
-    d.picture()
-    answer(d, "Close")
-    d.ctx.menu_click("//##MainMenuBar/File/Save camera as/COLMAP (a folder)...")
-    d.ctx.yield_(2)
-    assert "cannot be saved as COLMAP" in d.window.files.message
-    assert not d.window.files.dialog.is_open
-    answer(d, "Close")
-
-
-def drive_a_pasted_lens_is_kept(d: Driver) -> None:
-    imgui.set_clipboard_text(LENS)
-    d.press(CTRL | int(Key.v))
-    assert d.window.files.question is None
-    assert d.window.state.camera.lens == Lens("brown", {"k1": 0.5})
-    assert d.window.state.camera.eye == (0, 0, 0)
-    assert len(d.window.history.past) == 1
-
-
 def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
     pose = np.linalg.inv(AIMED.camera_from_world) * (1, -1, -1, 1)
     imgui.set_clipboard_text(str(pose.tolist()))
@@ -153,14 +125,14 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
 def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
     shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
     saved = {
-        "OpenCV (.yml, .json)...": d.folder / "saved.json",
+        "OpenCV (.yml)...": d.folder / "saved.yml",
         "COLMAP (a folder)...": d.folder / "model",
     }
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
         d.until(lambda path=path: str(path) in said(d))  # type: ignore[misc]
         assert not d.window.files.message
-    for path in (d.folder / "saved.json", d.folder / "model"):
+    for path in (d.folder / "saved.yml", d.folder / "model"):
         posed = read_cameras(path).cameras[0]
         assert posed.size == size
         assert same_camera(posed.camera, shown, size)
@@ -241,25 +213,3 @@ def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
     assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
     d.picture()
     only_sections(d)
-
-
-def drive_names_in_any_script_stay_intact(d: Driver) -> None:
-    name = "图像 صورة e\u0301 نیم\u200cروز"
-    path = d.folder / name / "场景.toml"
-    path.parent.mkdir()
-    path.write_text(
-        f'[[objects]]\ntype = "sphere"\nname = "{name}"\n[[objects]]\ntype = "box"\n', "utf-8"
-    )
-    d.window.files.open(str(path))
-    d.until(lambda: d.window.state.scene.name == "场景" and not d.window.files.busy)
-    assert d.window.state.scene.objects[0].name == name
-    again = path.with_name("مشهد.toml")
-    save_as(d, "Save scene as...", again)
-    assert load_scene(again).objects[0].name == name
-    font = d.window.fonts.text
-    assert font is not None
-    for files, letters in zip(theme.SYSTEM_FONTS, ("图像", "صورة\u0301"), strict=True):
-        if any(Path(file).is_file() for file in files):
-            assert all(font.is_glyph_in_font(ord(letter)) for letter in letters)
-    d.settle()
-    d.picture()

@@ -313,21 +313,6 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
     assert waiting(both, d.window.state) == ""
 
 
-def drive_the_view_turns_the_camera_as_the_images_do(d):
-    show(d)
-    low, high = d.window.views[NAME].screen.visible
-    middle = ((low.x + high.x) / 2, (low.y + high.y) / 2)
-    before = d.window.state.camera
-    d.drag(middle, (middle[0] + 60, middle[1]))
-    assert d.window.state.camera.eye != before.eye
-    d.settle()
-    d.window.undo()
-    assert d.window.state.camera == before
-    d.ctx.mouse_teleport_to_pos(middle)
-    d.ctx.yield_(3)
-    assert d.window.hovered is not None and d.window.hovered[0] == NAME
-
-
 def drive_it_fits_small_and_large_windows(d):
     view = d.window.views[NAME]
     for size in ((1600, 1000), (1000, 500), (640, 400), (300, 100), SIZE):

@@ -119,27 +119,6 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
 
 
-def drive_a_scene_is_read_again_when_its_file_is_saved(d: Driver) -> None:
-    window = d.window
-    scene = d.folder / "edited.toml"
-    scene.write_text("[[objects]]\ntype = 'box'\n")
-    window.open(str(scene))
-    d.until(lambda: window.state.scene.name == "edited")
-    d.agreeing_images()
-    scene.write_text("[[objects]]\ntype = 'bok'\n")
-    d.until(lambda: "bok" in window.files.message)
-    assert len(window.state.scene.objects) == 1
-    before = window.state
-    scene.write_text("[[objects]]\ntype = 'box'\n[[objects]]\ntype = 'cone'\n")
-    d.until(lambda: len(window.state.scene.objects) == 2)
-    assert window.files.message == ""
-    assert window.history.undo().present == before
-    d.ctx.yield_(3)
-    assert window.shell.toasts.texts == ["edited was read again: its file was saved."]
-    window.shell.toasts.clear()
-    d.agreeing_images()
-
-
 def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     files = d.window.files
     folder = d.folder / "scenes"
@@ -172,17 +151,6 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
     d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
     assert files.recent.entries == ()
-
-
-def drive_several_files_are_dropped(d: Driver) -> None:
-    view = load_scene("canonical").view
-    save_view(d.folder / "dropped.toml", view)
-    d.drop([str(d.folder / "dropped.toml"), "spheres", str(d.folder / "gone.obj")])
-    d.until(lambda: d.window.state.scene.name == "spheres")
-    assert d.window.state.view == view
-    d.ctx.yield_(2)
-    d.press(CTRL | int(Key.z))
-    assert d.window.state == d.start  # one step
 
 
 def drive_loading_is_told_and_cancelled(d: Driver) -> None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from option_changes import with_options
 from window_driver import Driver, Key
 
-from lucida.app.images.pair.boxes import PIXEL_TITLE as TITLE
-
 OPEN = int(Key.mod_ctrl) | int(Key.g)
 
 
@@ -30,15 +28,6 @@ def drive_a_pixel_is_typed(d: Driver) -> None:
     typed(d, "31", "41")
     assert window.state.marked == (31, 41)
     assert len(window.history.past) == 3
-
-
-def drive_enter_in_the_first_field_keeps_the_column(d: Driver) -> None:
-    d.window.change(with_options(d.window.state, marked=(5, 6)))
-    d.ctx.yield_(2)
-    d.press(OPEN)
-    d.ctx.key_chars("9")
-    d.press(int(Key.enter))
-    assert d.window.state.marked == (8, 6)
 
 
 def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
@@ -86,13 +75,3 @@ def drive_a_pixel_out_of_sight_is_brought_into_it(d: Driver) -> None:
     top, left, bottom, right = placement.visible_pixels
     assert top <= 1 < bottom
     assert left <= 2 < right
-
-
-def drive_the_menu_has_it(d: Driver) -> None:
-    d.ctx.menu_click("//##MainMenuBar/Image/Go to pixel...")
-    d.ctx.yield_(3)
-    assert d.ctx.window_info(f"//{TITLE}").window is not None
-    d.ctx.item_click(f"//{TITLE}/Go")
-    d.ctx.yield_(2)
-    width, height = d.window.renderers.size
-    assert d.window.state.marked == (height // 2, width // 2)

@@ -55,16 +55,6 @@ def drive_keys_and_menus(d: Driver) -> None:
     assert not window.shell.help
 
 
-def drive_exposure_brightens_both(d: Driver) -> None:
-    before = d.agreeing_images()
-    d.type("exposure", "1")
-    after = d.agreeing_images()
-    for dark, bright in zip(before, after, strict=True):
-        assert bright.mean() > dark.mean() + 10
-    d.type("exposure", "99")
-    assert d.window.state.images.exposure_ev == 8.0
-
-
 def drive_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
     raster, ray = d.agreeing_images()
     d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")

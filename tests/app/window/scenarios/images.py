@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
@@ -12,7 +10,6 @@ from window_driver import SIZE, Key
 from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.raster import Display
 
 
@@ -141,25 +138,6 @@ def drive_resolutions_are_fixed_and_fitted(d):
     assert window.state == d.start
 
 
-def drive_single_channels_and_linear_light(d):
-    window, (plain, _) = d.window, d.agreeing_images()
-    for index, (key, name) in enumerate(((Key.r, "red"), (Key.g, "green"), (Key.b, "blue"))):
-        d.ctx.key_press(ALT | int(key))
-        d.settle()
-        assert window.state.images.component == name
-        gray, ray = d.images()
-        assert (np.abs(gray - plain[..., index : index + 1]) <= 1).all()
-        assert (np.abs(gray - ray).max(axis=2) > 3).mean() < 0.002
-    d.ctx.key_press(ALT | int(Key.b))
-    d.ctx.key_press(ALT | int(Key.l))
-    d.settle()
-    assert window.state.images.component == "rgb"
-    linear = d.images()[0]
-    frame = window.renderers.agreement.pair[1]
-    assert np.abs(linear - np.clip(frame.color, 0, 1) * 255).max() <= 1.01
-    assert linear.mean() < plain.mean() - 20
-
-
 def drive_the_strip_does_the_same(d):
     d.ctx.set_ref(f"//###{RASTER}")
     for name, item, check in (
@@ -197,17 +175,3 @@ def drive_nothing_is_drawn_twice(d):
     read = counting(rasterizer, "read")
     d.ctx.yield_(10)
     assert [count() for count in (shown, drawn, read)] == [0, 0, 0]
-
-
-def drive_a_lens_is_looked_up_in_a_finer_image(d):
-    camera = replace(d.window.state.camera, lens=Lens("fisheye", {"k1": 0.05}))
-    d.window.change(d.window.state.with_camera(camera))
-    d.settle()
-    assert d.window.renderers.verdict(d.window.state).unexplained == 0
-    lookup = []
-    for texels in (1, 4):
-        name = f"look up, {texels} x {texels} texels per pixel"
-        d.ctx.menu_click(f"//##MainMenuBar/Image/Lens in the raster image/Lens: {name}")
-        d.settle()
-        lookup.append(d.window.renderers.verdict(d.window.state).comparison.explained["lookup"])
-    assert lookup[0] > lookup[1]

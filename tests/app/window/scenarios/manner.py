@@ -15,7 +15,6 @@ from lucida.app.ui import layout, theme
 from lucida.app.window.platform import begin_letters, lock_letters
 
 SIDE = layout.LAYOUTS[0].name
-NO_ERROR = int(imgui.test_engine.TestOpFlags_.no_error)
 CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
 
 
@@ -53,26 +52,6 @@ def drive_the_palette_does_what_is_typed(d: Driver) -> None:
     assert palette.open  # nothing of that name: nothing is done
     d.press(int(Key.escape))
     assert not palette.open
-
-
-def drive_what_was_typed_into_leaves_no_cursor(d: Driver) -> None:
-    """ImGui's frame and a tooltip would stand on what nobody went to, over a picture, until the
-    next key; F3 and the arrows bring them back."""
-    context = imgui.get_current_context()
-    for opening, typed in ((CTRL | SHIFT | int(Key.p), "maximise"), (CTRL | int(Key.g), "12")):
-        for leaving in (int(Key.enter), int(Key.escape)):
-            d.press(opening)
-            assert context.nav_cursor_visible
-            d.ctx.key_chars(typed)
-            d.ctx.yield_(2)
-            d.press(leaving)
-            d.ctx.yield_(3)
-            assert not context.nav_cursor_visible, (typed, leaving)
-    d.window.shell.stage.maximise()  # which Enter did: back
-    d.ctx.yield_(3)
-    d.press(int(Key.tab))
-    assert context.nav_cursor_visible
-    assert not d.window.shell.stage.maximised
 
 
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
@@ -145,41 +124,6 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
 def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
     rects = d.window.shell.stage.rects
     return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
-
-
-def widened(d: Driver, name: str) -> None:
-    """Moves the edge of a view's dock that others share, so that the dock grows."""
-    node = imgui.internal.find_window_by_name(d.window.views[name].label).dock_node
-    around = node.parent_node
-    if around.split_axis == imgui.internal.Axis.x:
-        is_first = node.pos.x <= around.pos.x + 2
-        start = node.pos.x + is_first * (node.size.x + 2) - 1, node.pos.y + 0.5 * node.size.y
-        end = start[0] + (40 if is_first else -40), start[1]
-    else:
-        is_first = node.pos.y <= around.pos.y + 2
-        start = node.pos.x + 0.5 * node.size.x, node.pos.y + is_first * (node.size.y + 2) - 1
-        end = start[0], start[1] + (30 if is_first else -30)
-    d.drag(start, end)
-    d.ctx.yield_(4)
-
-
-def drive_layouts_come_back_with_their_widths(d: Driver) -> None:
-    """Also where the camera's panel has another width, and in columns beside the main view."""
-    before = {}
-    for name, moved in ((SIDE, CAMERA), (layout.OUTSIDE, RASTER), ("Probe", "Outside")):
-        into(d, name)
-        first = boxes(d)
-        widened(d, moved)
-        before[name] = boxes(d)
-        assert before[name] != first
-    for name, own in before.items():
-        layout.switch(name)
-        d.until(lambda name=name: layout.current().name == name)  # type: ignore[misc]
-        d.ctx.yield_(8)
-        now = boxes(d)
-        assert now.keys() == own.keys()
-        apart = [abs(a - b) for view in own for a, b in zip(own[view], now[view], strict=True)]
-        assert max(apart) <= 1, (name, own, now)
 
 
 def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None:

@@ -6,19 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import numpy as np
-from imgui_bundle import hello_imgui
 from option_changes import with_options
 from window_driver import Driver
 
 from lucida.app.images import pace as module
-from lucida.app.images.compare.view import CompareView
 from lucida.app.images.live_raster import LiveRaster
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.images.request import ImageRequest
-from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.surface import Target
-from lucida.renderer.camera.navigation import moved
 from lucida.renderer.images.coarseness import Coarseness
 
 
@@ -117,73 +112,3 @@ def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> No
     assert colors and others
     assert not colors & others
     assert len(others) == 1
-
-
-def drive_a_change_before_the_views_is_traced_while_they_are_drawn(d: Driver) -> None:
-    d.settle()
-    events: list[str] = []
-    live, views = d.window.renderers.live, d.window.views.values()
-    request, drawn = live.request, d.window.draw_view
-    wanted = moved(d.window.state.camera, (0.05, 0.0, 0.0))
-
-    def asked(what: ImageRequest, factor: int = 1) -> None:
-        if what.camera == d.window.renderers.camera(d.window.state):
-            events.append("request")
-        request(what, factor)
-
-    def drawing(view: Instrument) -> None:
-        events.append(view.name)
-        drawn(view)
-
-    live.request, d.window.draw_view = asked, drawing  # type: ignore[method-assign]
-    try:
-        d.window.change(d.window.state.with_camera(wanted))
-        events.clear()
-        d.ctx.yield_(2)
-    finally:
-        del live.request, d.window.draw_view
-    first = events.index("request")
-    assert not {view.name for view in views} & set(events[:first])
-    d.agreeing_images()
-
-
-def drive_the_compare_view_shows_coarse_images_as_they_are(d: Driver) -> None:
-    found = live_raster(d)
-    hello_imgui.switch_layout("Compare")
-    d.ctx.yield_(5)
-    d.window.shell.stage.show("Compare")
-    d.ctx.yield_(3)
-    d.window.change(with_options(d.window.state, compare={"mode": "wipe", "divider": 0.5}))
-    d.settle()
-    seen: list[tuple[int, np.ndarray]] = []
-
-    def look(target: Target) -> None:
-        left, top, right, bottom = box
-        pixels = target.read()[top:bottom, left:right].astype(int)
-        seen.append((factor(found), pixels))
-
-    view = d.window.views["Compare"]
-    assert isinstance(view, CompareView)
-    d.until(lambda: view.screen is not None)
-    assert view.screen is not None
-    low, high = view.screen.visible
-    box = round(low.x), round(low.y), round(high.x), round(high.y)
-    d.run.on_drawn = look
-    try:
-        d.until(lambda: bool(seen))
-        with slow(d):
-            drawn = number(found)
-            d.window.change(d.window.state.with_camera(moved(d.start.camera, (0.0, 0.001, 0.0))))
-            d.until(lambda: number(found) > drawn)
-            count = len(seen)
-            d.until(lambda: len(seen) > count + 1)
-    finally:
-        d.run.on_drawn = None
-        hello_imgui.switch_layout("Side by side")
-        d.ctx.yield_(5)
-    images = dict(reversed(seen))  # by factor: the full one before the change, and a coarse one,
-    full, coarse = images[1], images[4]  # which the statistics may soon refine
-    middle = full.shape[1] // 2
-    before, after = full[:, : middle - 20], coarse[:, : middle - 20]
-    assert (before != after).any()
-    assert np.abs(before - after).mean() < 0.1 * full.std()  # nothing but coarser

@@ -89,30 +89,6 @@ def drive_the_wheel_goes_through_nothing(d: Driver) -> None:
     assert window.state == d.start
 
 
-def drive_keys_count_while_an_image_is_dragged(d: Driver) -> None:
-    window = d.window
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.5, 0.5))
-    d.ctx.yield_()
-    d.ctx.mouse_down(0)
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.6, 0.5))
-    d.ctx.yield_(2)
-    turned = window.state.camera
-    d.ctx.key_press(int(Key.p))
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.7, 0.5))
-    d.ctx.yield_(2)
-    assert window.state.camera.is_parallel
-    assert window.state.camera.w != turned.w  # and the drag goes on
-    assert len(window.history.past) == 3
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 3)
-    d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.8, 0.5))
-    d.ctx.yield_(2)
-    assert window.state == d.start  # undone is undone
-    d.ctx.mouse_up(0)
-    d.ctx.yield_()
-    assert window.state == d.start
-    assert len(window.history.future) == 3
-
-
 def drive_keys_fly_over_an_image(d: Driver) -> None:
     window = d.window
     keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))

@@ -21,9 +21,7 @@ from window_driver import RASTER, RAY, Driver, Key
 
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of
 from lucida.app.instruments.objects.in_views import CHOSEN
-from lucida.app.instruments.objects.view import InspectorView
 from lucida.app.instruments.outside.view import OUTSIDE
-from lucida.app.state.app_state import History
 from lucida.renderer.editing import objects
 
 # Choosing.
@@ -105,23 +103,6 @@ def drive_rows_are_chosen_as_everywhere(d: Driver) -> None:
     d.press(int(Key.escape))
 
 
-def drive_a_name_is_typed_in_its_row(d: Driver) -> None:
-    enter(d)
-    key = item(d, "box")
-    d.ctx.item_double_click(in_list(d, "box"))
-    d.ctx.yield_(3)
-    d.ctx.key_chars_replace("crate")
-    d.press(int(Key.escape))
-    assert item(d, "box") == key
-    d.ctx.item_double_click(in_list(d, "box"))
-    d.ctx.yield_(3)
-    d.ctx.key_chars_replace_enter("crate")
-    d.ctx.yield_(3)
-    assert item(d, "crate") == key
-    d.window.undo()
-    assert item(d, "box") == key
-
-
 def drive_what_is_typed_edits_no_object(d: Driver) -> None:
     """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
     enter(d)
@@ -150,22 +131,6 @@ def drive_the_palette_edits_what_is_chosen(d: Driver) -> None:
         d.ctx.yield_(3)
         d.press(int(Key.enter))
         assert len(rows_of(d.window.state.scene)) == count + more, words
-
-
-def drive_the_search_leaves_what_matches(d: Driver) -> None:
-    enter(d)
-    d.ctx.item_click("//###Objects/##search")
-    d.ctx.key_chars("torus")
-    d.ctx.yield_(3)
-    assert d.ctx.item_exists(in_list(d, "torus"))
-    assert d.ctx.item_exists(in_list(d, "sphere in the torus"))
-    assert not d.ctx.item_exists(in_list(d, "box"))
-    d.picture()
-    d.press(CTRL | int(Key.a))
-    d.press(int(Key.delete))
-    d.press(int(Key.escape))
-    d.ctx.yield_(3)
-    assert d.ctx.item_exists(in_list(d, "box"))
 
 
 def drive_a_checkbox_hides_from_both_images(d: Driver) -> None:
@@ -210,6 +175,10 @@ def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
     d.ctx.item_click(in_list(d, row.shown))
     d.ctx.yield_(3)
     d.picture()
+    d.ctx.item_click("//###Inspector/##name")
+    d.ctx.key_chars_replace("crate")
+    d.press(int(Key.tab))
+    assert item(d, "crate") == row.item
     d.ctx.item_double_click("//###Inspector/##shininess")
     d.ctx.key_chars_replace_enter("7")
     d.ctx.yield_(3)
@@ -217,22 +186,6 @@ def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
     d.ctx.item_click("//###Inspector/checker")
     d.ctx.yield_(3)
     assert window.state.scene.objects[row.ids[0]].material.checker is not None
-
-
-def drive_what_a_number_is_refused_for_is_told_of_that_object_alone(d: Driver) -> None:
-    enter(d)
-    panel = d.window.view(InspectorView)
-    d.ctx.item_click(in_list(d, "matte sphere"))
-    d.ctx.item_double_click("//###Inspector/##radius")
-    d.ctx.key_chars_replace_enter("1e308")
-    d.ctx.yield_(3)
-    assert "radius: 1e+308 is too large" in panel.inspector.problem
-    d.picture()
-    d.ctx.item_click(in_list(d, "box"))
-    d.ctx.yield_(3)
-    assert not panel.inspector.problem
-    d.window.history = History(d.start)
-    d.settle()
 
 
 def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:

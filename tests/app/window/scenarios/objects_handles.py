@@ -79,27 +79,6 @@ def choose_to(d: Driver, handle: str, name: str) -> None:
     d.settle()
 
 
-def drive_handles_scale_a_sphere_as_a_whole(d: Driver) -> None:
-    window = d.window
-    choose_to(d, "scale", "shiny sphere")
-    steps = len(window.history.past)
-    start = np.asarray(in_image(d, RASTER, np.asarray(ball(d, "shiny sphere").center)))
-    up = np.array([0.0, -1.0])
-    for part, way in ((0.15, (1.0, 0.0)), (0.5, up)):  # the ring in the middle; the dot of y
-        before = ball(d, "shiny sphere").radius
-        for off in np.linspace(0.0, 0.2, 9):
-            grip = start + 2 * (part + off) * handle_px(d, RASTER) * up
-            d.ctx.mouse_teleport_to_pos(tuple(grip))
-            d.ctx.yield_(3)
-            if window.views[RASTER].linked.guest.holds(RASTER):
-                d.drag(tuple(grip), tuple(grip + 20 * np.asarray(way)))
-                d.ctx.yield_(3)
-                break
-        assert ball(d, "shiny sphere").radius > before
-        assert not window.views[RASTER].linked.guest.handles.problem
-    assert len(window.history.past) == steps + 2
-
-
 def drive_handles_turn(d: Driver) -> None:
     window = d.window
     choose_to(d, "turn", "box")

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-from unittest import mock
-
 import numpy as np
 from held_clock import Clock
 from option_changes import with_options
@@ -45,26 +42,6 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     assert ground(d).shown is shown
     assert [p for p in view(d).primitives if isinstance(p, Strokes)]
     d.settle()
-
-
-def drive_the_placed_picture_has_smooth_edges_once_nothing_moves(d: Driver) -> None:
-    enter(d)
-    at, tools, drawn = view(d).scope, view(d).tools, list[bool]()
-    assert at is not None  # the outside camera stays, so that only the placed picture changes
-    assert tools is not None
-    d.window.change(with_options(d.window.state, outside={"camera": at.camera}))
-    d.settle()
-    draw = tools.overlay.draw
-
-    def noted(*values: Any, moves: bool, **more: Any) -> Any:
-        drawn.append(moves)
-        return draw(*values, moves=moves, **more)
-
-    with mock.patch.object(tools.overlay, "draw", noted):
-        d.drag_field("eye.x", 40)
-        assert any(drawn)
-        d.until(lambda: view(d).settled)
-        assert not drawn[-1]
 
 
 def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:

@@ -71,55 +71,6 @@ def drive_a_photograph_is_dropped_and_laid_over_both_images(d: Driver) -> None:
             assert np.array_equal(after, seen)
 
 
-def drive_in_a_fitted_view_it_fills_the_camera_s_own_viewport(d: Driver) -> None:
-    state = d.window.state
-    d.window.change(state.with_camera(replace(state.camera, viewport=(-0.4, 0.4, -0.1, 0.1))))
-    d.window.change(d.window.state.with_fit(True))
-    d.settle()
-    bare = d.images()
-    height = d.window.renderers.size[1]
-    drawn = d.window.renderers.camera(d.window.state).viewport
-    assert drawn[:2] == (-0.4, 0.4) and drawn[3] > 0.2  # the window is no wider than high
-    opened(d, saved(d, np.full((50, 200, 3), (0, 255, 0), np.uint8)))
-    d.window.change(laid(d, opacity=1.0))
-    d.settle()
-    assert layer(d).note == ""
-    half = 0.1 / (drawn[3] - drawn[2]) * height
-    for before, after in zip(bare, d.images(), strict=True):
-        green = (after == (0, 255, 0)).all(axis=2)
-        rows = np.flatnonzero(green.all(axis=1))
-        assert abs(rows[0] - (height / 2 - half)) <= 1
-        assert abs(rows[-1] + 1 - (height / 2 + half)) <= 1
-        assert np.array_equal(after[: rows[0] - 1], before[: rows[0] - 1])
-    opened(d, saved(d, np.zeros((200, 200, 3), np.uint8), "square.png"))
-    d.settle()  # it has bars at its sides
-    assert "200 x 200, has not the viewport's shape" in layer(d).note
-    for before, after in zip(bare, d.images(), strict=True):
-        black = (after == 0).all(axis=2) & (before != 0).any(axis=2)
-        rows, columns = np.flatnonzero(black.any(axis=1)), np.flatnonzero(black.any(axis=0))
-        assert abs((rows[-1] - rows[0]) - (columns[-1] - columns[0])) <= 3
-
-
-def drive_magnified_its_pixels_are_the_image_s(d: Driver) -> None:
-    d.window.change(d.window.state.with_fit(False))
-    d.settle()
-    pixels = noise(d)
-    opened(d, saved(d, pixels))
-    images = {"magnification": 8.0, "center": (0.5, 0.5), "grid": False}
-    d.window.change(with_options(laid(d, opacity=1.0), images=images))
-    d.settle()
-    placement = d.window.renderers.placement(d.window.state)
-    assert placement is not None
-    top, left, bottom, right = placement.visible_pixels
-    for after in d.images():
-        across, down = after.shape[1] // 2, after.shape[0] // 2
-        seen = after[down - 32 : down + 32, across - 32 : across + 32]
-        assert len(np.unique(seen.reshape(-1, 3), axis=0)) <= 81  # squares of 8
-        shown = {tuple(pixel) for pixel in seen.reshape(-1, 3).tolist()}
-        there = {tuple(p) for p in pixels[top:bottom, left:right].reshape(-1, 3).tolist()}
-        assert shown <= there
-
-
 def drive_it_is_switched_with_a_key_undone_and_closed(d: Driver) -> None:
     steps = len(d.window.history.past)
     opened(d, saved(d, np.full((30, 40, 3), 200, np.uint8)))
@@ -139,25 +90,6 @@ def drive_it_is_switched_with_a_key_undone_and_closed(d: Driver) -> None:
     d.ctx.item_click("//$FOCUSED/Images of its size, 40 x 30")
     d.settle()
     assert d.window.renderers.size == (40, 30)
-
-
-def drive_what_cannot_be_read_is_told_and_nothing_is_lost(d: Driver) -> None:
-    path = saved(d, np.full((30, 40, 3), 200, np.uint8))
-    opened(d, path)
-    before = d.window.state
-    for name, data in (("broken.png", path.read_bytes()[:60]), ("text.jpg", b"no picture")):
-        (d.folder / name).write_bytes(data)
-        d.drop([str(d.folder / name)])
-        d.until(lambda name=name: name in d.window.files.message)  # type: ignore[misc]
-        assert "is no picture that can be read" in d.window.files.message
-        assert "\n" not in d.window.files.message and d.window.state is before
-        d.window.files.message = ""
-    d.window.change(laid(d, file=str(d.folder / "gone.png")))
-    d.settle()
-    assert "gone.png: does not exist" in layer(d).problem
-    d.window.undo()
-    d.settle()
-    assert layer(d).problem == ""
 
 
 def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:

@@ -8,7 +8,6 @@ from shown_pixels import ALT, SHIFT, choose, magnified, placement, without_overl
 from window_driver import Driver, Key
 
 from lucida.app.images.pair.view import RASTER, RAY
-from lucida.app.ui.theme import framebuffer_scale
 
 
 def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:
@@ -119,64 +118,6 @@ def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
     d.ctx.key_press(ALT | int(Key.x))
     d.settle()
     assert (np.abs(fine[0] - d.images()[0]) <= 1).all(), "no lines between smaller pixels"
-
-
-def drive_rulers_stand_beside_the_image(d: Driver) -> None:
-    """No number covers a pixel; both images have the same place, and picking is exact."""
-    window, scale = d.window, framebuffer_scale()
-    choose(d, "Resolution/16 x 9")
-    at = placement(d)
-    assert at == placement(d, RAY)
-    assert at.magnification >= 8
-    wide, high = at.margin
-    assert wide > 0
-    assert high > 0
-    for name, image in zip((RASTER, RAY), d.images(), strict=True):
-        covered = np.abs(image - magnified(d, name, "color")).max(axis=2) > 4
-        side = round(at.magnification)
-        covered[::side] = covered[:, ::side] = False  # the lines between pixels
-        assert not covered.any(), f"pixels of {name} are covered"
-
-    def rulers() -> tuple[np.ndarray, np.ndarray]:
-        left, top, right, bottom = (round(edge * scale) for edge in d.rect(RASTER))
-        whole = d.picture().astype(np.int16)
-        return whole[top - high : top, left:right], whole[top:bottom, left - wide : left]
-
-    from_one = rulers()
-    assert all(np.ptp(ruler) > 100 for ruler in from_one), "there are no numbers"
-    window.change(with_options(window.state, one_based=False))
-    d.settle()
-    for before, after in zip(from_one, rulers(), strict=True):
-        assert np.abs(after - before).max() > 60, "they follow the way to count"
-    # The pixel under the pointer is the one that is drawn there, to the corners.
-    for row, column in ((0, 0), (8, 15), (4, 7)):
-        d.ctx.mouse_teleport_to_pos(d.point(RASTER, (column + 0.5) / 16, (row + 0.5) / 9))
-        d.ctx.yield_(3)
-        assert window.hovered == (RASTER, (row, column))
-    left, top, *_ = d.rect(RASTER)
-    for place in ((left - 5, top + 5), (left + 5, top - 5)):
-        d.ctx.mouse_teleport_to_pos(place)
-        d.ctx.yield_(3)
-        assert window.hovered is None, "a ruler is no pixel"
-    # Where pixels become large enough for rulers, what is under the pointer stays there.
-    choose(d, "Resolution/640 x 360")
-    choose(d, "Magnification/4x")
-    d.ctx.mouse_teleport_to_pos(tuple(map(round, d.point(RASTER, 0.4, 0.6))))
-    d.ctx.yield_(3)
-    pixel = window.hovered[1]
-    d.ctx.key_down(int(Key.mod_ctrl))
-    while not any(placement(d).margin):
-        d.ctx.mouse_wheel_y(1)
-        d.ctx.yield_(2)
-        assert np.abs(np.subtract(window.hovered[1], pixel)).max() <= 1
-    d.ctx.key_up(int(Key.mod_ctrl))
-    assert placement(d).magnification == 8
-    # Without lines between pixels there are no rulers; with large numbers in them there are.
-    choose(d, "Magnification/64x")
-    assert any(placement(d).margin)
-    d.ctx.key_press(ALT | int(Key.x))
-    d.settle()
-    assert placement(d).margin == (0, 0)
 
 
 def drive_values_are_written_into_large_pixels(d: Driver) -> None:

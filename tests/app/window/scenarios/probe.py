@@ -1,4 +1,4 @@
-"""The pixel probe in the window: its numbers, live; the keys, the pins, the copies, the rays."""
+"""The pixel probe in the window: its numbers, live; the keys, the copies, the normal."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def drive_a_click_fills_the_probe(d):
     assert found.hit is None  # the sky
 
 
-def drive_keys_walk_and_pins_stay(d):
+def drive_keys_walk(d):
     enter(d)
     d.window.change(with_options(d.window.state, marked=(60, 70)))
     d.settle()
@@ -93,37 +93,9 @@ def drive_keys_walk_and_pins_stay(d):
         d.ctx.yield_(2)
         assert d.window.state.marked == pixel
         assert reading(d).pixel == pixel
-    d.ctx.item_click(f"{WINDOW}/Pin")
-    d.ctx.yield_(2)
-    assert d.window.state.options.probe.pins == ((51, 71),)
-    d.window.change(with_options(d.window.state, marked=(5, 6)))
-    d.settle()
-    d.ctx.item_click(f"{WINDOW}/###pin0")
-    d.ctx.yield_(2)
-    assert d.window.state.marked == (51, 71)
     d.ctx.item_uncheck(f"{WINDOW}/from 1")
     d.ctx.yield_(2)
     assert not d.window.state.options.one_based
-    d.ctx.item_click(f"{WINDOW}/###pin0", 1)
-    d.ctx.yield_(2)
-    assert d.window.state.options.probe.pins == ()
-
-
-def drive_pins_are_framed_in_both_images(d):
-    leave(d)
-    d.settle()
-    plain = d.images()
-    d.window.change(with_options(d.window.state, probe={"pins": ((40, 50), (9000, 9000))}))
-    d.settle()
-    scale = plain[0].shape[1] / d.window.renderers.size[0]
-    row, column = round(40.5 * scale), round(50.5 * scale)
-    for before, after in zip(plain, d.images(), strict=True):
-        differs = np.abs(after - before).max(axis=2) > 8
-        near = differs[max(0, row - 40) : row + 40, max(0, column - 40) : column + 40]
-        assert near.sum() > 30  # the frame and its number
-        assert differs.sum() == near.sum()  # and nothing for the pixel that is not there
-    d.window.undo()
-    d.settle()
 
 
 def lines(d: Driver, name: str) -> int:
@@ -134,19 +106,14 @@ def lines(d: Driver, name: str) -> int:
     return sum(len(part.points) for part in found)
 
 
-def drive_rays_of_pins_stand_in_the_outside_view(d):
+def drive_the_normal_is_in_the_outside_view(d):
     enter(d)
     d.window.change(with_options(d.window.state, marked=(120, 150)))
     d.settle()
-    assert lines(d, "pin") == 0
     assert lines(d, "normal") > 0
-    options = {"pins": ((20, 30), (100, 40))}
-    d.window.change(with_options(d.window.state, probe=options))
-    d.settle()
-    assert lines(d, "pin") >= 2
     d.window.shell.stage.show(PROBE, False)
     d.ctx.yield_(4)
-    assert [lines(d, name) for name in ("pin", "normal")] == [0, 0]
+    assert lines(d, "normal") == 0
     d.window.shell.stage.show(PROBE)
     d.ctx.yield_(4)
     leave(d)

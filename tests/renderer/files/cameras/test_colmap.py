@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import PosedCamera, read_cameras, written
 from lucida.renderer.files.cameras.given import Options
 
@@ -138,27 +137,6 @@ def test_a_photograph_is_never_looked_for_outside_of_its_folder(tmp_path, name):
     (tmp_path / "images").mkdir()
     found = read_cameras(model(tmp_path / "m", images=IMAGES.replace("P1180141.JPG", name)))
     assert (found.cameras[0].name, found.cameras[0].image) == (name, "")
-
-
-def test_pixels_are_counted_from_where_the_options_say(tmp_path):
-    folder = model(tmp_path / "m")
-    corner, centre = (
-        read_cameras(folder, options=Options(pixel_origin=origin)).cameras[0]
-        for origin in (None, "center")
-    )
-    point = np.array([0.3, -0.2, 4.0])
-    one, other = (camera.camera.project(point, camera.size) for camera in (corner, centre))
-    assert (other.row - one.row, other.column - one.column) == pytest.approx((0.5, 0.5))
-
-
-def test_a_lens_is_kept_or_ignored(tmp_path):
-    folder = model(tmp_path / "m", images=IMAGES.replace(" 2 sub/", " 3 sub/"))
-    lens = Lens("brown", {"k1": -0.0218531})
-    found = read_cameras(folder).cameras
-    assert [posed.camera.lens for posed in found] == [None, lens]
-    found = read_cameras(folder, options=Options(ignore_distortion=True)).cameras
-    assert [posed.camera.lens for posed in found] == [None, None]
-    assert [posed.ignored for posed in found] == [None, lens]
 
 
 def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():

@@ -26,22 +26,14 @@ def changed(text, old, new):
 
 TEXT = [
     ("cameras", (CAMERAS, "2559.81", "1e300"), "line 4: f: 1e+300 is too large; "),
-    ("images", (IMAGES, "0.851773", "1e300"), "line 5: QW: 1e+300 is too large; "),
-    ("points3D", (POINTS, "1.67241", "1e300"), "point 1 of 3: XYZ: is not within 1e+12; "),
     ("cameras", (CAMERAS, "SIMPLE_PINHOLE", "PINHOLY"), "line 4: MODEL: 'PINHOLY' is unknown; "),
     ("cameras", (CAMERAS, " 2559.81", ""), "line 4: PARAMS: SIMPLE_PINHOLE has 3 parameters, not"),
-    ("cameras", (CAMERAS, "2559.81", "-5"), "line 4: f: -5 is not above 0; "),
     ("cameras", (CAMERAS, "2559.81", "2,5"), "line 4: PARAMS: '2,5' is no number; "),
-    ("cameras", (CAMERAS, "3072", "0"), "line 4: WIDTH: 0 is not between 1 and 1000000; "),
-    ("cameras", (CAMERAS, "\n2 PIN", "\n1 PIN"), "line 5: CAMERA_ID: 1 is given twice; "),
-    ("cameras", (CAMERAS, "2304 2559.81 1536 1152", ""), "line 4: has 3 of the parts CAMERA_ID "),
     ("images", (IMAGES, "0.851773 0.0165051 0.503764 -0.142941", "0 0 0 0"), "line 5: QW QX QY QZ"),
     ("images", (IMAGES, " 1 P118", " 9 P118"), "line 5: CAMERA_ID: 9 is not in cameras.txt; "),
     ("images", (IMAGES, " P1180141.JPG", ""), "line 5: has 9 of the parts IMAGE_ID QW QX "),
-    ("images", (IMAGES, " P1180141.JPG", " a\0b"), "line 5: NAME: 'a\\x00b' is no name of a "),
     ("images", (IMAGES, "2362.39 248.498 58396 ", "2362.39 "), "line 6: is not X Y POINT3D_ID aga"),
     ("points3D", (POINTS, "1.67241", "x"), "holds a line that is no point; "),
-    ("points3D", (POINTS, "102 209", "102 256"), "holds a line that is no point; "),
 ]
 
 
@@ -56,11 +48,6 @@ def test_poses_without_an_empty_line_between_them(tmp_path):
     assert said(model(tmp_path, images=pose)).startswith(
         "images.txt: line 2: is not X Y POINT3D_ID again and again; give each image two lines"
     )
-
-
-def test_text_that_is_none(tmp_path):
-    images = IMAGES.encode().replace(b"P1180141", b"\xff\xfe")
-    assert said(model(tmp_path, images=images)).startswith("images.txt: line 5: is not text in UTF")
 
 
 @pytest.mark.parametrize("lost", ["cameras", "images"])
@@ -88,44 +75,17 @@ BINARY_CASES = [
     ),
     (
         "cameras",
-        lambda data: data[:12] + struct.pack("<i", 99) + data[16:],
-        "camera 1 of 2: MODEL: 99 is unknown; ",
-    ),
-    (
-        "cameras",
         lambda data: data[:32] + struct.pack("<d", float("nan")) + data[40:],
         "camera 1 of 2: f: nan is not finite; ",
     ),
-    ("images", lambda data: data[:5], "the file ends within it, at 5 bytes; copy the file whole"),
     ("images", lambda data: data.replace(b"\0P", b"\0\0", 1), "image 1 of 2: "),
-    (
-        "images",
-        lambda data: struct.pack("<Q", 1) + packed_image(1, (0, 0, 0, 0, 1, 2, 3), 1, b"a"),
-        "image 1 of 1: QW QX QY QZ: (0, 0, 0, 0) is no rotation; ",
-    ),
-    (
-        "images",
-        lambda data: struct.pack("<Q", 1) + packed_image(1, POSE, 7, b"a"),
-        "image 1 of 1: CAMERA_ID: 7 is not in cameras.bin; ",
-    ),
     (
         "images",
         lambda data: struct.pack("<Q", 1) + packed_image(1, POSE, 1, b""),
         "image 1 of 1: NAME: '' is no name of a photograph; ",
     ),
-    (
-        "images",
-        lambda data: struct.pack("<Q", 1) + packed_image(1, POSE, 1, b"a", 0)[:-8] + b"\xff" * 8,
-        "image 1 of 1: the file ends within it, at ",
-    ),
     ("points3D", lambda data: data[:-1], "point 2 of 2: the file ends within it, at "),
     ("points3D", lambda data: b"\xff" * 8 + data[8:], "point 3 of 18446744073709551615: "),
-    ("points3D", lambda data: data[:51] + b"\xff" * 8 + data[59:], "point 1 of 2: the file ends "),
-    (
-        "points3D",
-        lambda data: data[:16] + struct.pack("<d", float("inf")) + data[24:],
-        "point 1 of 2: XYZ: is not within 1e+12; ",
-    ),
 ]
 
 

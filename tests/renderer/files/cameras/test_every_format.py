@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -43,14 +42,13 @@ HELD = {
     "view": (*LENSES,),
     "opencv": (*_BROWN, "thin prism", *_FISHEYES),
     "colmap": (*_BROWN, *_FISHEYES, "fov", "thin prism fisheye", "equirectangular"),
-    "nerf": (*_BROWN[:-1], "four radial", *_FISHEYES, "equirectangular"),
+    "nerf": (*_BROWN[:-1], "four radial", *_FISHEYES),
 }
 PERSPECTIVE_ONLY = ("opencv", "colmap", "nerf")
 SINGLE, UNSIZED = ("view", "opengl", "opencv"), ("view", "opengl", "gltf")
 WAYS = [
-    (entry.name, ending, projection)
+    (entry.name, projection)
     for entry in FORMATS
-    for ending in entry.endings
     for projection in ("perspective", "parallel")
     if projection == "perspective" or entry.name not in PERSPECTIVE_ONLY
 ]
@@ -61,7 +59,7 @@ def again(cameras: list[PosedCamera], format: str, options: Options, folder: Pat
     """Write cameras and read them."""
     files = written(cameras, format, options)
     if "" in files:
-        return pasted(files[""], options=replace(options, ending=""))
+        return pasted(files[""], options=options)
     save_files(folder / "model", files)
     return read_cameras(folder / "model", options=options)
 
@@ -85,15 +83,15 @@ def assert_same_planes(camera: Camera, other: Camera) -> None:
         assert other.far >= 999 * other.near
 
 
-@pytest.mark.parametrize(("name", "ending", "projection"), WAYS)
-def test_random_cameras_come_back(name: str, ending: str, projection: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("name", "projection"), WAYS)
+def test_random_cameras_come_back(name: str, projection: str, tmp_path: Path) -> None:
     random = np.random.default_rng(1)
     for number in range(40):
         camera, size = CAMERAS[name](random, projection), any_size(random)
         if name not in PERSPECTIVE_ONLY:
             near, far = PLANES[number % 4]
             camera = replace(camera, near=near, far=far)
-        options = Options((None, "center", "corner")[number % 3], ending=ending)
+        options = Options((None, "center", "corner")[number % 3])
         if name in UNSIZED:
             options = replace(options, size=size)
         if name == "colmap":
@@ -126,8 +124,7 @@ def test_a_lens_comes_back_or_is_refused(name: str, kind: str, tmp_path: Path) -
                 written(cameras, name)
             assert "\n" not in str(raised.value)
             continue
-        options = Options(ending=".json" if number % 2 and name == "opencv" else "")
-        found = again(cameras, name, options, tmp_path).cameras[0]
+        found = again(cameras, name, Options(), tmp_path).cameras[0]
         assert farthest_px(camera, found.camera, size, random) < 1e-6
         assert found.camera.lens is not None
         for coefficient, value in found.camera.lens.coefficients.items():
@@ -203,20 +200,9 @@ def test_cameras_with_rounded_poses_keep_one_calibration(
         assert moved_px(one.camera, other.camera, size) <= 1.01 * UNSEEN_PX
 
 
-def test_a_difference_that_moves_no_pixel_is_not_refused() -> None:
-    def camera(px: float) -> PosedCamera:
-        shift = px / 3000
-        return PosedCamera(Camera(viewport=(-0.5 + shift, 0.5 + shift, -0.3, 0.3)), (3000, 1800))
-
-    assert written([camera(0.9 * UNSEEN_PX)], "gltf")
-    with pytest.raises(LucidaError, match="off the middle"):
-        written([camera(1.1 * UNSEEN_PX)], "gltf")
-
-
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("import bpy\ncamera = bpy.data.cameras.new('a')\n", "Blender's scripts are not read"),
         ('{"object": {"type": "PerspectiveCamera", "fov": 50}}', "three.js's JSON is not read"),
         ('{"views": [], "poses": [{"poseId": "7"}]}', "Meshroom's .sfm is not read"),
         ('<scene version="3.0.0"><sensor type="thinlens"/></scene>', "Mitsuba's XML is not read"),
@@ -238,10 +224,7 @@ def test_files_that_hold_no_camera_are_not_recognised() -> None:
     ("name", "data", "told"),
     [
         ("a.json", b'{"camera_angle_x": 0.7, "frames": [', "line 1, column 36: expecting value"),
-        ("a.json", b"[" * 100_000, "nested too deeply"),
-        ("a.json", '{"camera_name": "J\xe9r"}'.encode("latin-1"), "UTF-8"),
         ("a.yml", b"fx: 5\noperator: J\xe9r\n", "UTF-8"),
-        ("a.yml", b"fx: 5\n" + b"# x\n" * 200_000, "too large|bytes"),
     ],
 )
 def test_a_broken_file_is_reported_where_it_is_broken(
@@ -250,9 +233,3 @@ def test_a_broken_file_is_reported_where_it_is_broken(
     (tmp_path / name).write_bytes(data)
     with pytest.raises(LucidaError, match=told):
         read_cameras(tmp_path / name)
-
-
-def test_frames_share_what_is_the_same() -> None:
-    table = json.loads(written([replace(PLAIN, name="a"), PLAIN, PLAIN], "nerf")[""])
-    assert "fl_x" in table and set(table["frames"][0]) == {"file_path", "transform_matrix"}
-    assert table["frames"][2]["file_path"] == "frame_00002"

@@ -14,7 +14,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from PIL import Image
 
-from lucida.renderer.files.cameras import CameraSet, one_of, read_cameras
+from lucida.renderer.files.cameras import one_of, read_cameras
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.system.errors import LucidaError
 
@@ -90,13 +90,6 @@ def test_without_an_image_the_size_is_open_and_said_to_be() -> None:
     assert_same_pixels(camera.camera, told.cameras[0].camera, (800, 800))
 
 
-def test_an_image_that_is_none_leaves_the_size_open(tmp_path: Path) -> None:
-    (tmp_path / "train").mkdir()
-    (tmp_path / "train" / "r_0.png").write_bytes(b"no image")
-    (tmp_path / "transforms.json").write_text(json.dumps(SYNTHETIC))
-    assert read_cameras(tmp_path / "transforms.json").cameras[0].size is None
-
-
 def test_nerfstudio_s_frames_have_intrinsics_of_their_own() -> None:
     found = pasted(json.dumps(STUDIO))
     one, two = found.cameras
@@ -137,25 +130,15 @@ def turned(row: int, column: int, number: object) -> list:
     [
         (json.dumps({"frames": []}), "frames: is empty"),
         (json.dumps({"camera_angle_x": 1}), "frames: is missing"),
-        (json.dumps({"frames": {"a": 1}}), "frames: is no list"),
-        (json.dumps({"frames": [3]}), r"frames\[0\]: is no JSON object"),
         (json.dumps({"frames": [{}]}), r"frames\[0\].transform_matrix: is missing"),
-        ("[" * 100_000, "is no JSON object"),
-        (first({}, transform_matrix=POSE[:2]), r"frames\[0\].transform_matrix: has the shape"),
         (first({}, transform_matrix=np.transpose(POSE).tolist()), "is it transposed"),
-        (first({}, transform_matrix=turned(0, 0, 1e308)), "too large"),
         (first({}, transform_matrix=np.diag([1, 1, 0, 1]).tolist()), "no inverse"),
-        (first({}, file_path=3), r"frames\[0\].file_path: 3 is no text"),
         (first({"fl_x": "1072"}), "fl_x: '1072' is not a number"),
-        (first({"fl_x": 0}), "fl_x: its focal lengths"),
-        (first({"w": 0}), "w: 0 is no count"),
         (
             first({"camera_model": "VR180_L"}),
             "camera_model: 'VR180_L' is a lens that is not supported",
         ),
         (json.dumps({"frames": [{"transform_matrix": POSE}]}), "w: is missing"),
-        (json.dumps({"w": 3, "frames": [{"transform_matrix": POSE}]}), "h: is missing"),
-        (json.dumps({"w": 3, "h": 2, "frames": [{"transform_matrix": POSE}]}), "fl_x: is missing"),
         (json.dumps(SYNTHETIC | {"camera_angle_x": 3.2}), "camera_angle_x: 3.2 is not between"),
     ],
     ids=lambda value: value[:40],
@@ -181,28 +164,11 @@ OPTICAL = {
     "camera_model": st.sampled_from(["OPENCV", "PINHOLE", "OPENCV_FISHEYE"]),
     "is_fisheye": st.sampled_from([True, False, 1]),
 }
-POSES = [POSE, np.eye(4).tolist(), np.eye(4, dtype=int).tolist()]
-PATHS = ["a.png", "./b/c", "/b/c.png", "d\\e.jpg", "/c", "b/", ""]
-FRAME = st.fixed_dictionaries(
-    {"transform_matrix": st.sampled_from(POSES)},
-    optional={**OPTICAL, "file_path": st.sampled_from(PATHS)},
-)
 
 
 def table_of(*needed: str) -> st.SearchStrategy[dict]:
     optional = {name: values for name, values in OPTICAL.items() if name not in needed}
     return st.fixed_dictionaries({name: OPTICAL[name] for name in needed}, optional=optional)
-
-
-@given(table_of("w", "h", "fl_x"), st.lists(FRAME, min_size=2, max_size=4))
-def test_a_frame_among_others_is_what_it_is_alone(table: dict, frames: list) -> None:
-    def read(*some: dict) -> CameraSet:
-        text = json.dumps(table | {"frames": list(some)})
-        return pasted(text, "nerf", Options(ignore_distortion=True))
-
-    together = read(*frames)
-    alone = [read(frame) for frame in frames]
-    assert together.cameras == tuple(one.cameras[0] for one in alone)
 
 
 @given(table_of("w", "h"))

@@ -171,14 +171,10 @@ def test_opencv_s_xml() -> None:
         NAMED | {"R": [row[:3] for row in POSE[:3]], "T": [[1], [2], [3]]},
         NAMED | {"rvec": [0, np.arctan2(0.8, 0.6), 0], "tvec": [[1, 2, 3]]},
         NAMED | {"extrinsics": POSE},
-        NAMED | {"w2c": POSE[:3]},
         NAMED | {"cam2world": np.linalg.inv(POSE).tolist()},
         {"intrinsic": [800, 810, 320, 240], "resolution": [640, 480], "extrinsic": POSE},
         {"fx": 800, "fy": 810, "cx": 320, "cy": 240, "w": 640, "h": 480, "extrinsic": POSE},
-        {"cameraMatrix": np.ravel(K).tolist(), "width": 640, "height": 480.0, "Rt": POSE[:3]},
         {"P": (np.array(K) @ POSE[:3]).tolist(), "size": [640, 480]},
-        {"P": (-np.array(K) @ POSE[:3]).tolist(), "size": [640, 480]},
-        NAMED | {"distCoeffs": [0, 0, 0, 0], "extrinsics": POSE},
     ],
     ids=lambda table: "-".join(table),
 )
@@ -192,9 +188,7 @@ def test_the_names_that_people_use(table: dict) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "K = np.{k!r}\nR = np.{r!r}\nt = np.{t!r}\nsize = (640, 480)",
         "K =\n{k}\nR =\n{r}\nt = {t}\nimage_size = 640, 480",
-        "K:\n{k}\nR:\n{r}\nt: {t}\nsize: [640, 480]",
         "K = [800 0 320; 0 810 240; 0 0 1];\nRt = [.6 0 .8 1; 0 1 0 2; -.8 0 .6 3];\nsize=640x480",
         "# mine\nK=[[800,0,320],[0,810,240],[0,0,1]]; R={rows}; t=[1,2,3]\nw = 640\nh = 480 # px",
         "K = torch.tensor([[800., 0., 320.],\n [0., 810., 240.], [0., 0., 1.]], dtype=float)\n"
@@ -221,41 +215,15 @@ def test_a_size_that_is_not_given_is_told() -> None:
     assert pasted(text, options=Options(pixel_origin="corner")).cameras[0].size == (640, 480)
 
 
-def test_where_pixels_begin_is_said() -> None:
-    text = json.dumps(NAMED)
-    center, corner = (pasted(text, options=Options(pixel_origin=o)) for o in ("center", "corner"))
-    assert pasted(text).taken == center.taken
-    assert "whole numbers stand at the pixels' centres" in center.taken
-    assert center.cameras[0].camera.viewport[0] == pytest.approx(-320.5 / 800)
-    assert corner.cameras[0].camera.viewport[0] == pytest.approx(-320 / 800)
-
-
-def test_a_scaled_rotation_is_held_and_told() -> None:
-    found = pasted(json.dumps(NAMED | {"R": (2 * np.eye(3)).tolist(), "t": [0, 0, 2]}))
-    assert found.cameras[0].camera.w == pytest.approx((0, 0, -0.5))
-    assert "R is no rotation, and held as it is" in found.taken
-
-
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        ({"K": [[800, 0], [0, 810]]}, "K: has 4 numbers|K: "),
         ({"K": K[:2]}, "K: has 6 numbers; give 9 or 4"),
         ({"K": np.transpose(K).tolist()}, "K: its rows"),
-        ({"K": [[800, 0, 320], [0, 810], [0, 0, 1]]}, "K: is not a matrix"),
-        ({"K": [[1e308, 0, 320], [0, 810, 240], [0, 0, 1]]}, r"K: has the number 1e\+308"),
-        ({"K": [[1e-300, 0, 320], [0, 810, 240], [0, 0, 1e-300]]}, "viewport|K|too large"),
         ({"K": {"sizes": [9], "data": [1, 2]}}, "K: has 2 numbers; give 9 or 4"),
-        ({"K": {"rows": 3, "cols": 3, "data": ["1"] * 9}}, "K: is not a matrix"),
-        ({"R": np.zeros((3, 3)).tolist(), "t": [0, 0, 0]}, "R: its rows"),
-        ({"image_size": [640]}, "image_size: has 1 numbers; give 2"),
         ({"image_size": [640.5, 480]}, "image_size: 640.5 is no count of pixels"),
-        ({"R": np.eye(2).tolist()}, "R: has 4 numbers; give 9 or 3"),
-        ({"t": [1, 2]}, "t: has 2 numbers; give 3"),
         ({"extrinsics": np.transpose(POSE).tolist()}, "extrinsics: its last row.*transposed"),
-        ({"cam2world": np.zeros((3, 4)).tolist()}, "world_from_camera|cam2world"),
         ({"D": [0.1, 0.2]}, "D: has 2 numbers; give 4 or 5 or 8"),
-        ({"D": [1, 0, 0, 0], "distortion_model": "omni"}, "distortion_model: 'omni' is a lens"),
     ],
 )
 def test_what_is_broken_is_told_in_one_line(change: dict, told: str) -> None:
@@ -267,31 +235,16 @@ def test_what_is_broken_is_told_in_one_line(change: dict, told: str) -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("%YAML:1.0\n---\nimage_width: 640\n", "camera_matrix: is missing"),
         (SAMPLE.replace("3.4249525075433394e+02, 0.,", "3.42e+02,"), "has 8 numbers; give 9 or 4"),
         (SAMPLE.replace("image_width: 640\n", ""), "image_width: is missing"),
-        (SAMPLE.replace("5.3281002689700858e+02", ".nan"), "camera_matrix: has a number"),
         (SAMPLE.replace("!!opencv-matrix", "!!python/object:os.system"), "could not determine"),
-        (SAMPLE.replace("camera_matrix: ", "camera_matrix: *a #"), "holds an alias"),
-        (SAMPLE.replace("   dt: d", "dt d"), "line 15"),
         ("%YAML:1.0\n---\nK: " + "[" * 3000, "nested too deeply"),
-        ("%YAML:1.0\n---\nK: 2026-99-99", "cannot be"),
-        ("%YAML:1.0\n---\nK: \x01", "characters"),
-        ("%YAML:1.0\n---\n- K", "no names with values"),
-        ("{" + '"K": [' * 50_000, "is nested too deeply|line 1"),
-        ('{"K": ' + "1" * 5000 + "}", "too many digits"),
         (XML.replace("<opencv_storage>", "<!DOCTYPE a><opencv_storage>"), "declaration"),
-        (XML.replace("</rvec>", ""), "is no XML"),
-        (XML.replace("opencv_storage", "storage"), "XML of another kind"),
         ("K = np.array([[1, 2, 3]]).T", "K: goes on with '.T' after its numbers"),
-        ("K = np.array([1, 2] + [3])", "K: goes on with"),
         ("K = [[1, 2, ...], [1]]", "K: goes on with '...'"),
         ("K = [[1, 2, 3", "K: has a bracket that is not closed"),
         ("K = [[1, 2, nan], [0, 1, 1], [0, 0, 1]]", "K: has a number that is not finite"),
-        ("fx = 800", "fy: is missing"),
-        ("P = [1 0 0 0; 0 0 0 0; 0 0 1 0]", "P: has no inverse"),
         ("K = [800 0 -20; 0 800 20; 0 0 1]", "image_width: is missing"),
-        ("K = 1 2 3\n" + " " * 2_000_000, "is too large"),
     ],
     ids=lambda value: value[:30],
 )

@@ -216,12 +216,6 @@ def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "complaint"),
     [
-        (
-            "orb.yaml",
-            ORB.replace("KannalaBrandt8", "Omni"),
-            "Camera.type: 'Omni' is a lens that is not",
-        ),
-        ("vins.yaml", VINS.replace("PINHOLE", "MEI"), "model_type: 'MEI' is a lens that is not"),
         ("a.yaml", KALIBR.replace(": pinhole", ": omni"), "cam0.camera_model: 'omni' is a lens"),
         ("a.json", {"fx": 5, "fy": 5, "cx": 5, "cy": 5, "xi": 1.2}, "xi: 1.2 is of a mirror"),
         ("a.ini", INI.replace("500.0 0.0 330.0\n", ""), "camera matrix: has 6 numbers"),

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from lucida.renderer.camera.checks import told_apart
 from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.cameras.rotations import quaternion_of, rotation_of
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
@@ -30,19 +29,6 @@ def test_a_rigid_camera_has_the_same_rays(projection):
         # The clip planes are the same planes.
         ends = np.multiply(camera.t_range, unit)
         assert np.allclose(ends, found.t_range, rtol=1e-12)
-
-
-def test_quaternions_there_and_back():
-    random = np.random.default_rng(2)
-    given = [*random.normal(size=(200, 4)), *np.eye(4), *(np.eye(4) + 1e-9)]
-    for quaternion in given:
-        rotation = rotation_of(quaternion)
-        assert np.allclose(rotation @ rotation.T, np.eye(3)) and np.linalg.det(rotation) > 0
-        unit = quaternion / np.linalg.norm(quaternion)
-        found = np.array(quaternion_of(rotation))
-        assert min(np.abs(found - unit).max(), np.abs(found + unit).max()) < 1e-12
-    quarter = rotation_of([1, 0, 0, 1])  # about z: x becomes y
-    assert np.allclose(quarter @ [1, 0, 0], [0, 1, 0])
 
 
 @given(st.floats(-1e9, 1e9), st.floats(-1, 1))

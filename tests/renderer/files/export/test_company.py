@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import tempfile
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +16,6 @@ from hypothesis import strategies as st
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
 from lucida.renderer.files.export import export_scene
-from lucida.renderer.files.export.gltf_scene import glb_of
 from lucida.renderer.scene import Scene, flatten
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Checker, DirectionalLight, Mesh, SceneObject
@@ -85,61 +83,8 @@ choices = st.fixed_dictionaries({name: st.sampled_from(pool) for name, pool in P
 objects = choices.map(made_of)
 
 
-@st.composite
-def relatives(draw) -> list[SceneObject]:
-    """Objects of which each differs from the one before in one thing."""
-    chosen = draw(choices)
-    found = [made_of(chosen)]
-    for name in draw(st.lists(st.sampled_from([*POOLS]), min_size=1, max_size=6)):
-        chosen = chosen | {name: draw(st.sampled_from(POOLS[name]))}
-        found.append(made_of(chosen))
-    return found
-
-
 def scene_of(*entries: SceneObject) -> Scene:
     return Scene(entries, (DirectionalLight((-1, -2, -3)),))
-
-
-@given(relatives())
-@settings(max_examples=80, deadline=None, derandomize=True, phases=[Phase.generate])
-def test_an_object_is_written_in_company_as_alone(entries: list[SceneObject]):
-    def found(*part: SceneObject) -> list[str]:
-        return nodes_in(glb_of(scene_of(*part), CAMERA, SIZE)[0])
-
-    together = found(*entries)
-    assert together == [alone for entry in entries for alone in found(entry)]
-
-
-def nodes_in(data: bytes) -> list[str]:
-    """Return each node with what it refers to in the place of numbers."""
-    length = int.from_bytes(data[12:16], "little")
-    tree, chunk = json.loads(data[20 : 20 + length]), data[28 + length :]
-
-    def bytes_of(view: int) -> str:
-        table = tree["bufferViews"][view]
-        return repr(chunk[table["byteOffset"] :][: table["byteLength"]])
-
-    def accessor(number: int) -> dict:
-        table = tree["accessors"][number]
-        return table | {"bufferView": bytes_of(table["bufferView"])}
-
-    found = []
-    for node in tree["nodes"]:
-        if "mesh" not in node:
-            continue
-        (primitive,) = tree["meshes"][node["mesh"]]["primitives"]
-        material = tree["materials"][primitive["material"]]
-        texture = material["pbrMetallicRoughness"].get("baseColorTexture")
-        image = None
-        if texture is not None:
-            texture = tree["textures"][texture["index"]]
-            image = bytes_of(tree["images"][texture["source"]]["bufferView"])
-            image += repr(tree["samplers"][texture["sampler"]])
-        pbr = {k: v for k, v in material["pbrMetallicRoughness"].items() if k != "baseColorTexture"}
-        attributes = {name: accessor(n) for name, n in primitive["attributes"].items()}
-        parts = (node["matrix"], attributes, accessor(primitive["indices"]), pbr, image)
-        found.append(repr((*parts, material["extensions"])))
-    return found
 
 
 @given(st.lists(objects, min_size=1, max_size=5))

@@ -1,0 +1,72 @@
+"""The pictures of the compare view, as arrays: false colours, and marks on pixels. Pure."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lucida.app.state.options.shared import Channel, Component
+from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING
+from lucida.renderer.images.difference import false_color, signed_difference
+from lucida.renderer.images.frame import Frame
+
+Bytes = NDArray[np.uint8]
+RIM = 250  # a label: the dark border of a mark
+MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
+LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
+
+
+def difference_picture(
+    raster: Frame, ray: Frame, channel: Channel, component: Component, gain: float, signed: bool
+) -> tuple[Frame, Bytes]:
+    """Return the ray image that was compared, and the difference as colours, uint8 (H, W, 3).
+
+    component: compare this channel of the colours alone; "rgb" for the one that differs most.
+    """
+    first, second = raster, ray
+    if channel == "color" and component != "rgb":
+        alone = [["red", "green", "blue"].index(component)] * 3
+        first, second = (
+            replace(one, color=one.channel("color")[..., alone]) for one in (raster, ray)
+        )
+    difference = signed_difference(first, second, channel)
+    return ray, false_color(difference, channel, gain, signed)
+
+
+def marked_picture(labels: Bytes, is_large: bool) -> Bytes:
+    """Return the pixels that differ in the colours of their causes, uint8 (H, W, 4); the others are
+    transparent.
+
+    labels: those of renderer/compare/raster_and_ray.py. is_large: the pixels are large enough to be
+    seen; otherwise the marks are enlarged.
+    """
+    if not is_large:
+        labels = enlarged(labels)
+    picture = np.empty((*labels.shape, 4), np.uint8)
+    picture[..., :3], picture[..., 3] = LABEL_COLORS[labels], 255 * (labels != AGREE)
+    return picture
+
+
+def enlarged(labels: Bytes) -> Bytes:
+    """Return the labels with each differing pixel enlarged to 3 x 3, or more in a large image, in a
+    border of RIM, so that it is visible from a distance. A cause with very many pixels is not
+    enlarged.
+
+    Unexplained pixels are never covered by explained ones.
+    """
+    i, j = np.nonzero(labels)
+    found = labels[i, j]
+    few = np.bincount(found, minlength=256)[found] <= MOST_ENLARGED * labels.size
+    i, j, found = i[few], j[few], found[few]
+    near = 1 + min(labels.shape) // LARGER_EVERY  # reach of the colour; the border's is one more
+    edge, bad = near + 1, found >= SHADING
+    grown = np.pad(labels, edge)  # nothing wraps
+    for chosen, inset in ((slice(None), 0), (~bad, 1), (bad, 1)):
+        for di in range(inset, 2 * edge + 1 - inset):
+            for dj in range(inset, 2 * edge + 1 - inset):
+                grown[i[chosen] + di, j[chosen] + dj] = found[chosen] if inset else RIM
+    grown = grown[edge:-edge, edge:-edge]
+    grown[i, j] = found  # neighbours that are enlarged do not hide what is there
+    return grown

@@ -1,0 +1,54 @@
+"""The compare view's pictures: false colours, and marks that can be seen."""
+
+import numpy as np
+from flawed_images import changed, image
+
+from lucida.app.images.compare.pictures import RIM, difference_picture, enlarged, marked_picture
+from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING, UNEXPLAINED
+from lucida.renderer.images.difference import false_color, signed_difference
+
+
+def test_a_single_component_is_compared_alone():
+    raster = image(2, 0, -1, (4, 3))
+    ray = changed(raster, (1, 2), color=(0.9, 0.5, 0.5))
+    for component, differs in (("rgb", True), ("red", True), ("green", False)):
+        of, picture = difference_picture(raster, ray, "color", component, 2.0, False)
+        assert of is ray
+        assert picture[1, 2].any() == differs
+    expected = false_color(signed_difference(raster, ray), "color", 4.0, True)
+    assert (difference_picture(raster, ray, "color", "rgb", 4.0, True)[1] == expected).all()
+
+
+def test_marked_pixels_have_their_causes_colours():
+    labels = np.zeros((7, 13), np.uint8)
+    labels[2, 3], labels[4, 5], labels[6, 12] = 1, SHADING, UNEXPLAINED
+    picture = marked_picture(labels, is_large=True)
+    assert (picture[..., :3][labels != AGREE] == LABEL_COLORS[labels[labels != AGREE]]).all()
+    assert (picture[..., 3] == np.where(labels == AGREE, 0, 255)).all()
+
+
+def test_single_pixels_are_enlarged_so_that_they_can_be_seen():
+    labels = np.zeros((40, 50), np.uint8)
+    labels[0, 0], labels[20, 20], labels[20, 22] = 1, 2, UNEXPLAINED
+    large = enlarged(labels)
+    assert (large[:2, :2] == 1).all()
+    assert large[2, 2] == RIM
+    assert (large[19:22, 19:21] == 2).all()
+    assert (large[19:22, 21:24] == UNEXPLAINED).all()  # above the cause that is known
+    assert large[20, 18] == large[18, 20] == large[22, 24] == RIM
+    assert large[39, 49] == AGREE
+    assert (LABEL_COLORS[RIM] == 0).all()
+    labels = np.zeros((900, 1000), np.uint8)
+    labels[500, 500] = 3
+    assert (enlarged(labels) == 3).sum() == 7 * 7
+    assert (enlarged(labels) == RIM).sum() == 9 * 9 - 7 * 7
+
+
+def test_many_marks_are_not_enlarged():
+    labels = np.zeros((40, 50), np.uint8)
+    labels[10:20] = SHADING
+    assert (enlarged(labels) == labels).all()
+    labels[30, 30] = 1
+    large = enlarged(labels)
+    assert (large[10:20] == SHADING).all()
+    assert (large[29:32, 29:32] == 1).all()

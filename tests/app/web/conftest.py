@@ -1,0 +1,19 @@
+"""A browser, and the lectures that its pages show."""
+
+from __future__ import annotations
+
+import pytest
+from both_lectures import both_lectures
+
+from tests.support.browser import chromium
+
+
+@pytest.fixture(scope="module")
+def lecture():
+    return both_lectures()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with chromium() as found:
+        yield found
