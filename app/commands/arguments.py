@@ -1,6 +1,6 @@
 """Shared by the commands: the parser, the types of arguments, the camera, the progress bar.
 
-Quick to import: heavy modules are imported inside functions.
+It is quick to import: heavy modules are imported inside functions.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """`lucida check`: compare a student's code with the correct answers.
 
-Quick to import: it loads what a check of rays needs, and no tracer.
+It is quick to import: it loads the modules that a check of rays needs, and no tracer.
 """
 
 from __future__ import annotations

@@ -158,7 +158,7 @@ class YourCodeView(Instrument):
         """
         if path in self._agreed:
             return True
-        return any(entry.path == path for entry in host.files.recent.entries)
+        return Path(path) in host.files.recent.entries
 
     def _of_file(self, host: Host, path: str) -> CodeWish:
         assert self._follower is not None and self._pictures is not None
