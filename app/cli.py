@@ -16,7 +16,7 @@ from collections.abc import Sequence
 
 from lucida.app.commands import COMMANDS, WITHOUT_FILE, scenes, view
 from lucida.app.commands.arguments import TRACEBACK_VARIABLE, Parser
-from lucida.app.window.process import interrupt_between_imports, open_streams
+from lucida.app.window.process import open_streams
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 FAILED = 2
@@ -37,7 +37,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     open_streams()
-    interrupt_between_imports()
     try:
         status = _dispatch(arguments)
         sys.stdout.flush()

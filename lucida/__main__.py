@@ -18,12 +18,12 @@ def main() -> int:
     try:
         from lucida.app.window import process
 
-        process.interrupt_between_imports()
+        process.end_by_interrupt(at_once=True)
         from lucida.app.cli import main as run
 
-        process.interrupt_after_imports()
+        process.end_by_interrupt(at_once=False)
         status = run()
-        process.interrupt_at_once()
+        process.end_by_interrupt(at_once=True)
         return status
     except KeyboardInterrupt:
         return INTERRUPTED

@@ -1,6 +1,6 @@
 """Shared by the commands: the parser, the types of arguments, the camera, the progress bar.
 
-Quick to import: heavy modules are imported inside functions.
+It is quick to import: heavy modules are imported inside functions.
 """
 
 from __future__ import annotations
@@ -174,7 +174,7 @@ def check_is_scene(source: str) -> None:
     scene.
     """
     if source.lower().endswith((".json", ".jsonl")):
-        from lucida.app.checking.results.reading import is_results
+        from lucida.app.checking.results.model import is_results
 
         if is_results(source):
             remedy = f"lucida lecture --results {source} -o class.html"

@@ -1,6 +1,6 @@
 """`lucida camera`: describe a camera of any format in the lecture's words, or convert it.
 
-Quick to import.
+It is quick to import.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The camera that a command receives by --view or as its INPUT: a file of any format, or one of the
 cameras in it. Anything ignored in the file is reported on standard error.
 
-Quick to import.
+This module is quick to import.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Shared by the commands that draw many pictures: the options of workers, and the drawing itself.
 
-Quick to import.
+It is quick to import.
 """
 
 from __future__ import annotations

@@ -93,10 +93,10 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 def run(arguments: argparse.Namespace) -> int:
     from lucida.app.commands.arguments import check_is_scene
-    from lucida.app.images.photograph.reading import found_photograph, is_photograph
+    from lucida.app.images.photograph.reading import found_photograph
     from lucida.app.instruments.poses.model import PoseSet
-    from lucida.app.instruments.poses.reading import is_cameras, open_cameras
-    from lucida.app.window.code_files import found_code, is_code
+    from lucida.app.instruments.poses.reading import open_cameras
+    from lucida.app.window.kinds import found_code, kind_of
     from lucida.renderer.files.cameras.given import Options
     from lucida.renderer.images import check_image_path
     from lucida.renderer.scene.model import View
@@ -108,11 +108,12 @@ def run(arguments: argparse.Namespace) -> int:
     any_camera = any(getattr(arguments, name) is not None for name in CAMERA_OPTIONS)
     code, photograph, cameras, view = "", "", None, None
     source: str | None = arguments.scene
-    if source is not None and is_code(source) and not is_cameras(source):
+    kind = kind_of(source) if source is not None else "scene"
+    if source is not None and kind == "code":
         code, source = found_code(source), None
-    elif source is not None and is_photograph(source):
+    elif source is not None and kind == "photograph":
         photograph, source = found_photograph(source), None
-    elif source is not None and is_cameras(source):
+    elif source is not None and kind == "cameras":
         options = Options(ignore_distortion=arguments.ignore_distortion)
         found = open_cameras(source, options)
         if isinstance(found, PoseSet):

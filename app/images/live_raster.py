@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from lucida.app.images.lens_tables import LensTables
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.window_rasterizer import FAILURES, WindowRasterizer
-from lucida.app.state.options.shared import Pixel
 from lucida.renderer.images.coarseness import FACTORS, reduced
 from lucida.renderer.images.frame import CHANNELS, Frame
 from lucida.renderer.raster import Rasterizer
@@ -56,7 +55,7 @@ class LiveRaster:
         self._drawing: tuple[int, float] | None = None  # the factor, and this thread's time
         self.lens_tables = LensTables()
         self._number = 0
-        self._values, self._hit = Memo(_read), Memo(_read)
+        self._values = Memo(_read, most=2)  # of the visible pixels, and of the one under the mouse
         self.image: RasterImage | None = None
         self.took = 1, 0.0
 
@@ -102,27 +101,18 @@ class LiveRaster:
         arrays = self._rasterizer.of(request.scene).read(CHANNELS, place=PLACES[False])
         return Frame(size=request.size, **arrays)
 
-    def values(self, request: ImageRequest, channel: str, region: Region) -> NDArray | None:
-        """Return a channel's values in some pixels of the image; None unless it is drawn in full.
+    def values(
+        self, request: ImageRequest, channels: tuple[str, ...], region: Region
+    ) -> dict[str, NDArray] | None:
+        """Return the values of channels in some pixels of the image; None unless it is drawn in
+        full.
 
         region: first row and column, one past the last of each. Waits for the GPU.
         """
         image = self.full(request)
         if image is None:
             return None
-        rasterizer = self._rasterizer.of(request.scene)
-        return self._values(rasterizer, image, (channel,), region)[channel]
-
-    def hit(self, request: ImageRequest, pixel: Pixel) -> tuple[int, float] | None:
-        """Return the object's number at (row, column), -1 for none, and the ray parameter; None
-        unless the image is drawn in full. Waits for the GPU, once per pixel.
-        """
-        image, (row, column) = self.full(request), pixel
-        if image is None or row >= request.size[1] or column >= request.size[0]:
-            return None
-        rasterizer, region = self._rasterizer.of(request.scene), (row, column, row + 1, column + 1)
-        read = self._hit(rasterizer, image, ("id", "depth"), region)
-        return int(read["id"][0, 0]), float(read["depth"][0, 0])
+        return self._values(self._rasterizer.of(request.scene), image, channels, region)
 
     def forget(self) -> None:
         """Drop the image after a failure: it may have been overwritten."""

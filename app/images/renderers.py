@@ -203,8 +203,14 @@ class Renderers(ImageSize):
         """
         request = self.request(state)
         assert request is not None
+        read = self._raster_values(request, (channel,), region)
+        return read[channel] if read is not None else None
+
+    def _raster_values(
+        self, request: ImageRequest, channels: tuple[str, ...], region: Region
+    ) -> dict[str, NDArray] | None:
         try:
-            return self._begun.raster.values(request, channel, region)
+            return self._begun.raster.values(request, channels, region)
         except FAILURES:  # drawing reports it too
             return None
 
@@ -344,13 +350,14 @@ class Renderers(ImageSize):
             if frame is None:
                 return None
             return int(frame.channel("id")[pixel]), float(frame.channel("depth")[pixel])
-        textures, request = self._begun, self.request(state)
-        if self._moving or request is None or not textures.sees_raster:
+        (row, column), request = pixel, self.request(state)
+        if self._moving or request is None or not self._begun.sees_raster:
             return None
-        try:
-            return textures.raster.hit(request, pixel)
-        except FAILURES:  # drawing reports it too
+        if row >= request.size[1] or column >= request.size[0]:
             return None
+        here = row, column, row + 1, column + 1
+        read = self._raster_values(request, ("id", "depth"), here)
+        return (int(read["id"][0, 0]), float(read["depth"][0, 0])) if read is not None else None
 
     def _full_ray(self, state: AppState) -> RayImage | None:
         """Return the ray image of this state if it is full."""

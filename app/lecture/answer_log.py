@@ -44,7 +44,7 @@ class KeptAnswer(msgspec.Struct, tag_field="lucida", tag="answer", omit_defaults
 
 
 class AnswerLog:
-    """Appends answers to a file.
+    """A log that appends answers to a file.
 
     name: what the user has typed as a name, or "".
     problem: the reason why the last answer could not be written, or "".

@@ -32,7 +32,7 @@ MOST_OVER = 0.15  # of the window's height, for a text over a picture
 
 
 class Column:
-    """Draws texts and exercises.
+    """The column's texts and exercises.
 
     log: keeps what is answered, if the user asked for it.
     answered: something was answered, or a build was reached, since this was last set to False.

@@ -16,7 +16,7 @@ SOURCE = "Lecture"  # of the drawing, in the outside view
 
 
 class DrawnAnswer:
-    """Shows the present answer, and opens the outside view for a new one."""
+    """The drawing of the present answer; a new one opens the outside view."""
 
     def __init__(self) -> None:
         self._ghosts = Memo(ghosts)

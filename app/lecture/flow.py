@@ -93,7 +93,7 @@ class Laid:
 
 
 class Measure(Protocol):
-    """Measures pieces."""
+    """A function that measures pieces."""
 
     def __call__(self, piece: Piece) -> PieceSize: ...
 
@@ -110,7 +110,7 @@ def lay(blocks: tuple[Block, ...], width: float, size: float, measure: Measure) 
 
 
 class _Column:
-    """Fills downwards from y."""
+    """A column that is filled downwards from y."""
 
     def __init__(self, width: float, size: float, measure: Measure) -> None:
         self.y = 0.0

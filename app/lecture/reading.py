@@ -118,7 +118,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
 
 
 class _LectureReader:
-    """Reads one file. Each of its scenes is read once."""
+    """A reader of one file, which reads each of its scenes once."""
 
     def __init__(self, folder: Path, source: str, places: Places) -> None:
         self._folder, self._source, self._places = folder, source, places

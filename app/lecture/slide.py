@@ -24,7 +24,8 @@ TITLE, LARGER = 1.5, (1.4, 1.3, 1.2, 1.1)
 
 
 class Slides:
-    """Draws texts, in a notation. Keeps the last layouts, because they take long to find.
+    """A painter of texts in a notation, which keeps the last layouts, because they take long to
+    find.
 
     larger: the size of the texts' type, relative to the window's.
     """

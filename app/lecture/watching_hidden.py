@@ -19,8 +19,8 @@ Counted = tuple[HideExercise, Camera, tuple[int, int]]  # the image whose pixels
 
 
 class HiddenWatch:
-    """Replies to a hiding exercise. For the window's thread. wake: called when there is something
-    new.
+    """The replies to a hiding exercise, for the window's thread. wake: called when there is
+    something new.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:

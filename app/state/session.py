@@ -1,6 +1,6 @@
 """A session as the text of its file, and back.
 
-Defines the file's format: versioned JSON of the state and of the arrangement of the windows.
+The file's format is versioned JSON of the state and of the arrangement of the windows.
 session_store.py has its place. Options that an older session does not hold have their defaults.
 """
 
@@ -44,9 +44,9 @@ class Arrangement:
     """The arrangement of the windows inside the window.
 
     layout: its name. visible: the names of the shown views. windows: places and docks, as ImGui
-    writes them. sections: the unfolded parts of a view, by the view's name, if the user has changed
-    them. maximised: the name of the view that covers all others, focused: of the one that has the
-    keyboard, or "". parts: the docks' shares of their room, by layout and space.
+    writes them. sections: the unfolded parts of a view, by the view's name. maximised: the name of
+    the view that covers all others, focused: of the one that has the keyboard, or "". parts: the
+    docks' shares of their room, by layout and space.
     """
 
     layout: str = ""

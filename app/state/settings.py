@@ -1,6 +1,7 @@
 """The file of the window's layout.
 
-Finds the file's place and checks that it is usable. A settings file never keeps the window from
+settings_file() finds its place and checks that it is usable. A settings file never keeps the window
+from
 opening: without a readable or writable one, there is none.
 """
 

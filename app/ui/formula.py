@@ -113,29 +113,16 @@ def vector_colors() -> dict[str, ImVec4]:
 
 def tinted(latex: str) -> str:
     """Return the formula in the colour language: u, v, w, the ray, the hit."""
-    return _tinted(latex, _tints(theme.PANEL, *theme.BASIS.values(), theme.RAY, theme.MARK))
+    return _tinted(latex, theme.used())
 
 
 @functools.lru_cache(maxsize=1024)
-def _tinted(latex: str, tints: tuple[tuple[str, str], ...]) -> str:
-    for symbol, color in tints:
-        latex = latex.replace(symbol, rf"\fgcolor{{{color}}}{{{symbol}}}")
+def _tinted(latex: str, _look: theme.WindowLook) -> str:
+    """Return the formula in the colours of a look, which is in use."""
+    for name, color in vector_colors().items():
+        symbol = rf"\mathbf{{{name}}}"
+        latex = latex.replace(symbol, rf"\fgcolor{{{_hex(theme.legible(color))}}}{{{symbol}}}")
     return latex
-
-
-def _tints(*colors: ImVec4) -> tuple[tuple[str, str], ...]:
-    """Return symbols and their colours in the current palette. colors: the palette's, as a cache
-    key.
-    """
-    return _tints_of(tuple((color.x, color.y, color.z) for color in colors))
-
-
-@functools.lru_cache(maxsize=8)
-def _tints_of(_palette: tuple[tuple[float, float, float], ...]) -> tuple[tuple[str, str], ...]:
-    return tuple(
-        (rf"\mathbf{{{name}}}", _hex(theme.legible(color)))
-        for name, color in vector_colors().items()
-    )
 
 
 def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_Piece]:

@@ -98,11 +98,9 @@ class Instrument:
         return None
 
     @property
-    def sections(self) -> tuple[str, ...] | None:
-        """The parts of the view that are unfolded; None if they follow the space, or if it has
-        none.
-        """
-        return None
+    def sections(self) -> tuple[str, ...]:
+        """The parts of the view that are unfolded."""
+        return ()
 
     def open_sections(self, names: tuple[str, ...]) -> None:
         """Unfold these parts, and fold the others. Unknown names come from other versions."""

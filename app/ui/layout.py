@@ -289,16 +289,11 @@ def _docking(
 def _splits(
     layout: Layout, window_px: tuple[float, float], em_px: float
 ) -> list[hello_imgui.DockingSplit]:
-    camera, stacked = camera_width_px(window_px[0], em_px) / window_px[0], {LEFT: UP, RIGHT: DOWN}
+    turned, camera = {}, camera_width_px(window_px[0], em_px) / window_px[0]
     if is_upright(window_px):
-        return [
-            _split(
-                _own(layout, space), _own(layout, new), stacked.get(to, to), part or UPRIGHT_CAMERA
-            )
-            for space, new, to, part in layout.splits
-        ]
+        turned, camera = {LEFT: UP, RIGHT: DOWN}, UPRIGHT_CAMERA
     return [
-        _split(_own(layout, space), _own(layout, new), to, part or camera)
+        _split(_own(layout, space), _own(layout, new), turned.get(to, to), part or camera)
         for space, new, to, part in layout.splits
     ]
 

@@ -197,8 +197,8 @@ class Stage:
     def arrangement(self) -> Arrangement:
         """Return the current arrangement."""
         visible = tuple(view.name for view in self.shown)
-        kept = {view.name: view.sections for view in self.views.values()}
-        sections = {name: opened for name, opened in kept.items() if opened is not None}
+        views = self.views.values()
+        sections = {view.name: view.sections for view in views if view.sections}
         windows = imgui.save_ini_settings_to_memory()
         name, large = layout.current().name, self.maximised
         return Arrangement(name, visible, windows, sections, large, self._keyboard)

@@ -188,27 +188,6 @@ class Fonts:
         self.mono = _load_font("Inconsolata-Medium.ttf", raised)
 
 
-@functools.cache
-def _scaled_sizes() -> tuple[str, ...]:
-    """Return the names of the sizes that scale_all_sizes() scales, found by experiment.
-
-    They include _main_scale, the product of all scales so far, which is the thickness of the lines
-    of a tab's x.
-    """
-    style, before = imgui.Style(), {}
-    for name in dir(style):
-        value = None if name.startswith("__") else getattr(style, name)
-        if isinstance(value, ImVec2):
-            setattr(style, name, ImVec2(8, 8))
-        elif isinstance(value, float):
-            setattr(style, name, 8.0)
-        else:
-            continue
-        before[name] = str(getattr(style, name))
-    style.scale_all_sizes(2.0)
-    return tuple(name for name, old in before.items() if str(getattr(style, name)) != old)
-
-
 def _set_style() -> None:
     """Set ImGui's style for the current palette: flat, aligned; at 100 %."""
     look = _used[0]
@@ -216,8 +195,10 @@ def _set_style() -> None:
     # Reset all sizes, since a theme does not set all of them. Scaled again at each change, the
     # smallest window would soon be larger than the screen, and the x of a tab as thick as wide.
     fresh = imgui.Style()
-    for name in _scaled_sizes():
-        setattr(imgui.get_style(), name, getattr(fresh, name))
+    for name in dir(fresh):
+        value = getattr(fresh, name)
+        if isinstance(value, float | ImVec2) and not name.startswith("_next"):
+            setattr(imgui.get_style(), name, value)
     base = hello_imgui.ImGuiTheme_
     hello_imgui.apply_theme(
         base.imgui_colors_light if look.theme == "light" else base.darcula_darker

@@ -1,7 +1,6 @@
 """Everything that a menu or a key does, in one table.
 
-Menus, shortcuts and the shortcut sheet are made from ACTIONS; nothing else binds a key. Gathered
-from the window's own and the instruments'; knows nothing of how menus are drawn.
+Menus, shortcuts and the shortcut sheet are made from ACTIONS; nothing else binds a key.
 """
 
 from __future__ import annotations
@@ -51,12 +50,12 @@ MOUSE = (
 
 
 CHORDS = [(chord, action) for action in ACTIONS for chord in action.chords]
-# While a text is typed they are its field's, whether that does something by them or not.
+# While a text is typed, these keys belong to its field, whether it uses them or not.
 OF_TEXT = chords_of("Delete, Ctrl+A, Ctrl+C, Ctrl+D")
 
 
 def run_shortcuts(window: Host) -> None:
-    """Runs the actions whose keys were pressed; call once a frame, in any window."""
+    """Run the actions whose keys were pressed. Call once a frame, in any window."""
     flags = int(imgui.InputFlags_.route_global)
     kept = OF_TEXT if imgui.get_io().want_text_input else ()
     for chord, action in CHORDS:

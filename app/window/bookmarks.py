@@ -1,6 +1,6 @@
 """Views to come back to, by the keys 1 to 9.
 
-Owns their storing, recall and names. They are options (options.py), so undo and sessions have them.
+They are options, so undo and sessions have them.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ NUMBERS = range(1, MOST_BOOKMARKS + 1)
 
 
 def of(state: AppState, number: int) -> Bookmark | None:
-    """The bookmark of a number; None where there is none."""
+    """Return the bookmark of a number; None if there is none."""
     return next((mark for mark in state.options.bookmarks if mark.number == number), None)
 
 
 def with_bookmark(state: AppState, number: int) -> AppState:
-    """The state in which the present view is kept under a number, 1 to 9."""
+    """Return the state in which the present view is kept under a number, 1 to 9."""
     mark = Bookmark(number, describe(state.view), state.view)
     others = [other for other in state.options.bookmarks if other.number != number]
     return state.with_options(
@@ -37,13 +37,13 @@ def with_bookmark(state: AppState, number: int) -> AppState:
 
 
 def store(window: Host, number: int) -> None:
-    """Keeps the view of now, and says so."""
+    """Keep the present view, and report it."""
     window.change(with_bookmark(window.state, number))
     window.shell.toasts.add(f"This view is bookmark {number}: key {number} comes back to it.")
 
 
 def recall(window: Host, number: int) -> None:
-    """Goes to a bookmark's view; says how to make one where there is none."""
+    """Go to a bookmark's view; report how to make one if there is none."""
     mark = of(window.state, number)
     if mark is None:
         window.shell.toasts.add(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
@@ -65,7 +65,7 @@ def save_for_film(window: Host) -> None:
 
 
 def describe(view: View) -> str:
-    """A view in a few words: perspective from (3.4, 3.1, 8.6)."""
+    """Describe a view in a few words: perspective from (3.4, 3.1, 8.6)."""
     x, y, z = view.camera.eye
     lens = view.camera.lens
     kind = view.camera.projection if lens is None else KINDS[lens.model].name.lower()

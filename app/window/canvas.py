@@ -50,7 +50,7 @@ class WindowCanvas:
         return Target(self._shown, self._shown.size) if self._shown is not None else None
 
     def show(self, in_window: bool) -> None:
-        """Puts the picture into the window, for the swap, and leaves it bound to be read."""
+        """Copy the picture into the window, for the swap, or bind it to be read."""
         if self._shown is None:
             return
         if in_window:

@@ -44,12 +44,14 @@ class Exports:
 
     @property
     def time_s(self) -> float:
-        """For how long."""
+        """The time of the writing so far, in seconds."""
         return time.monotonic() - self._began_s if self._work.busy else 0.0
 
     def begin(self, path: str, scene: Scene, camera: Camera, size: Size) -> None:
-        """Writes a file, whose ending says for whom. size: (width, height) of the image. Call while
-        none is being written."""
+        """Write a file, whose ending names the format. Call while none is being written.
+
+        size: (width, height) of the image.
+        """
         self._cancellation = Cancellation()
         check = self._cancellation.check
         self._path, self._began_s, self.listing = Path(path), time.monotonic(), None
@@ -66,7 +68,7 @@ class Exports:
         self._work.submit(write)
 
     def cancel(self) -> None:
-        """Between two of its parts the writing ends; what was made of it is taken away."""
+        """End the writing between two of its parts, and remove the unfinished file."""
         self._cancellation.cancel()
 
     def poll(self) -> tuple[str, bool] | None:

@@ -1,7 +1,6 @@
 """Opening and saving from the window: dialogs, dropped files, loading in the background.
 
-Owns the dialogs (the system's, or the window's own where there is none), and the threads that load
-and save. Knows nothing of what is done with a scene.
+The dialogs are the system's, or the window's own if there is none. Threads load and save.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from lucida.app.ui.background import Background
 from lucida.app.ui.dialog import FileDialog, FileQuestion
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.watching import SceneWatch
-from lucida.app.window.code_files import CODE_ENDING, TASKS_ENDING
+from lucida.app.window.kinds import CODE_ENDING, TOML_ENDING
 from lucida.app.window.opening import (
     Opened,
     OpenedLecture,
@@ -39,7 +38,6 @@ from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
 from lucida.renderer.system.errors import describe, one_line
 
-LECTURE_ENDING = ".toml"
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 
 Paths = Callable[[list[str]], None]
@@ -58,11 +56,11 @@ class WindowQuestion:
 
 
 class Files:
-    """wake: called from another thread when something has been loaded.
+    """The files of one window.
 
-    message: what went wrong; said: what was done, for poll_said(). question: what the user is to
-    agree to. folder: where the list of recent files is kept; None: nowhere. native: whether the
-    system's dialogs may be used.
+    wake: called from another thread when something has been loaded. folder: of the list of recent
+    files; None keeps none. native: the system's dialogs may be used. message: what went wrong.
+    question: what the user must agree to.
     """
 
     def __init__(
@@ -84,7 +82,7 @@ class Files:
         self._began_s = 0.0
         self._is_first = False
         self.dialog = FileDialog()
-        self.recent = RecentFiles(folder, wake)
+        self.recent = RecentFiles(folder)
         self.message = ""
         self.question: WindowQuestion | None = None
         self._said: list[str] = []
@@ -102,22 +100,23 @@ class Files:
 
     @property
     def loading_s(self) -> float:
-        """For how long."""
+        """The time of the loading so far, in seconds."""
         return time.monotonic() - self._began_s if self._loading.busy else 0.0
 
     def open(self, source: str) -> None:
-        """Loads a built-in scene, a scene file, a model, a view or a lecture in the background, or
-        finds a Python file or a photograph."""
+        """Load a source of any kind in the background."""
         self.open_all([source])
 
     def open_all(self, sources: Sequence[str], dropped: bool = False) -> None:
-        """Loads the first scene and the first view among several, or the first lecture. dropped:
-        the user has not named them, and may not know what they name."""
+        """Load the first thing of each kind among several sources.
+
+        dropped: the user has not named them, and may not know which files they name.
+        """
         if sources:
             self._load(sources[0], lambda agreed: open_sources(sources, dropped, agreed))
 
     def open_later(self, source: str, load: Callable[[], Opened]) -> None:
-        """Loads what the window was to begin with. load: does it, in the background."""
+        """Load what the window begins with. load: called in the background."""
         self._load(source, lambda _: load())
         self._is_first = True
 
@@ -174,13 +173,13 @@ class Files:
         def open_first(paths: list[str]) -> None:
             self.open_lecture(paths[0])
 
-        self.ask_open("Open a lecture", "Lectures", (LECTURE_ENDING,), open_first)
+        self.ask_open("Open a lecture", "Lectures", (TOML_ENDING,), open_first)
 
     def open_code_dialog(self) -> None:
         self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
 
     def open_tasks_dialog(self) -> None:
-        self.ask_open("Open a course's tasks", "Tasks", (TASKS_ENDING,), self.open_tasks)
+        self.ask_open("Open a course's tasks", "Tasks", (TOML_ENDING,), self.open_tasks)
 
     def open_tasks(self, paths: list[str]) -> None:
         """Load a file as tasks, whatever it looks like."""
@@ -197,7 +196,7 @@ class Files:
         self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
 
     def know(self, saved: Scene) -> None:
-        """The window has written a scene's file itself: that is no change by somebody else."""
+        """Record that the window has written a scene's file itself: nobody else has changed it."""
         assert saved.origin is not None
         self._watch.know(saved.origin.files)
         self._watch.take_present()
@@ -237,7 +236,7 @@ class Files:
         return outcome.value
 
     def _poll_reread(self) -> Opened | None:
-        """A newer version of the shown scene; the last good one stays where there is a mistake."""
+        """Return a newer version of the shown scene. After a mistake, the last good one stays."""
         outcome = self._rereading.poll()
         if outcome is None or not self._watch.shows_version_of(self._reread):
             return None
@@ -278,7 +277,6 @@ class Files:
         self._rereading.close()
         self._saving.close(5.0)
         self.dialog.close()
-        self.recent.close()
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long
@@ -317,17 +315,20 @@ class Files:
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
-        """Asks where something is to go, and stores it there in the background.
+        """Ask for a place, and store something there in the background.
 
-        kind: as ask_name() has it. store: does it, and says what it did.
+        kind: as in ask_name(). store: stores it, and returns a message on what it did.
         """
         self.ask_name(title, name, kind, lambda path: self._saving.submit(lambda: store(path)))
 
     def ask_name(
         self, title: str, name: str, kind: tuple[str, ...], named: Callable[[str], None]
     ) -> None:
-        """Asks for a name to save under. kind: in words, and the endings, of which the first is
-        added to a name without one; "" for a folder. named: called with the path."""
+        """Ask for a name to save under.
+
+        kind: in words, and the endings, of which the first is added to a name without one; "" for a
+        folder. named: called with the path.
+        """
         words, *endings = kind
 
         def chosen(paths: list[str]) -> None:

@@ -28,7 +28,7 @@ class KeyFrames:
         self._pressed = False  # whether one of them was pressed that is no modifier
 
     def begin_frame(self) -> None:
-        """Once a frame, when ImGui has taken what came before it."""
+        """Pass on waiting events. Call once a frame, when ImGui has taken the earlier ones."""
         waiting, self._waiting = self._waiting, []
         self._changed.clear()
         self._pressed = False
@@ -36,7 +36,7 @@ class KeyFrames:
             self.take(*event)
 
     def take(self, *event: int) -> None:
-        """An event, in its turn."""
+        """Pass an event on, or let it wait for its frame."""
         is_key = len(event) != CHARACTER
         if is_key and event[2] == REPEAT:
             return  # ImGui repeats keys itself

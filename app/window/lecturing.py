@@ -60,8 +60,10 @@ def run_lecture(
 
 
 def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:
-    """Opens the window and asks there whether the lecture may read what it names outside of its
-    folder. error: says that it does. Raises it where there is no display to ask on."""
+    """Open the window and ask whether the lecture may read the files outside its folder.
+
+    error: names them. Raised if there is no display to ask on.
+    """
     platform = start_platform()
     if not platform.has_display:
         raise LucidaError("", error.problem, "add --outside to agree", error.source)

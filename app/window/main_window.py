@@ -1,8 +1,7 @@
 """The open window: one frame after another.
 
-Owns the present state and everything that lives as long as the window: the views, the renderers,
-the threads, the history. Views get the state through ui/view.py's Host and ask for a new one;
-this module keeps it and hands it to the renderers. viewer.py makes the window.
+The window owns the views, the renderers, the threads and the files. Views get the state through
+ui/host.py's Host, and ask for a new one, which edits.py keeps. viewer.py makes the window.
 """
 
 from __future__ import annotations
@@ -46,8 +45,8 @@ class MainWindow(Edits):
     """Everything behind the window; the Host of its views. Methods are called in its thread, in
     its context.
 
-    smooth: keep the display's rate while tracing; not needed for a picture. keeper: what saves the
-    session. folder: where the list of recent files is kept. None: they are not kept.
+    smooth: keep the display's rate while tracing; not needed for a picture. keeper: saves the
+    session. folder: of the list of recent files. None keeps neither.
     """
 
     def __init__(
@@ -70,6 +69,7 @@ class MainWindow(Edits):
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
         self.box: EntryBox | None = None
+        self.is_rearranging = True
         self._focus = Memo(scene_focus)
         self.motions = Motions(self, instant=not smooth)
         self.moves = smooth
@@ -100,14 +100,14 @@ class MainWindow(Edits):
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
-        """Raises what keeps the images or a view from being complete."""
+        """Raise the error that keeps the images or a view from being complete."""
         for failure in (self.renderers.failure, *self.shell.stage.failed.errors.values()):
             if failure is not None:
                 raise failure
 
-    def is_rearranging(self) -> bool:
-        """Return True if the frame that has been laid out is no picture yet. Call once a frame."""
-        return self.shell.stage.place() or self.lecture.is_entering
+    def end_layout(self) -> None:
+        """Note whether the frame that has been laid out is a picture. Call once a frame."""
+        self.is_rearranging = self.shell.stage.place() or self.lecture.is_entering
 
     @property
     def lecture(self) -> LectureView:
@@ -146,7 +146,7 @@ class MainWindow(Edits):
         self.motions.focus_object(self, self._over or self.views[RASTER])
 
     def undo(self) -> None:
-        """One step back; what was entered last and is not legal is the last step."""
+        """Go back by a step. An entry that is not legal is the last step."""
         pending = [view for view in self.views.values() if view.has_pending]
         if pending:
             for view in pending:
@@ -172,11 +172,11 @@ class MainWindow(Edits):
         self.files.open(source)
 
     def open_code(self, path: str) -> None:
-        """Runs the user's own Python file, in its view. path: absolute."""
+        """Run the user's own Python file, in its view. path: absolute."""
         self.view(YourCodeView).open(self, path)
 
     def retry(self) -> None:
-        """Tries again what a renderer or a view has failed at."""
+        """Retry what a renderer or a view has failed at."""
         self.renderers.retry()
         self.shell.stage.failed.retry()
         self.animate()
@@ -190,7 +190,7 @@ class MainWindow(Edits):
         hello_imgui.get_runner_params().app_shall_exit = True
 
     def _follow_closing(self) -> None:
-        """The window's own button to close: asks first where something would be lost."""
+        """Handle the window's own button to close: ask first if something would be lost."""
         params = hello_imgui.get_runner_params()
         if params.app_shall_exit and not self._closes and self.moves:
             if self.saving.closes(self.state):
@@ -214,7 +214,7 @@ class MainWindow(Edits):
     # HelloImGui's callbacks.
 
     def begin(self, context: moderngl.Context) -> None:
-        """Once, when the window's context is there, and current."""
+        """Begin, once, when the window's context is there, and current."""
         self.renderers.begin(context)
         for view in self.views.values():
             self.shell.stage.failed.begin(view, self, context)
@@ -234,7 +234,7 @@ class MainWindow(Edits):
             menu_button(self, self.history, self.shell.stage)
 
     def frame(self) -> None:
-        """The beginning of each frame: what has come from the threads, and the keys."""
+        """Begin a frame: take the threads' results, and handle the keys."""
         active = self.note_gesture()
         self._hovered, self._next_hovered = self._next_hovered, None
         self._follow_closing()
@@ -273,7 +273,7 @@ class MainWindow(Edits):
             hello_imgui.request_refresh()
 
     def draw_view(self, view: Instrument) -> None:
-        """A view's ImGui window, where it is shown."""
+        """Draw a view's ImGui window, if it is shown."""
         self.shell.stage.draw(view, self)
 
     def status(self, room: float | None = None) -> None:
@@ -304,7 +304,7 @@ class MainWindow(Edits):
         )
 
     def end(self) -> None:
-        """Once, before the context goes."""
+        """End, once, before the context is destroyed."""
         self.end_movement()
         self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
@@ -318,7 +318,7 @@ class MainWindow(Edits):
             view.cancel()
 
     def _wake(self) -> None:
-        """From any thread: asks for a frame."""
+        """Ask for a frame, from any thread."""
         self.news.set()
         hello_imgui.request_refresh()
 

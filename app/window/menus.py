@@ -1,7 +1,5 @@
-"""The menu bar. Made from the table of actions, and from what no table holds: scenes, recent
-files, bookmarks, views, the last steps.
-
-Owns its look. Knows nothing of what actions do.
+"""The menu bar: the table of actions, and what no table holds: scenes, recent files, bookmarks,
+views, the last steps.
 """
 
 from __future__ import annotations
@@ -22,6 +20,7 @@ from lucida.app.window import bookmarks
 from lucida.app.window.action_table import ACTIONS, MENUS
 from lucida.app.window.actions import FORGET
 from lucida.renderer.files import SCENE_NAMES
+from lucida.renderer.system.errors import one_line
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
@@ -31,7 +30,7 @@ ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 def menu_bar(
     window: Host, history: History, stage: Stage, status: Callable[[float], None] | None = None
 ) -> None:
-    """All menus; call in HelloImGui's show_menus. A bar that is too narrow for them has one.
+    """Draw all menus. Call in HelloImGui's show_menus. A bar that is too narrow for them has one.
 
     status: draws the status line into a room of this width; None if it has a bar of its own.
     """
@@ -90,7 +89,7 @@ def _menus(window: Host, history: History, stage: Stage) -> None:
 
 
 def _actions(menu: str, window: Host, history: History) -> None:
-    """Return the actions of a menu; those of a submenu where the first of them is."""
+    """Draw the actions of a menu; those of a submenu where the first of them is."""
     drawn: set[str] = set()
     for action in ACTIONS:
         if action.menu == menu:
@@ -134,11 +133,10 @@ def _recent(window: Host) -> None:
         return
     if imgui.is_window_appearing():
         recent.look()
-    for number, entry in enumerate(entries):
-        note = "missing" if entry.missing else entry.folder
-        label = f"{entry.name}###recent{number}"
-        if imgui.menu_item(label, _short(note), False, not entry.missing)[0]:
-            window.files.open(entry.path)
+    for number, path in enumerate(entries):
+        label = f"{one_line(path.name)}###recent{number}"
+        if imgui.menu_item(label, _short(one_line(str(path.parent))), False)[0]:
+            window.files.open(str(path))
     imgui.separator()
     if imgui.menu_item("Clear the list", "", False)[0]:
         recent.clear()
@@ -146,7 +144,7 @@ def _recent(window: Host) -> None:
 
 
 def _file_views(window: Host) -> None:
-    """Return the cameras of the scene's file other than the initial view."""
+    """Draw the cameras of the scene's file other than the initial view."""
     views = window.state.scene.views
     if imgui.begin_menu("From the file", bool(views)):
         for number, named in enumerate(views):
@@ -161,7 +159,7 @@ def _short(text: str, most: int = 40) -> str:
 
 
 def _history(window: Host, history: History) -> None:
-    """The last steps, the newest on top; a click goes back, or forward, to after a step."""
+    """Draw the last steps, the newest on top; a click goes back, or forward, to after a step."""
     if not imgui.begin_menu("History", bool(history.past or history.future)):
         return
     states = [*history.past, history.present, *history.future]
@@ -206,7 +204,7 @@ def _views(stage: Stage) -> None:
 
 
 def _layouts(window: Host, name: str) -> None:
-    """The layout's name at the right end of the bar; a menu to choose another."""
+    """Draw the layout's name at the right end of the bar, as a menu to select another."""
     arrow, style = 0.5 * imgui.get_font_size(), imgui.get_style()
     corner = imgui.get_cursor_screen_pos()
     opened = imgui.begin_menu(f"{name}    ###layouts")

@@ -6,21 +6,20 @@ Nothing here waits for a window: it runs on the threads that load.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeVar
 
 from lucida.app.checking.task_file import load_tasks
-from lucida.app.images.photograph.reading import found_photograph, is_photograph
+from lucida.app.images.photograph.reading import found_photograph
 from lucida.app.instruments.poses.model import PoseSet
-from lucida.app.instruments.poses.reading import is_cameras, open_cameras
+from lucida.app.instruments.poses.reading import open_cameras
 from lucida.app.lecture.model import Lecture
-from lucida.app.lecture.reading import is_lecture, load_lecture
-from lucida.app.window.code_files import found_code, is_code, is_tasks
-from lucida.renderer.files import SCENE_NAMES, load_scene, load_view
+from lucida.app.lecture.reading import load_lecture
+from lucida.app.window.kinds import found_code, kind_of
+from lucida.renderer.files import load_scene, load_view
 from lucida.renderer.files.outside import OutsideError, kept_inside
-from lucida.renderer.files.reading import first_bytes
 from lucida.renderer.raster import Prepared, prepare
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import check_cancelled
@@ -146,14 +145,11 @@ def open_sources(
     good: list[str] = []
     problems: list[str] = []
     for source in sources:
-        read = _reader(source)
-        if read is None and OpenedScene in found:
-            continue  # one scene at a time
         try:
-            if read is not None:
-                thing = read(source, agreed)
-            else:
-                thing = _open_scene(source, agreed if dropped else None, use)
+            thing = _read(source, agreed)
+            if thing is None and OpenedScene in found:
+                continue  # one scene at a time
+            thing = thing or _open_scene(source, agreed if dropped else None, use)
         except LucidaError as error:
             if len(sources) == 1 or isinstance(error, OutsideError):
                 raise
@@ -164,22 +160,22 @@ def open_sources(
     return Opened(tuple(found.values()), tuple(good), tuple(problems))
 
 
-Reader = Callable[[str, frozenset[Path]], Thing]
-
-
-def _reader(source: str) -> Reader | None:
-    """Return what reads a source, by its name and its first lines; None for scenes and models."""
-    if source in SCENE_NAMES:
-        return None
-    readers: tuple[tuple[Callable[[str], bool], Reader], ...] = (
-        (is_tasks, lambda source, _: _open_tasks(source)),
-        (is_photograph, lambda source, _: OpenedPhotograph(found_photograph(source))),
-        (_is_view, lambda source, _: OpenedView(load_view(source))),
-        (is_lecture, _open_lecture),
-        (is_cameras, lambda source, _: _open_cameras(source)),
-        (is_code, lambda source, _: OpenedCode(found_code(source))),
-    )
-    return next((read for is_it, read in readers if is_it(source)), None)
+def _read(source: str, agreed: frozenset[Path]) -> Thing | None:
+    """Read a source of any kind; None for scenes and models."""
+    match kind_of(source):
+        case "tasks":
+            return _open_tasks(source)
+        case "photograph":
+            return OpenedPhotograph(found_photograph(source))
+        case "view":
+            return OpenedView(load_view(source))
+        case "lecture":
+            return _open_lecture(source, agreed)
+        case "cameras":
+            return _open_cameras(source)
+        case "code":
+            return OpenedCode(found_code(source))
+    return None
 
 
 def _open_scene(source: str, agreed: frozenset[Path] | None, use: Use = "open") -> OpenedScene:
@@ -232,14 +228,3 @@ def _prepared(scene: Scene) -> Prepared | None:
     with contextlib.suppress(LucidaError):
         return prepare(scene)
     return None
-
-
-def _is_view(source: str) -> bool:
-    path = Path(source)
-    if path.suffix.lower() != ".toml":
-        return False
-    try:
-        text = first_bytes(path, SNIFFED_BYTES)
-    except (OSError, ValueError):
-        return False
-    return b"[camera]" in text and b"objects" not in text and not is_lecture(path)

@@ -34,7 +34,7 @@ class CommandPalette:
         self._query, self._chosen, self._appearing = "", 0, True
 
     def draw(self, entries: Callable[[], list[Entry]]) -> None:
-        """Draws it where it is open, and does what is chosen."""
+        """Draw the palette if it is open, and run the selected entry."""
         if not self.open:
             return
         with overlay(NAME, top_center(2), (0.5, 0), box_width(WIDTH_EM, 0.9), theme.ACCENT):

@@ -18,6 +18,7 @@ from lucida.app.window.bookmarks import recall
 from lucida.app.window.instruments import INSTRUMENTS
 from lucida.app.window.palette_search import Entry
 from lucida.renderer.files import SCENE_NAMES
+from lucida.renderer.system.errors import one_line
 
 # The words of other programs and of other books, by names of actions and titles of views.
 OWN = {
@@ -66,15 +67,10 @@ def entries(window: Host, stage: Stage) -> list[Entry]:
             found.append(Entry(f"Step {number + 1}: {step.title}", f"Lecture > {step.part}", go))
     for name in SCENE_NAMES:
         found.append(Entry(f"Scene: {name}", "File > Built-in scenes", partial(files.open, name)))
-    for recent in files.recent.entries:
-        found.append(
-            Entry(
-                f"Open {recent.name}" + ("  (missing)" if recent.missing else ""),
-                f"File > Recent files > {recent.path}",
-                partial(files.open, recent.path),
-                enabled=not recent.missing,
-            )
-        )
+    for path in files.recent.entries:
+        where = f"File > Recent files > {one_line(str(path.parent))}"
+        go = partial(files.open, str(path))
+        found.append(Entry(f"Open {one_line(path.name)}", where, go))
     for named in state.scene.views:
         go = partial(go_to_view, window, named.view)
         found.append(Entry(f"Camera: {named.name}", "Camera > From the file", go))

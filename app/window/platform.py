@@ -41,11 +41,11 @@ class Platform:
 
 
 def start_platform(want_display: bool = True) -> Platform:
-    """Starts GLFW on a display, or on the null platform (with EGL) where there is none.
+    """Start GLFW on a display, or on the null platform (with EGL) if there is none.
 
-    want_display: False for the null platform, if that works here: pictures then have any size,
-    and no window is seen. Raises LucidaError where no OpenGL 3.3 context can be had: one line that
-    says what to install.
+    want_display: False for the null platform, if that works here: pictures then have any size, and
+    no window is seen. Raises LucidaError if there is no OpenGL 3.3: one line with the packages to
+    install.
     """
     if want_display:
         platform = _with_display()
@@ -68,7 +68,7 @@ def start_platform(want_display: bool = True) -> Platform:
 
 
 def create_context() -> moderngl.Context:
-    """moderngl in the window's context, which must be current. Raises LucidaError."""
+    """Return moderngl's context in the window's, which must be current. Raises LucidaError."""
     if not glfw.get_current_context():
         raise LucidaError("OpenGL", "the window has no context", "run `lucida doctor`")
     require = REQUIRED[0] * 100 + REQUIRED[1] * 10
@@ -76,8 +76,9 @@ def create_context() -> moderngl.Context:
 
 
 def flush_opengl() -> None:
-    """Sends what is waiting to the GPU. A swap does that on a display; the null platform has no
-    display to swap to, and would draw nothing until somebody asks for the result."""
+    """Send waiting commands to the GPU. A swap does that on a display. The null platform has none,
+    and would draw nothing until somebody asks for the result.
+    """
     address = glfw.get_proc_address("glFlush")
     if address:
         ctypes.CFUNCTYPE(None)(ctypes.cast(address, ctypes.c_void_p).value or 0)()
@@ -105,14 +106,14 @@ def begin_letters() -> None:
 
 
 def set_title(text: str) -> None:
-    """The title of the window whose context is current."""
+    """Set the title of the window whose context is current."""
     window = glfw.get_current_context()
     if window:
         glfw.set_window_title(window, one_line(text))
 
 
 def keep_open() -> None:
-    """The window whose context is current was to close, and does not."""
+    """Keep the window open whose context is current, and whose button to close was pressed."""
     window = glfw.get_current_context()
     if window:
         glfw.set_window_should_close(window, False)
@@ -129,7 +130,7 @@ def take_keys() -> KeyFrames:
 
 
 def on_drop(dropped: Callable[[list[str]], None]) -> None:
-    """Calls `dropped` with the paths of files that are dropped on the current window."""
+    """Call `dropped` with the paths of files that are dropped on the current window."""
     window = glfw.get_current_context()
     if window:
 
@@ -146,15 +147,18 @@ _on_drop: list[Any] = []  # what is called lives as long as the window
 
 
 def set_size(size: tuple[int, int]) -> None:
-    """(width, height) of the window whose context is current, in screen coordinates."""
+    """Set the (width, height) of the window whose context is current, in screen coordinates."""
     window = glfw.get_current_context()
     if window and glfw.get_window_size(window) != size:
         glfw.set_window_size(window, *size)
 
 
 def show_window(draw: Callable[[], None]) -> None:
-    """Shows the current window, hidden so far, in front, and waits a moment until a window manager
-    has placed it. draw: puts the picture into it; called then, what was drawn before is lost."""
+    """Show the current window, hidden so far, in front, and wait a moment until a window manager
+    has placed it.
+
+    draw: called then to put the picture into it, because earlier drawing is lost.
+    """
     window = glfw.get_current_context()
     if not window:
         return
@@ -204,7 +208,7 @@ _windowed: list[tuple[int, int, int, int]] = []  # left, top, width, height befo
 
 
 def _monitor_of(place: tuple[int, int, int, int]) -> Any:
-    """The monitor that most of a window lies on."""
+    """Return the monitor that shows most of a window."""
     left, top, width, height = place
 
     def shared(monitor: Any) -> int:
@@ -260,7 +264,7 @@ def _start_null() -> None:
 
 
 def _check_opengl(platform: Platform) -> None:
-    """A context of its own, made and thrown away: the window's would end the process."""
+    """Create and destroy a context of its own: a failure of the window's would end the process."""
     remedy = (
         "install a graphics driver with OpenGL 3.3"
         if platform.has_display
@@ -286,7 +290,7 @@ def _check_opengl(platform: Platform) -> None:
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[list[str]]:
-    """Collects GLFW's errors, which would otherwise be warnings on standard error."""
+    """Collect GLFW's errors, which would otherwise be warnings on standard error."""
     errors: list[str] = []
 
     def collect(code: int, description: Any) -> None:

@@ -66,7 +66,7 @@ class SceneSaving:
             self._files.say(one_line(f"{path.name} holds all of the scene."))
 
     def save_with_view(self, state: AppState) -> None:
-        """The same, with the present camera as the scene's own."""
+        """Save the scene, with the present camera as its own."""
         path = file_of(state.scene)
         if path is None:
             self.save_as(state)
@@ -74,7 +74,7 @@ class SceneSaving:
             self._write(_SceneWritten(state.scene, path, state.view))
 
     def save_as(self, state: AppState, then: Then | None = None) -> None:
-        """Asks where, and saves there with the present camera."""
+        """Ask for a place, and save the scene there with the present camera."""
         name = str(suggested_file(state.scene))
         self._files.ask_name(
             "Save the scene",
@@ -91,7 +91,7 @@ class SceneSaving:
         return bool(self._written)
 
     def poll(self, host: Host) -> None:
-        """Once a frame: what was written."""
+        """Take the result of saving. Call once a frame."""
         outcome = self._writing.poll()
         if outcome is None:
             return
@@ -121,8 +121,7 @@ class SceneSaving:
         return False
 
     def leave(self, state: AppState, then: Then) -> None:
-        """Before another scene takes the place of this one, which only undo brings back: does that,
-        or asks first."""
+        """Run what replaces the scene. Ask first if changes would be lost."""
         if is_marked(state.scene, state.step is not None):
             self._ask(state, then, LEAVE, then)
         else:

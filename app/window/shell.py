@@ -1,6 +1,6 @@
 """The parts around the views: palette, sheet, dialogs, toasts, pictures, the session.
 
-Owns these, and decides what Escape means.
+It decides what Escape means.
 """
 
 from __future__ import annotations
@@ -44,9 +44,9 @@ REDRAWN = 8  # frames after a change of the bars or of the views' places
 
 
 class Shell:
-    """One for a window. keeper: what saves the session; None where none is kept.
+    """The shell of one window. keeper: saves the session; None if none is kept.
 
-    wake: may be called from any thread: asks for a frame.
+    wake: asks for a frame, from any thread.
     """
 
     def __init__(
@@ -109,7 +109,7 @@ class Shell:
             self.toasts.add(describe(error), good=False)
 
     def picture_as(self, view: bool = False) -> None:
-        """The same into a file that the user names."""
+        """Save such a picture in a file that the user names."""
         what = self._view_in_use() if view else ""
         name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
         self.files.ask_name(
@@ -120,7 +120,7 @@ class Shell:
         )
 
     def export_as(self, host: Host) -> None:
-        """The scene and its camera for other renderers, into a file that the user names."""
+        """Export the scene and its camera, into a file that the user names."""
         state, both = host.state, host.renderers
         if self.exports.busy:
             self.toasts.add(f"{self.exports.name} is still being written.", good=False)
@@ -245,16 +245,18 @@ class Shell:
         self._asked = asks
 
     def note_popups(self) -> None:
-        """Once a frame, at its end: ImGui closes a popup by Escape before the next one begins."""
+        """Note whether a popup is open. Call at the end of a frame: ImGui closes a popup by Escape
+        before the next one begins.
+        """
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = bool(imgui.is_popup_open("", int(any_popup)))
 
     def after_drawing(self, target: Target) -> None:
-        """Once a frame, when all is drawn, before it is shown."""
+        """Take pictures. Call once a frame, when all is drawn, before it is shown."""
         self.captures.after_drawing(target)
 
     def end(self, window: Host, keeps_edits: bool = True) -> None:
-        """Once, at the end. keeps_edits: whether the session has what is not saved of the scene."""
+        """Save the session, once, at the end. keeps_edits: with the scene's unsaved changes."""
         self.captures.close()
         self.exports.close()
         if self._keeper is not None:
@@ -272,7 +274,7 @@ class Shell:
         return session_of(state, arrangement, window.view(LectureView).kept(state))
 
     def _messages(self, window: Host) -> None:
-        """One message at a time: what was asked for first, then what failed by itself."""
+        """Draw one message at a time: questions first, then failures."""
         if self._keeper is not None and self._keeper.message:
             self.toasts.add(self._keeper.message, good=False)
             self._keeper.message = ""

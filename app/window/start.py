@@ -99,8 +99,11 @@ def begin_scene(
     change: ChangeView | None = None,
     wait: bool = False,
 ) -> Start:
-    """A scene, the default one if none is given, seen by its own view or by `view`; and what else
-    is changed about that. wait: for a large model too. Raises LucidaError."""
+    """Begin with a scene, the default one if none is given.
+
+    view: used in place of the scene's own. change: applied to the view. wait: read a large model at
+    once, too. Raises LucidaError.
+    """
 
     def seen_by(own: View) -> View:
         own = view or own
@@ -139,8 +142,11 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
 
 
 def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start:
-    """A scene that the command line named is the session from now on. What is the user's own in the
-    last one stays, at a desk; the rest ends. fresh, folder: as in begin_session."""
+    """Make the scene that the command line named the session from now on.
+
+    The user's own settings of the last session stay, outside of presentation mode; the rest ends.
+    fresh, folder: as in begin_session().
+    """
     options, start = _in_place(start, folder)
     state = replace(start.state, options=own(Options() if fresh else options))
     state = state.with_options(replace(state.options.preferences, presentation=False))
@@ -150,8 +156,11 @@ def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start
 def begin_lecture(
     lecture: Lecture, at: tuple[int, int] = (0, 0), folder: Path | None = None
 ) -> Start:
-    """A lecture at a build of a step, which is kept as the session. What is the user's own in the
-    last session stays; the rest ends, as the last session does when another scene is opened."""
+    """Begin a lecture at a build of a step, which is kept as the session.
+
+    The user's own settings of the last session stay; the rest ends, as when another scene is
+    opened.
+    """
     options, start = _in_place(Start(first_state(lecture)), folder)
     return replace(start, state=first_state(lecture, at, options))
 
@@ -224,8 +233,10 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
 
 
 def _gone_on(session: Session, lecture: LectureSession | None, place: SessionFile) -> Start:
-    """The session's scene; instead of one that cannot be read, or not yet, a scene of its own.
-    place: of the session, next to which an edited scene is kept that cannot be read."""
+    """Go on with the session's scene, or with the default one if that cannot be read, or not yet.
+
+    place: of the session; an edited scene that cannot be read is kept next to it.
+    """
     step = lecture if session.lecture is not None and session.lecture.in_step else None
     if step is not None and session.edited is None:
         return Start(replace(session.state(step.step.scene), step=step.place), session)
@@ -267,7 +278,7 @@ class _LargeModelError(Exception):
 
 
 def _soon(load: Callable[[], Scene]) -> Scene | None:
-    """A scene; None where it has a large model, which takes long. Raises LucidaError."""
+    """Return a scene; None if it has a large model, which takes long. Raises LucidaError."""
 
     def read(path: Path) -> ModelFile:
         if is_large(path):

@@ -155,7 +155,7 @@ def fitting(
 
 
 def milliseconds(time_s: float) -> str:
-    """Eight characters: ` 12.3 ms`."""
+    """Return a time in eight characters: ` 12.3 ms`."""
     ms = time_s * 1e3
     return f"{ms:5.1f} ms" if ms < 1000 else f"{time_s:5.1f} s "
 

@@ -117,8 +117,9 @@ def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
 
 
 def take_newer(window: Taker, old: Scene, new: Scene) -> None:
-    """A newer version of the shown scene, as a step of its own: with its own camera, unless the
-    user has moved it."""
+    """Show a newer version of the scene, as a step of its own: with its own camera, unless the user
+    has moved it.
+    """
     untouched = window.state.view == old.view
     state = replace(window.state, scene=new)
     window.change(state.with_view(new.view) if untouched else state)
@@ -168,8 +169,9 @@ def _add(window: Taker, model: Scene) -> None:
 
 
 def with_model(state: AppState, model: Scene) -> AppState:
-    """The state with a model, as it was read, as one more object of its scene, which is chosen.
-    Raises LucidaError for a scene that cannot be changed."""
+    """Return the state with a model, as it was read, as one more object of its scene, which is
+    selected. Raises LucidaError for a scene that cannot be changed.
+    """
     assert model.origin is not None
     read = ModelFile(model.objects, model.views, model.notes)
     with read_by(lambda _: read):  # it is not read again

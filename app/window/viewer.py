@@ -207,7 +207,7 @@ class WindowRun:
         return self.guarded(lambda: self.window.draw_view(view))
 
     def guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
-        """Exceptions must not go through C++: they end the run, which raises them."""
+        """Return a function for C++. Exceptions must not pass through that: the run raises them."""
 
         def call() -> None:
             if self._error is not None and function != self.window.end:
@@ -250,7 +250,8 @@ class WindowRun:
             io = imgui.get_io()  # not the window: that may be of another size by now
             size, scale = io.display_size, io.display_framebuffer_scale
             pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
-            drawn = self._canvas.bind(pixels, self.window.is_rearranging())
+            self.window.end_layout()
+            drawn = self._canvas.bind(pixels, self.window.is_rearranging)
             drawn.framebuffer.clear(*self.params.imgui_window_params.background_color)
 
     def _before_swap(self) -> None:
@@ -267,7 +268,7 @@ class WindowRun:
         canvas.show(self._platform.has_display)
 
     def _show_window(self) -> None:
-        """Once there is a picture: a window that is shown before is black until then."""
+        """Show the window once there is a picture: it would be black until then."""
         window = self.params.app_window_params
         if window.hidden and self._canvas is not None and self._canvas.shown is not None:
             window.hidden = False
@@ -310,8 +311,9 @@ class WindowRun:
 
 
 def _run(params: hello_imgui.RunnerParams) -> None:
-    """immapp.run, without what the package wraps it in: a look at the source of all callers, for an
-    option that is not used here."""
+    """Run immapp without the package's wrapper, which reads the source of all callers for an option
+    that is not used here.
+    """
     native = getattr(immapp, "immapp_cpp", None)
     (immapp if native is None else native).run(params)
 
@@ -327,13 +329,13 @@ def _configure() -> None:
 
 
 def save_png(path: Path, pixels: np.ndarray) -> None:
-    """Writes uint8 (height, width, 3), row 0 at the top; whole or not at all."""
+    """Save uint8 (height, width, 3), row 0 at the top, atomically."""
     with atomic_write(path) as file:
         write_png(file, pixels)
 
 
 def user_folder() -> Path | None:
-    """The user's settings folder; None where there is no home."""
+    """Return the user's settings folder; None if there is no home."""
     try:
         return settings_folder()
     except RuntimeError:
@@ -341,8 +343,10 @@ def user_folder() -> Path | None:
 
 
 def _settings(params: hello_imgui.RunnerParams, remember: bool, fresh: bool) -> None:
-    """The layout is kept in the user's settings folder, never in the working directory. fresh: the
-    one that is there is put aside."""
+    """Keep the layout in the user's settings folder, never in the working directory.
+
+    fresh: set the file that is there aside.
+    """
     path = settings_file(fresh) if remember else None
     if path is not None and not is_unicode(str(path)):
         path = None  # ImGui takes UTF-8 only

@@ -1,7 +1,7 @@
 """Moving, rotating and scaling items by a matrix, as handles do, with the result in the file's
 fields.
 
-Converts a matrix to translate, rotate_deg and scale, and to the fields of spheres and lights. A
+A matrix is converted to translate, rotate_deg and scale, and to the fields of spheres and lights. A
 matrix that these cannot hold (a shear; one that makes a sphere an ellipsoid) is an error.
 """
 

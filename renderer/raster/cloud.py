@@ -59,7 +59,7 @@ class CloudPicture:
 
 
 class CloudRenderer:
-    """Draws one cloud in a context, which must be current. Raises LucidaError."""
+    """A renderer of one cloud in a context, which must be current. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context

@@ -1,6 +1,6 @@
 """The thread's current OpenGL context: unbound temporarily, and restored.
 
-Uses the functions of EGL, GLX and OSMesa that return their current contexts.
+It is found by the functions of EGL, GLX and OSMesa that return their current contexts.
 """
 
 from __future__ import annotations

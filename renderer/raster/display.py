@@ -1,6 +1,6 @@
 """The display transform on the GPU: from an image's channels to 8-bit textures for a screen.
 
-Also computes the false colours there.
+The false colours are computed there, too.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Section:
 
 
 class Display:
-    """Draws images for the screen in a context, which must be current."""
+    """A renderer of images for the screen, in a context, which must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context

@@ -1,6 +1,6 @@
 """Lines and filled shapes over an image of a scene, hidden where the scene is nearer.
 
-Draws projected geometry: positions in pixels, with their depths. Lines are rectangles on the
+Their geometry is projected: positions in pixels, with their depths. Lines are rectangles on the
 screen, antialiased and of any width: OpenGL's own lines need not support widths above one pixel.
 """
 
@@ -59,7 +59,7 @@ Layer = tuple[NDArray[Any], NDArray[Any]]  # dtypes CORNER and SEGMENT
 
 
 class LineRenderer:
-    """Draws layers into the bound framebuffer of a context, which must be current.
+    """A renderer of layers into the bound framebuffer of a context, which must be current.
 
     The alpha channel is blended, too: mask it to preserve it. set() sets the uniforms of
     chunks/outside.glsl for all of them.

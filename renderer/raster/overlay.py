@@ -106,7 +106,7 @@ def _show_scene(
 
 
 class Overlay:
-    """Draws outside views in a context, which must be current. Raises LucidaError."""
+    """A renderer of outside views in a context, which must be current. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context

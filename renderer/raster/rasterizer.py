@@ -3,7 +3,7 @@
     for each object: for each pixel that it covers: keep the nearest hit's primitive
     for each pixel: from its primitive to the exact hit, normal and colour
 
-Owns a context, a scene on the GPU, and targets.
+A Rasterizer owns a context, a scene on the GPU, and targets.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 
 
 class Rasterizer:
-    """Draws one scene from any camera.
+    """A rasterizer that draws one scene from any camera.
 
     backend: "egl", "osmesa" or "auto". context: a window's, to draw in instead; it must be current
     whenever a method is called. Otherwise each method makes its own context current, and then

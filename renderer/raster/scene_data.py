@@ -1,7 +1,7 @@
 """A scene on the GPU: its tables, and the draw calls of both passes.
 
-Manages the scene's buffers and textures, including those for the last camera. The numbers come from
-setup.py; shaders/ uses them.
+SceneData owns the scene's buffers and textures, including those for the last camera. The numbers
+come from setup.py; shaders/ uses them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Triangle setup: the shaders' input for one camera, computed in float64.
 
-Computes the tables that change with the camera: the camera block, and a row for each triangle,
+These are the tables that change with the camera: the camera block, and a row for each triangle,
 sphere and object, as NumPy arrays in the layout of shaders/chunks. Needs no GL.
 
 Image coordinates: a point's (x, y) in pixels from the image's centre (x right, y up), and t, the

@@ -1,7 +1,7 @@
 """Shader sources: included chunks, constants, and driver messages with our files and lines.
 
-Handles the `#include "chunks/name.glsl"` of shaders/ and the constants that are inserted, and maps
-the lines in a driver's message back to a file and line.
+ShaderSource resolves the `#include "chunks/name.glsl"` of shaders/, inserts constants, and maps the
+lines in a driver's message back to a file and line.
 """
 
 from __future__ import annotations

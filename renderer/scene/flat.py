@@ -1,6 +1,7 @@
 """A scene as flat arrays: the one form that both renderers read.
 
-Defines the arrays' layout. The rasterizer uploads these arrays as textures, the tracer's kernel
+FlatScene defines the arrays' layout. The rasterizer uploads these arrays as textures, the tracer's
+kernel
 indexes them: neither sees a SceneObject.
 
 The world is float64, and float32 is only ever a distance from something near. A mesh's vertices are
@@ -72,15 +73,15 @@ class FlatScene(NamedTuple):
         the cell of point p is floor(cell_from_world p), and a cell whose three numbers have an odd
         sum takes the other diffuse
     uv (n, 2): float32, vertices' texel coordinates, column and row from the upper left corner of
-        their object's image; 0 where it has none. shape (0, 2) if no object has texture coordinates
+        their object's image; 0 where it has none. The shape is (0, 2) if no object has any
     textures (objects, 2, 4): int32, first texel, width, height and wraps (shared_numbers) of each
         object's image, 0 where it has none | the first texels of two more images of that size, or
         -1: the specular light, which multiplies the material's; and the opacity, less than 0 where
         there is a hole; -1, -1
     texels (k,): int32, packed_texels() of all images, or packed_opacity(), one after another; each
-    image has one more column and one more row, which repeat the texels that follow there
-    single_sided (objects,): uint8, 1 where triangles are seen on one side only (model.py) lights
-    (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
+        image has one more column and one more row, which repeat the texels that follow there
+    single_sided (objects,): uint8, 1 where triangles are seen on one side only (model.py)
+    lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32
     bounds (2, 3): float64, lowest and highest corner of everything in the world, around each

@@ -1,6 +1,6 @@
 """Python in a child process, for work that would hold this process's GIL, or must be killable.
 
-Starts the child, and makes it end with its parent. Light to import, since each child imports it.
+The child ends with its parent. This module is light to import, since each child imports it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A note that the tracer's kernels are being compiled in this run, which takes seconds.
 
-Light to import. The compiler's side (renderer/trace) writes it; any thread may read it.
+The compiler's side (renderer/trace) writes it; any thread may read it. It is light to import.
 """
 
 from __future__ import annotations

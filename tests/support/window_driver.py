@@ -133,7 +133,7 @@ class Driver:
         seen: list[np.ndarray] = []
 
         def look(target: Target) -> None:
-            if not self.window.is_rearranging():
+            if not self.window.is_rearranging:
                 seen.append(target.read())
 
         self.run.on_drawn = look
@@ -151,7 +151,7 @@ class Driver:
         before_swap = callbacks.before_swap
 
         def drawn() -> None:
-            if not self.window.is_rearranging():
+            if not self.window.is_rearranging:
                 found.append(read())
             before_swap()
 

@@ -146,11 +146,10 @@ def read_all(folder: Path) -> dict[str, int]:
 def _round_s(folder: Path) -> float:
     """Return the time of a round of saving, in processes that have imported what they need."""
     folder.mkdir()
-    recent = RecentFiles(folder, lambda: None)
+    recent = RecentFiles(folder)
     save_all(folder, 1, recent)
     start_s = time.monotonic()
     save_all(folder, 2, recent)
-    recent.close()
     return time.monotonic() - start_s
 
 
@@ -164,7 +163,7 @@ def _start(folder: Path, first: int) -> int:
             pipe.read(1)
         return process
     try:
-        recent = RecentFiles(folder, lambda: None)
+        recent = RecentFiles(folder)
         os.write(writing, b"!")
         while True:
             save_all(folder, first, recent)

@@ -6,7 +6,6 @@ sections.py the parts below. Takes a state and a draft and returns new ones.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
@@ -46,9 +45,6 @@ ORTHONORMAL = """\
 On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
 Off: any three independent vectors: skewed, scaled or left-handed."""
 EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
-
-# From these heights of the window on, in parts of the type's size, sections begin open.
-WORDS_OPEN_EM, LOOK_OPEN_EM = 50.0, 60.0
 
 
 @dataclass(frozen=True)
@@ -177,23 +173,15 @@ def _sections(
 ) -> tuple[AppState, Draft, Sections, Wish | None]:
     wish: Wish | None = None
     opened: list[str] = []
-    any_toggled = False
-
-    def is_open(name: str, room_em: float) -> bool:
-        nonlocal any_toggled
-        now, toggled = header(name, sections, room_em)
-        if now:
-            opened.append(name)
-        any_toggled = any_toggled or toggled
-        return now
-
-    if is_open("Lens", 0.0 if state.camera.lens is not None else math.inf):
+    look = sections.look
+    if header("Lens", sections):
+        opened.append("Lens")
         state, draft = lens_section(state, draft, around)
-    if is_open("K, R and t", WORDS_OPEN_EM):
+    if header("K, R and t", sections):
+        opened.append("K, R and t")
         state, wish = words_section(state, around.size, around.fonts)
-    if is_open("Look at", LOOK_OPEN_EM):
-        look, wanted = look_section(sections.look, state, around)
-        sections, wish = replace(sections, look=look), wish or wanted
-    chosen = tuple(opened) if any_toggled else sections.chosen
-    sections = replace(sections, frames=sections.frames + 1, chosen=chosen)
-    return state, draft, sections, wish
+    if header("Look at", sections):
+        opened.append("Look at")
+        look, wanted = look_section(look, state, around)
+        wish = wish or wanted
+    return state, draft, Sections(look, tuple(opened)), wish

@@ -51,15 +51,10 @@ class LookAt:
 
 @dataclass(frozen=True)
 class Sections:
-    """The contents of the sections, entered but not yet applied.
-
-    frames: the number of frames drawn so far.
-    chosen: the open sections, once the user has opened or closed one; None for those that fit.
-    """
+    """The contents of the sections, entered but not yet applied, and the names of the open ones."""
 
     look: LookAt = LookAt()
-    frames: int = 0
-    chosen: tuple[str, ...] | None = None
+    opened: tuple[str, ...] = ()
 
 
 class Wish(NamedTuple):
@@ -69,21 +64,13 @@ class Wish(NamedTuple):
     leaves: bool = True
 
 
-def header(name: str, sections: Sections, room_em: float) -> tuple[bool, bool]:
-    """Draw a section's header. Return (whether it is open, whether it was toggled now).
-
-    It starts as the user left it; otherwise it is open if the panel's window is higher than
-    room_em.
-    """
-    if sections.frames < 8:  # until the window has its size
-        high = imgui.get_window_height() > room_em * imgui.get_font_size()
-        opened = high if sections.chosen is None else name in sections.chosen
-        imgui.set_next_item_open(opened, imgui.Cond_.always)
+def header(name: str, sections: Sections) -> bool:
+    """Draw a section's header. Return True if it is open."""
+    imgui.set_next_item_open(name in sections.opened, imgui.Cond_.always)
     opened = imgui.collapsing_header(name)
-    toggled = imgui.is_item_toggled_open()
-    if toggled:
+    if imgui.is_item_toggled_open():
         imgui.internal.mark_ini_settings_dirty()  # it belongs to what a session keeps
-    return opened, toggled
+    return opened
 
 
 def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:

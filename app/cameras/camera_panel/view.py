@@ -66,11 +66,11 @@ class CameraView(Instrument):
         self._picked: tuple[Scene, object, float] | None = None  # t of the last picked hit
 
     @property
-    def sections(self) -> tuple[str, ...] | None:
-        return self.entered.chosen
+    def sections(self) -> tuple[str, ...]:
+        return self.entered.opened
 
     def open_sections(self, names: tuple[str, ...]) -> None:
-        self.entered = replace(self.entered, frames=0, chosen=names)
+        self.entered = replace(self.entered, opened=names)
 
     @property
     def has_pending(self) -> bool:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from lucida.app.images.compare import comparing, panel
 from lucida.app.images.compare.actions import COMPARING, FLIP_KEY
 from lucida.app.images.compare.pictures import Bytes, difference_picture, marked_picture
+from lucida.app.images.pair.pane import Pane
 from lucida.app.images.pair.view import ImageView, RasterView
 from lucida.app.images.placement import Placement
 from lucida.app.images.renderers import Renderers, look_of
@@ -114,9 +115,11 @@ class CompareView(ImageView):
         both = host.renderers
         if self._uploads is not None:
             self._uploads.begin_frame()
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            self._made = outcome.value
         is_picture = host.options.compare.mode in ("wipe", "flip")
-        self._pane(
-            host,
+        pane = Pane(
             lambda state, placement: self._picture(both, state, placement),
             (lambda state, channel, region: self._values(both, state, channel, region))
             if is_picture
@@ -124,6 +127,7 @@ class CompareView(ImageView):
             both.raster_error or both.ray_error,
             legend=is_picture,
         )
+        self._pane(host, pane)
 
     def _strip(self, host: Host) -> None:
         """Draw nothing: draw() puts the strip above the view's own controls."""
@@ -199,9 +203,6 @@ class CompareView(ImageView):
         signed = options.mode == "signed"
         key = images.channel, images.component, options.gain, signed
         self._work.ask(difference_picture, raster, ray, *key)
-        outcome = self._work.poll()
-        if outcome is not None and outcome.value is not None:
-            self._made = outcome.value
         return self._made[1] if self._made is not None and self._made[0] is ray else None
 
     def _placed(self, name: str, picture: Bytes, placement: Placement) -> moderngl.Texture:

@@ -42,11 +42,8 @@ class Footprint:
 
 def square(camera: Camera, size: tuple[int, int], pixel: Pixel, margin: float = 0.0) -> Camera:
     """Return the camera that sees only one pixel of an image, with a margin in pixels."""
-    left, _, _, top = camera.viewport
-    wide, high = (
-        (camera.viewport[1] - left) / size[0],
-        (top - camera.viewport[2]) / size[1],
-    )
+    left, right, bottom, top = camera.viewport
+    wide, high = (right - left) / size[0], (top - bottom) / size[1]
     x, y = left + pixel[1] * wide, top - pixel[0] * high
     ends = (x - margin * wide, x + (1 + margin) * wide)
     return replace(camera, viewport=(*ends, y - (1 + margin) * high, y + margin * high))
@@ -74,45 +71,38 @@ def draw_footprint(screen: Screen, pixel: Pixel, seen: Footprint) -> None:
     """Draw the inset in the image's corner, and lines to it from the pixel."""
     draw, em = imgui.get_window_draw_list(), imgui.get_font_size()
     low, far = screen.visible
-    side = min(PART * (far.y - low.y), 0.4 * (far.x - low.x))
-    count = len(seen.samples)
+    side, count = min(PART * (far.y - low.y), 0.4 * (far.x - low.x)), len(seen.samples)
     pixel_at = screen.point(pixel[0] + 0.5, pixel[1] + 0.5)
-    left = low.x + em if pixel_at.x > (low.x + far.x) / 2 else far.x - em - side - 5 * em
-    corner = ImVec2(left, low.y + em)
-    end = ImVec2(corner.x + side, corner.y + side)
+    is_right = pixel_at.x > (low.x + far.x) / 2
+    corner = ImVec2(low.x + em if is_right else far.x - side - 6 * em, low.y + em)
+    end = corner + ImVec2(side, side)
+    mark, text_color = theme.u32(theme.MARK), theme.u32(theme.TEXT)
     draw.push_clip_rect(low, far, True)
-    for x, y in ((corner.x, end.y), (end.x, end.y)):
-        draw.add_line(pixel_at, ImVec2(x, y), theme.u32(theme.MARK, 0.8), theme.line_px(1.5))
+    for x in (corner.x, end.x):
+        draw.add_line(pixel_at, ImVec2(x, end.y), theme.u32(theme.MARK, 0.8), theme.line_px(1.5))
     cell = side / CELLS
     for i, row in enumerate(seen.fine):
         for j, color in enumerate(row):
-            at = ImVec2(corner.x + j * cell, corner.y + i * cell)
-            draw.add_rect_filled(at, ImVec2(at.x + cell + 0.5, at.y + cell + 0.5), _ink(color))
+            at = corner + ImVec2(j, i) * cell
+            draw.add_rect_filled(at, at + ImVec2(cell + 0.5, cell + 0.5), _ink(color))
     whole = side / (1 + 2 * AROUND)
-    inner = ImVec2(corner.x + AROUND * whole, corner.y + AROUND * whole)
-    edge = ImVec2(inner.x + whole, inner.y + whole)
-    draw.add_rect(corner, end, theme.u32(theme.TEXT), 0.0, theme.line_px(1.5))
-    draw.add_rect(inner, edge, theme.u32(theme.MARK), 0.0, theme.line_px(2.5))
+    inner = corner + ImVec2(AROUND, AROUND) * whole
+    draw.add_rect(corner, end, text_color, 0.0, theme.line_px(1.5))
+    draw.add_rect(inner, inner + ImVec2(whole, whole), mark, 0.0, theme.line_px(2.5))
     radius = max(2.0, min(theme.px(7), 0.24 * whole / count))
     for (down, right), color in zip(offsets(count**2), seen.samples.reshape(-1, 3), strict=True):
-        at = ImVec2(inner.x + (right + 0.5) * whole, inner.y + (down + 0.5) * whole)
+        at = inner + ImVec2(right + 0.5, down + 0.5) * whole
         draw.add_circle_filled(at, radius + theme.px(2), theme.u32(theme.rgb("#000000")))
-        draw.add_circle_filled(at, radius + theme.px(1), theme.u32(theme.MARK))
+        draw.add_circle_filled(at, radius + theme.px(1), mark)
         draw.add_circle_filled(at, radius, _ink(color))
-    swatch = ImVec2(end.x, corner.y)
-    swatch_end = ImVec2(end.x + 5 * em, corner.y + max(side, 4.4 * em))
-    draw.add_rect_filled(swatch, swatch_end, theme.u32(theme.PANEL, 0.92))
+    swatch, below = ImVec2(end.x, corner.y), max(side, 4.4 * em)
+    draw.add_rect_filled(swatch, swatch + ImVec2(5 * em, below), theme.u32(theme.PANEL, 0.92))
     text = "1 sample" if count == 1 else f"mean of {count**2}"
-    wide = imgui.calc_text_size(text).x
-    draw.add_text(
-        ImVec2(swatch.x + (5 * em - wide) / 2, swatch.y + 0.4 * em), theme.u32(theme.TEXT), text
-    )
-    box = (
-        ImVec2(swatch.x + 1.2 * em, swatch.y + 2 * em),
-        ImVec2(swatch.x + 3.8 * em, swatch_end.y - 0.6 * em),
-    )
+    shift = ImVec2((5 * em - imgui.calc_text_size(text).x) / 2, 0.4 * em)
+    draw.add_text(swatch + shift, text_color, text)
+    box = swatch + ImVec2(1.2, 2) * em, swatch + ImVec2(3.8 * em, below - 0.6 * em)
     draw.add_rect_filled(*box, _ink(seen.mean))
-    draw.add_rect(*box, theme.u32(theme.MARK), 0.0, theme.line_px(2))
+    draw.add_rect(*box, mark, 0.0, theme.line_px(2))
     draw.pop_clip_rect()
 
 

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.remedies import helped, remedy_for
 from lucida.app.images.marking import Anchor, followed
-from lucida.app.images.pair.dark_note import DarkNote, note_button
-from lucida.app.images.pair.image_mouse import Seen
-from lucida.app.images.pair.marks import walked
-from lucida.app.images.pair.pane import Drawn, MouseState, Pane, image_pane
-from lucida.app.images.pair.pixelgrid import Values
+from lucida.app.images.pair.dark_note import dark_note
+from lucida.app.images.pair.image_mouse import ImageMouse
+from lucida.app.images.pair.marks import claim_keys, walked
+from lucida.app.images.pair.pane import Pane, draw_pane
 from lucida.app.images.pair.rulers import ruler_sizes
 from lucida.app.images.pair.toolbar import image_strip
 from lucida.app.images.photograph.layer import PhotographLayer
@@ -22,11 +20,12 @@ from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.areas import mouse_area
 from lucida.app.ui.guest import Click, Guest, ShownIn
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.errors import LucidaError
 
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
 STEADY = 6  # frames of one size, two panes each
@@ -43,7 +42,7 @@ class Linked:
     """
 
     photograph: PhotographLayer = field(default_factory=PhotographLayer)
-    mouse: MouseState = field(default_factory=MouseState)
+    mouse: ImageMouse = field(default_factory=ImageMouse)
     anchor: Anchor | None = None
     gesture_number: int = 0
     gesture_s: float = 0.0
@@ -78,9 +77,8 @@ class ImageView(Instrument):
 
     def begin_anew(self) -> None:
         """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
-        shared = self.linked
-        shared.mouse, shared.anchor = MouseState(), None
-        shared.steady_frames = 0
+        self.linked.mouse, self.linked.anchor = ImageMouse(), None
+        self.linked.steady_frames = 0
 
     def flown(self, host: Host) -> Camera | None:
         return host.state.camera
@@ -93,87 +91,72 @@ class ImageView(Instrument):
             return None
         return host.renderers.object_at(host.state, host.hovered[1])
 
-    def _pane(
-        self,
-        host: Host,
-        picture: Drawn,
-        values: Values | None,
-        error: Exception | None,
-        note: str = "",
-        progress: float = 1.0,
-        legend: bool = True,
-    ) -> None:
-        """Draw an image into the rest of the window.
-
-        values: of its channel's pixels; None if it shows no channel, and then has no legend
-        either.
-        """
-        both, shared = host.renderers, self.linked
+    def _pane(self, host: Host, pane: Pane) -> None:
+        """Draw an image into the rest of the window, and handle the mouse and the keys over it."""
+        both, shared, guest = host.renderers, self.linked, self.linked.guest
         self._strip(host)
         room_px, options = available_px(), host.state.images
         both.fit_pane(self.name, room_px, options, ruler_sizes(options))
         room_px = both.common_room(room_px)
-
-        def placed(state: AppState) -> Placement:
-            return both.placed(state.images, room_px)
-
         self._keep_mark(host)
-        corner = imgui.get_cursor_screen_pos()
-        self._before_image(host, Screen.here(placed(host.state)))
-        imgui.set_cursor_screen_pos(corner)
-        dark = (
-            self._why_black(host, Screen.here(placed(host.state))) if not (error or note) else None
-        )
-        imgui.set_cursor_screen_pos(corner)
-        state = host.state
+        start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+        screen = Screen.here(both.placed(host.state.images, room_px))
+        self._before_image(host, screen)
         clicks: list[tuple[Pixel, bool]] = []
-        seen = Seen(
-            name=self.name,
-            shown=both.camera(state),
-            size=both.size,
-            center=host.focus.center,
-            reach=host.focus.reach,
-            depth_at=lambda pixel: both.depth_at(state, pixel),
-            click=partial(self._for_guest, host, clicks),
-        )
-        pane = Pane(
-            seen=seen,
-            picture=picture,
-            values=values,
-            fonts=host.fonts,
-            note=describe(error) if error else note,
-            is_error=error is not None,
-            dark=dark,
-            progress=progress,
-            legend=legend,
-            has_tools=host.has_tools,
-            hovered=self._hovered(host, placed(state)),
-            depths=both.depths() if state.images.channel == "depth" else None,
-            on_pixels=lambda screen: self._on_pixels(host, screen),
-            held=shared.guest is not None and shared.guest.holds(self.name),
-        )
-        result = image_pane(pane, state, placed, shared.mouse)
-        if result.hovered is not None:
-            host.hover(self.name, result.hovered)
-        host.apply(result.state, self._gesture(result.turned) if result.turned else None)
-        if result.keyed:
-            self._walk(host, placed(host.state))
-        imgui.set_cursor_screen_pos(corner)
-        screen = Screen.here(placed(host.state))
+        hovered = self._hovered(host, screen.placement)
+        if shared.mouse.grab is None and guest is not None and guest.holds(self.name):
+            is_over = True
+            imgui.set_cursor_screen_pos(screen.visible[0])
+            imgui.dummy(screen.visible[1] - screen.visible[0])
+        else:
+            is_over = self._mouse(host, screen, clicks)
+        if shared.mouse.grab is not None:
+            hovered = None
+        screen = Screen(both.placed(host.state.images, room_px), screen.corner, screen.scale)
+        draw_pane(host, pane, screen, (start, start + avail), hovered, self._on_pixels)
+        imgui.set_cursor_screen_pos(start)
         self._over_image(host, screen)
-        if shared.guest is not None:
-            over = pane.held or result.hovered is not None
-            self._with_guest(host, shared.guest, screen, clicks, over)
+        if not (pane.error or pane.note):
+            self._why_black(host, screen)
+        if guest is not None:
+            self._with_guest(host, guest, screen, clicks, is_over)
 
-    def _for_guest(
-        self, host: Host, clicks: list[tuple[Pixel, bool]], pixel: Pixel, double: bool
-    ) -> bool:
-        """Keep a click until the image is drawn, if it is for the guest."""
-        guest = self.linked.guest
-        if guest is None or not guest.wants(host, double):
-            return False
-        clicks.append((pixel, double))
-        return True
+    def _mouse(self, host: Host, screen: Screen, clicks: list[tuple[Pixel, bool]]) -> bool:
+        """Handle the mouse and the arrow keys over the visible image. Return True if the mouse is
+        over it, and drags nothing.
+
+        clicks: gets those that are for the guest, until the image is drawn.
+        """
+        mouse, io, (low, high) = self.linked.mouse, imgui.get_io(), screen.visible
+        buttons = imgui.ButtonFlags_
+        imgui.set_cursor_screen_pos(low)
+        mouse_area(
+            f"image##{self.name}",
+            high - low,
+            buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
+        )
+        over, keyed = imgui.is_item_hovered(), claim_keys()
+
+        def click(pixel: Pixel, double: bool) -> bool:
+            guest = self.linked.guest
+            is_wanted = guest is not None and guest.wants(host, double)
+            if is_wanted:
+                clicks.append((pixel, double))
+            return is_wanted
+
+        host.apply(mouse.drag(host, self.name, screen, click))
+        if over and io.mouse_wheel:
+            if io.key_ctrl:
+                state = mouse.magnify(host.state, io.mouse_wheel, screen)
+            else:
+                state = mouse.wheel(host, self.name, io.mouse_wheel, screen)
+            host.apply(state, self._gesture("magnify" if io.key_ctrl else "wheel"))
+        over = over and mouse.grab is None
+        if over:
+            host.hover(self.name, screen.pixel(io.mouse_pos))
+        if keyed:
+            self._walk(host, screen.placement)
+        return over
 
     def _with_guest(
         self,
@@ -208,24 +191,22 @@ class ImageView(Instrument):
     def _over_image(self, host: Host, screen: Screen) -> None:
         """Draw over the image."""
 
-    def _why_black(self, host: Host, screen: Screen) -> DarkNote | None:
+    def _why_black(self, host: Host, screen: Screen) -> None:
         """Draw the note on a black image, with its button if there is one that helps."""
-        both, state = host.renderers, host.state
+        both, state, guest = host.renderers, host.state, self.linked.guest
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
-            return None
-        guest = self.linked.guest
+            return
         offered = guest.remedy(state, reason.cause) if guest is not None else ""
-        note = DarkNote(reason.text, offered or remedy_for(reason))
-        if note_button(note, screen):
-            try:
-                if guest is not None and offered:
-                    host.change(guest.remedied(state, offered))
-                else:
-                    host.travel(helped(state, reason, verdict.darkness, host.focus))
-            except LucidaError as problem:
-                host.files.message = str(problem)
-        return note
+        if not dark_note(reason.text, offered or remedy_for(reason), screen):
+            return
+        try:
+            if guest is not None and offered:
+                host.change(guest.remedied(state, offered))
+            else:
+                host.travel(helped(state, reason, verdict.darkness, host.focus))
+        except LucidaError as problem:
+            host.files.message = str(problem)
 
     def _strip(self, host: Host) -> None:
         if host.has_tools and not host.state.preferences.presentation:
@@ -244,9 +225,9 @@ class ImageView(Instrument):
     def _keep_mark(self, host: Host) -> None:
         """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
+        marked_size = state.options.marked_size
         shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
         shared.size = size
-        marked_size = state.options.marked_size
         if marked_size is None and shared.anchor is None and shared.steady_frames < STEADY:
             return  # a step's mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)

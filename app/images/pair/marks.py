@@ -40,14 +40,9 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
         draw.add_rect(low, high, theme.u32(color), 0.0, width)
         if min(screen.cell) > LARGEST_POINTED_AT:
             continue
-        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-            start, end = half[0 if dx else 1] + 2.0, half[0 if dx else 1] + 2.0 + TICK
-            draw.add_line(
-                ImVec2(middle.x + dx * start, middle.y + dy * start),
-                ImVec2(middle.x + dx * end, middle.y + dy * end),
-                theme.u32(color),
-                width,
-            )
+        for way in (ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)):
+            start = middle + way * (half + ImVec2(2, 2))
+            draw.add_line(start, start + way * TICK, theme.u32(color), width)
 
 
 def claim_keys() -> bool:
@@ -86,15 +81,12 @@ def walked(pixel: Pixel | None, size: tuple[int, int], start: Pixel) -> Pixel | 
     return start if pixel is None else pixel_from(pixel, steps, size)
 
 
-def _middle(screen: Screen, pixel: Pixel) -> tuple[ImVec2, tuple[float, float]]:
+def _middle(screen: Screen, pixel: Pixel) -> tuple[ImVec2, ImVec2]:
     """Return a pixel's centre on the screen, and half its width and height as framed."""
     half = [side / 2 if side >= SMALLEST_FRAMED else 5.0 for side in screen.cell]
-    return screen.point(pixel[0] + 0.5, pixel[1] + 0.5), (half[0], half[1])
+    return screen.point(pixel[0] + 0.5, pixel[1] + 0.5), ImVec2(*half)
 
 
-def _square(middle: ImVec2, half: tuple[float, float], grow: float) -> tuple[ImVec2, ImVec2]:
-    width, height = half[0] + grow, half[1] + grow
-    return (
-        ImVec2(middle.x - width, middle.y - height),
-        ImVec2(middle.x + width, middle.y + height),
-    )
+def _square(middle: ImVec2, half: ImVec2, grow: float) -> tuple[ImVec2, ImVec2]:
+    reach = half + ImVec2(grow, grow)
+    return middle - reach, middle + reach

@@ -11,6 +11,7 @@ from lucida.app.images.placement import magnification_text
 from lucida.app.images.screen import Screen
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import palettes, theme
+from lucida.app.ui.lettering import lettering
 from lucida.renderer.images.display import ID_PALETTE
 from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 
@@ -55,7 +56,7 @@ def draw_magnification(draw: imgui.ImDrawList, screen: Screen, state: AppState) 
     width = imgui.calc_text_size(text).x + 2 * PADDING
     low = _corner(draw, screen, width, imgui.get_font_size() + 2 * PADDING, right=True)
     if low is not None:
-        draw.add_text(ImVec2(low.x + PADDING, low.y + PADDING), theme.u32(TEXT), text)
+        draw.add_text(low + ImVec2(PADDING, PADDING), theme.u32(TEXT), text)
 
 
 def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool) -> None:
@@ -79,10 +80,10 @@ def _boxed(
     origin, far = screen.visible
     wrap = max(60.0, (far.x - origin.x) * 0.8)
     size = imgui.calc_text_size(text, wrap_width=wrap)
-    top = origin.y + 16 if at_the_top else (origin.y + far.y - size.y) / 2
-    at = ImVec2((origin.x + far.x - size.x) / 2, top)
-    low, high = ImVec2(at.x - 12, at.y - 8), ImVec2(at.x + size.x + 12, at.y + size.y + 8)
-    draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.85)), 4.0)
+    at, pad = (origin + far - size) / 2, ImVec2(12, 8)
+    if at_the_top:
+        at.y = origin.y + 16
+    draw.add_rect_filled(at - pad, at + size + pad, theme.u32(theme.rgb("#0c0d0f", 0.85)), 4.0)
     draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, text, wrap_width=wrap)
 
 
@@ -92,29 +93,24 @@ def _depth_legend(
     depths: tuple[float, float] | None,
     fonts: theme.Fonts,
 ) -> None:
-    size, mono = imgui.get_font_size(), fonts.mono or imgui.get_font()
-    imgui.push_font(mono, 0.0)
-    near, far = (f"{t:.4g}" for t in depths) if depths is not None else ("", "")
-    widths = [imgui.calc_text_size(text).x for text in ("t", near, far)]
-    imgui.pop_font()
-    width = sum(widths) + BAR + 3 * PADDING + 2 * PADDING
-    low = _corner(draw, screen, width, size + 2 * PADDING)
-    if low is None:
-        return
-    x, y = low.x + PADDING, low.y + PADDING
-    draw.add_text(mono, size, ImVec2(x, y), theme.u32(DIM), "t")
-    x += widths[0] + PADDING
-    if depths is None:
-        draw.add_text(ImVec2(x, y), theme.u32(DIM), "nothing is hit")
-        return
-    draw.add_text(mono, size, ImVec2(x, y), theme.u32(TEXT), near)
-    x += widths[1] + PADDING
-    white, gray = (imgui.color_convert_float4_to_u32((v, v, v, 1.0)) for v in (1.0, FARTHEST_GRAY))
-    draw.add_rect_filled_multi_color(
-        ImVec2(x, y + 1), ImVec2(x + BAR, y + size - 1), white, gray, gray, white
-    )
-    x += BAR + PADDING
-    draw.add_text(mono, size, ImVec2(x, y), theme.u32(TEXT), far)
+    size = imgui.get_font_size()
+    near, far = (f"{t:.4g}" for t in depths) if depths is not None else ("nothing is hit", "")
+    with lettering(fonts.mono):
+        widths = [imgui.calc_text_size(text).x for text in ("t", near, far)]
+        low = _corner(draw, screen, sum(widths) + BAR + 5 * PADDING, size + 2 * PADDING)
+        if low is None:
+            return
+        at = low + ImVec2(PADDING, PADDING)
+        draw.add_text(at, theme.u32(DIM), "t")
+        at.x += widths[0] + PADDING
+        draw.add_text(at, theme.u32(TEXT if depths is not None else DIM), near)
+        if depths is None:
+            return
+        at.x += widths[1] + PADDING
+        white, gray = (theme.u32(ImVec4(v, v, v, 1)) for v in (1.0, FARTHEST_GRAY))
+        bar = at + ImVec2(0, 1), at + ImVec2(BAR, size - 1)
+        draw.add_rect_filled_multi_color(*bar, white, gray, gray, white)
+        draw.add_text(at + ImVec2(BAR + PADDING, 0), theme.u32(TEXT), far)
 
 
 def _column(draw: imgui.ImDrawList, screen: Screen, words: list[tuple[str, ImVec4]]) -> None:
@@ -127,10 +123,10 @@ def _column(draw: imgui.ImDrawList, screen: Screen, words: list[tuple[str, ImVec
     if low is None:
         return
     for k, (text, color) in enumerate(words):
-        x, y = low.x + PADDING, low.y + PADDING + k * line
-        square = ImVec2(x + size - 3, y + size - 1)
-        draw.add_rect_filled(ImVec2(x + 1, y + 3), square, theme.u32(color))
-        draw.add_text(ImVec2(x + size + PADDING, y), theme.u32(TEXT), text)
+        at = low + ImVec2(PADDING, PADDING + k * line)
+        square = at + ImVec2(1, 3), at + ImVec2(size - 3, size - 1)
+        draw.add_rect_filled(*square, theme.u32(color))
+        draw.add_text(at + ImVec2(size + PADDING, 0), theme.u32(TEXT), text)
 
 
 def _corner(
@@ -144,7 +140,7 @@ def _corner(
         return None
     left = end.x - MARGIN - width if right else start.x + MARGIN
     low = ImVec2(left, end.y - MARGIN - height)
-    draw.add_rect_filled(low, ImVec2(low.x + width, low.y + height), theme.u32(BOX), 4.0)
+    draw.add_rect_filled(low, low + ImVec2(width, height), theme.u32(BOX), 4.0)
     return low
 
 

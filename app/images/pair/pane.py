@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.pair.dark_note import DarkNote, draw_dark_note
-from lucida.app.images.pair.image_mouse import Grab, Seen, Zoom, ZoomAnchor, drag, magnify, wheel
-from lucida.app.images.pair.marks import claim_keys, draw_hovered, draw_marked
+from lucida.app.images.pair.marks import draw_hovered, draw_marked
 from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
 from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
 from lucida.app.images.pair.rulers import draw_rulers
@@ -20,7 +17,8 @@ from lucida.app.images.shown import Picture
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
-from lucida.app.ui.areas import mouse_area
+from lucida.app.ui.host import Host
+from lucida.renderer.system.errors import describe
 
 # Returns the visible part of a state's image in a window; None for no image.
 Drawn = Callable[[AppState, Placement], Picture | None]
@@ -28,100 +26,36 @@ Drawn = Callable[[AppState, Placement], Picture | None]
 
 @dataclass(frozen=True)
 class Pane:
-    """One image's window. picture: asked after the mouse has moved the camera.
-    values: of some pixels, likewise; None: they are not written.
+    """An image's window.
 
-    note: text over the image, which is darkened: it is not of now. dark: why an image as it should
-    be is black. progress: of the image under way, 1 for none. hovered: the pixel
-    under the mouse, to be marked here. depths: those that are
-    shown white and darkest. legend: whether the channel's colours are explained. on_pixels:
-    draws on the image, below everything else. held: the mouse is on something of another's.
+    picture: asked after the mouse has moved the camera. values: of some pixels, likewise; None if
+    the image shows no channel. error, note: shown over the image, which is darkened: it is not of
+    now. progress: of the image under way, 1 for none. legend: whether the channel's colours are
+    explained.
     """
 
-    seen: Seen
     picture: Drawn
     values: Values | None
-    fonts: theme.Fonts
+    error: Exception | None = None
     note: str = ""
-    is_error: bool = False
-    dark: DarkNote | None = None
     progress: float = 1.0
     legend: bool = True
-    has_tools: bool = True
-    hovered: Pixel | None = None
-    depths: tuple[float, float] | None = None
-    on_pixels: Callable[[Screen], None] | None = None
-    held: bool = False
 
 
-@dataclass
-class MouseState:
-    """The drag under way, and the last aims of the wheel."""
-
-    grab: Grab | None = None
-    zoom: Zoom | None = None
-    anchor: ZoomAnchor | None = None
-
-
-@dataclass(frozen=True)
-class PaneResult:
-    """hovered: the pixel under the mouse. turned: what the wheel did, "" if it rests. keyed: True
-    if the arrow keys are for the image.
-    """
-
-    state: AppState
-    hovered: Pixel | None = None
-    turned: Literal["", "wheel", "magnify"] = ""
-    keyed: bool = False
-
-
-def image_pane(
+def draw_pane(
+    host: Host,
     pane: Pane,
-    state: AppState,
-    placed: Callable[[AppState], Placement],
-    mouse: MouseState,
-) -> PaneResult:
-    """Draw the image into the rest of the current window, and handle the mouse over it.
+    screen: Screen,
+    room: Box,
+    hovered: Pixel | None,
+    on_pixels: Callable[[Host, Screen], None],
+) -> None:
+    """Draw the image into a room of the current window.
 
-    placed: its place there.
+    hovered: the pixel under the mouse, to be framed here. on_pixels: draws below everything else.
     """
-    seen, io = pane.seen, imgui.get_io()
-    start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
-    room = start, ImVec2(start.x + avail.x, start.y + avail.y)
-    screen = Screen.here(placed(state))
-    low, high = screen.visible
-    imgui.set_cursor_screen_pos(low)
-    buttons = imgui.ButtonFlags_
-    if pane.held and mouse.grab is None:
-        imgui.dummy(ImVec2(high.x - low.x, high.y - low.y))
-        _draw(pane, state, screen, room, mouse.grab)
-        return PaneResult(state)
-    mouse_area(
-        f"image##{seen.name}",
-        ImVec2(high.x - low.x, high.y - low.y),
-        buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
-    )
-    over = imgui.is_item_hovered()
-    keyed = claim_keys()
-    hovered = screen.pixel(io.mouse_pos) if over else None
-    before = state
-    turned: Literal["", "wheel", "magnify"] = ""
-    state, mouse.grab = drag(seen, state, mouse.grab, screen)
-    if over and io.mouse_wheel and io.key_ctrl:
-        state, mouse.anchor = magnify(state, io.mouse_wheel, screen, mouse.anchor)
-        turned = "magnify"
-    elif over and io.mouse_wheel:
-        state, zoom = wheel(seen, state, mouse.zoom, io.mouse_wheel, screen)
-        if zoom is not None:
-            mouse.zoom, turned = zoom, "wheel"
-    if state.images != before.images:
-        screen = Screen(placed(state), screen.corner, screen.scale)
-    _draw(pane, state, screen, room, mouse.grab)
-    return PaneResult(state, hovered if mouse.grab is None else None, turned, keyed)
-
-
-def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | None) -> None:
-    draw = imgui.get_window_draw_list()
+    draw, state, fonts = imgui.get_window_draw_list(), host.state, host.fonts
+    depths = host.renderers.depths() if state.images.channel == "depth" else None
     low, high = screen.visible
     picture = pane.picture(state, screen.placement)
     if picture is None:  # yet: no part of it may be taken for a black image
@@ -131,30 +65,27 @@ def _draw(pane: Pane, state: AppState, screen: Screen, room: Box, grab: Grab | N
     draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if picture is not None:
         draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high)
-        if pane.on_pixels is not None:
-            pane.on_pixels(screen)
+        on_pixels(host, screen)
     if state.marked is not None:
         draw_marked(draw, screen, state.marked)
-    if picture is not None and state.images.grid:  # numbers may reach over a mark
-        draw_pixel_grid(draw, screen, state, pane.values, pane.depths, pane.fonts)
     if picture is not None:
+        if state.images.grid:  # numbers may reach over a mark
+            draw_pixel_grid(draw, screen, state, pane.values, depths, fonts)
         draw.pop_clip_rect()
-        draw_rulers(draw, screen, state, pane.fonts, pane.has_tools)
+        draw_rulers(draw, screen, state, fonts, host.has_tools)
         draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
-    if pane.hovered is not None and grab is None:
-        draw_hovered(draw, screen, pane.hovered)
+    if hovered is not None:
+        draw_hovered(draw, screen, hovered)
     if pane.progress < 1.0:
         end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
         draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
-    if picture is not None:
-        if pane.legend and pane.has_tools:
-            draw_legend(draw, screen, state, pane.depths, pane.fonts)
-        if pane.has_tools:
-            draw_magnification(draw, screen, state)
-    if pane.note:
-        draw_note(draw, screen, pane.note, pane.is_error)
-    elif pane.dark is not None:
-        draw_dark_note(draw, pane.dark, screen)
+    if picture is not None and host.has_tools:
+        if pane.legend:
+            draw_legend(draw, screen, state, depths, fonts)
+        draw_magnification(draw, screen, state)
+    if pane.error is not None or pane.note:
+        text = describe(pane.error) if pane.error is not None else pane.note
+        draw_note(draw, screen, text, pane.error is not None)
     draw.pop_clip_rect()
 
 

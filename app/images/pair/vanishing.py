@@ -81,8 +81,7 @@ def draw_parallels(
             draw_curves(draw, screen, placed(bent, screen), color, 2.0)
             continue
         start, end = place(segment)
-        way = options.extended
-        end = ImVec2(start.x + way * (end.x - start.x), start.y + way * (end.y - start.y))
+        end = start + (end - start) * options.extended
         for ink, width in ((dark, 4.0), (color, 2.0)):
             draw.add_line(start, end, ink, theme.line_px(width))
     meets = vanishing_point(camera, options.along) if options.extended == 1 else None
@@ -90,12 +89,8 @@ def draw_parallels(
     if math.isfinite(at.x):  # the lens sees it
         for ink, width in ((dark, 6.0), (color, 3.0)):
             draw.add_circle(at, theme.px(9), ink, 0, theme.line_px(width))
-        wide = imgui.calc_text_size(LABEL)
-        low = ImVec2(at.x - wide.x / 2, at.y - theme.px(18) - wide.y)
-        pad = theme.px(4)
-        draw.add_rect_filled(
-            ImVec2(low.x - pad, low.y - pad), ImVec2(low.x + wide.x + pad, low.y + wide.y + pad),
-            theme.u32(theme.PANEL, 0.9), pad,
-        )  # fmt: skip
+        wide, pad = imgui.calc_text_size(LABEL), ImVec2(theme.px(4), theme.px(4))
+        low = at - ImVec2(wide.x / 2, theme.px(18) + wide.y)
+        draw.add_rect_filled(low - pad, low + wide + pad, theme.u32(theme.PANEL, 0.9), pad.x)
         draw.add_text(low, theme.u32(theme.TEXT), LABEL)
     draw.pop_clip_rect()

@@ -12,7 +12,7 @@ from lucida.app.images.pair.actions import IMAGE, MOUSE
 from lucida.app.images.pair.footprint import draw_footprint, footprint
 from lucida.app.images.pair.image_view import ImageView, Linked
 from lucida.app.images.pair.overlay import draw_told
-from lucida.app.images.pair.pane import Drawn
+from lucida.app.images.pair.pane import Drawn, Pane
 from lucida.app.images.pair.straight_lines import draw_grid
 from lucida.app.images.pair.vanishing import draw_parallels
 from lucida.app.images.photograph.actions import PHOTOGRAPH
@@ -122,7 +122,7 @@ class RasterView(PhotographedView):
     def draw(self, host: Host) -> None:
         both = host.renderers
         picture = self._laid(host, both.raster_picture)
-        self._pane(host, picture, both.raster_values, both.raster_error)
+        self._pane(host, Pane(picture, both.raster_values, both.raster_error))
 
 
 class RayView(PhotographedView):
@@ -139,5 +139,5 @@ class RayView(PhotographedView):
         progress = both.live.progress if refining else 1.0
         note = both.preparing()
         picture = self._laid(host, both.ray_picture)
-        self._pane(host, picture, both.ray_values, both.ray_error, note, progress)
+        self._pane(host, Pane(picture, both.ray_values, both.ray_error, note, progress))
         both.trace(host.state)

@@ -24,16 +24,6 @@ if TYPE_CHECKING:
 
 PHOTO_ENDINGS = (".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff")
 ORIENTATION = 0x0112  # of EXIF
-TURNS = {  # by orientation: what makes it upright
-    2: "FLIP_LEFT_RIGHT",
-    3: "ROTATE_180",
-    4: "FLIP_TOP_BOTTOM",
-    5: "TRANSPOSE",
-    6: "ROTATE_270",
-    7: "TRANSVERSE",
-    8: "ROTATE_90",
-}
-LYING = ("TRANSPOSE", "ROTATE_270", "TRANSVERSE", "ROTATE_90")  # rows become columns
 UNREADABLE = "is no picture that can be read"
 REMEDY = "give a JPEG, PNG, WebP or TIFF file"
 
@@ -97,26 +87,23 @@ def without_lens(photograph: DecodedPhotograph, view: View) -> DecodedPhotograph
 
 
 def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
-    from PIL import Image
+    from PIL import Image, ImageOps
 
-    turn, own = TURNS.get(opened.getexif().get(ORIENTATION, 1)), opened.size
-    lying = turn in LYING
-    wanted = (wanted[1], wanted[0]) if lying else wanted
-    opened.draft("RGB", wanted)  # decodes no more of a JPEG than needed
+    is_lying = opened.getexif().get(ORIENTATION, 1) >= 5  # rows become columns
+    own = opened.size[::-1] if is_lying else opened.size
+    opened.draft("RGB", wanted[::-1] if is_lying else wanted)  # decodes no more than needed
     if opened.width * opened.height > LARGEST_PIXELS:
         raise _too_large()
+    picture = _eight_bits(ImageOps.exif_transpose(opened))
     size = min(wanted[0], own[0]), min(wanted[1], own[1])
-    picture = _eight_bits(opened)
     if picture.size != size:
         picture = picture.resize(size, Image.Resampling.BOX)
-    if turn is not None:
-        picture = picture.transpose(Image.Transpose[turn])
     pixels = np.array(picture.convert("RGBA"))
     alpha = pixels[..., 3:]
     if alpha.min(initial=255) < 255:
         product = pixels[..., :3] * alpha.astype(np.uint16)
         pixels[..., :3] = (product + 127) // 255
-    return DecodedPhotograph(pixels, (own[1], own[0]) if lying else own)
+    return DecodedPhotograph(pixels, own)
 
 
 def _eight_bits(opened: Picture) -> Picture:

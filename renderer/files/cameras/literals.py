@@ -20,7 +20,7 @@ _NAME = re.compile(
     r"""["']?[ \t]*(?:\[\s*\d*\s*\]\s*)*(?:=(?!=)|:)""",
     re.MULTILINE,
 )
-# What may stand around numbers, and changes none: keywords, shapes, and calls.
+# Text around numbers that changes none of them: keywords, shapes and calls.
 _KEYWORD = re.compile(
     r"""["']?\b(?:dtype|device|elements|data)["']?\s*[=:](?:\s*[\w.'":]+)?|\.reshape\([^)]*\)"""
 )

@@ -59,7 +59,7 @@ class BufferView(Table):
 
 
 class Sparse(Value, frozen=True):
-    """Numbers in place of some others, which are refused."""
+    """Sparse numbers, which are refused."""
 
 
 class Accessor(Value, frozen=True):

@@ -48,20 +48,19 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
     try:
         if len(last) < 3 or len({corner.count("/") for corner in last}) > 1:
             raise ValueError
-        (vertices, most), (normals, _) = _rows(lines, "v"), _rows(lines, "vn")
+        vertices, normals = _rows(lines, "v", images), _rows(lines, "vn", images)
         columns, counts = _corners(lines)
         if vertices.shape[1] < 3 or not _are_within(columns[0], len(vertices)):
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
-    _note_vertices(vertices, most, images)
     places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
     if normals.shape[1] != 3:
         normals = np.zeros((0, 3))
     normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
-    coordinates = _coordinates(lines)
+    coordinates = _coordinates(lines, images)
     if corners[1] is not None:
         has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
         named = list(_by_coordinates(named, has_uv, images))
@@ -83,16 +82,6 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
     return parts
 
 
-def _note_vertices(vertices: Floats, most: int, images: ModelImages) -> None:
-    """Note numbers behind the coordinates of vertices that are not used: colours that only some
-    have, and weights, which are for curves. most: numbers that a vertex has.
-    """
-    if vertices.shape[1] < 6 <= most:
-        images.note("not read: colours, which only some vertices have", "OBJ")
-    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
-        images.note("not read: the weights of vertices", "OBJ")
-
-
 def _by_coordinates(
     named: list[Named], has_uv: NDArray[np.bool_], images: ModelImages
 ) -> Iterator[Named]:
@@ -111,28 +100,29 @@ def _by_coordinates(
         yield f"{name}_plain", bare, replace(material, texture=None)
 
 
-def _coordinates(lines: Lines) -> Floats:
+def _coordinates(lines: Lines, images: ModelImages) -> Floats:
     """Return texture coordinates, of two numbers or more; none if they cannot be read."""
     with contextlib.suppress(ValueError):
-        found, _ = _rows(lines, "vt")
+        found = _rows(lines, "vt", images)
         if found.shape[1] >= 2:
             return found
     return np.zeros((0, 0))
 
 
-def _rows(lines: Lines, kind: str) -> tuple[Floats, int]:
-    """Return the numbers of all lines of a kind, as many of each as the shortest line has; and how
-    many the longest one has.
+def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
+    """Return the numbers of all lines of a kind, as many of each as the shortest line has. Note
+    that there are more, such as colours that only some vertices have.
     """
     text = lines.of(kind)
     begins, counts = numerals.words(text)
     values = numerals.floats(text, begins)
     if not len(counts):
-        return np.zeros((0, 0)), 0
+        return np.zeros((0, 0))
     width, most = int(counts.min()), int(counts.max())
     if width == most:
-        return values.reshape(-1, width), most
-    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)], most
+        return values.reshape(-1, width)
+    images.note(f"not read: numbers that only some lines of the kind {kind} have", "OBJ")
+    return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)]
 
 
 def _corners(lines: Lines) -> tuple[list[Ints], Ints]:

@@ -1,6 +1,6 @@
 """The pixels that a kernel writes, and the frame made from them.
 
-Contains the buffers and the blocks into which an image is divided. Needs no numba.
+An image has buffers, and is divided into blocks. This module needs no numba.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """The scene in two levels: a wide tree for each mesh, and an upper tree of instances.
 
-Builds the trees of a scene, and updates them when objects move. Rays and packets traverse them.
+Instances builds a scene's trees, and updates them when objects move. Rays and packets traverse
+them.
 
 A mesh's tree is in the mesh's own space. An object is an instance of its mesh: a transform and the
 root of a tree. A moved object therefore costs only a new box in the upper tree, and objects that

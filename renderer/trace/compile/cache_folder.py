@@ -1,6 +1,6 @@
 """The cache folder for kernels' machine code.
 
-Needs no numba: the need to compile is known before numba is imported.
+This module needs no numba: the need to compile is known before numba is imported.
 
 numba's own cache checks only one file: after an edit of intersect.py it would still use the
 kernel.py that was compiled before. Here the cache folder is named by a hash of all the kernels'

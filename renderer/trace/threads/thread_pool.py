@@ -1,7 +1,7 @@
 """A team of threads that run one kernel together.
 
-Needs no numba: a kernel is any function, which is useful if it releases the GIL and divides its
-work with a control array (atomic.py: for kernels).
+This module needs no numba: a kernel is any function, which is useful if it releases the GIL and
+divides its work with a control array (atomic.py: for kernels).
 """
 
 from __future__ import annotations

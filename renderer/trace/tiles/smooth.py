@@ -1,7 +1,6 @@
 """Interpolation of a triangle's vertices at its pixels: smooth normals and colours.
 
-Computes barycentric coordinates and interpolates, for one triangle and the pixels of a square that
-see it.
+Barycentric coordinates are computed for one triangle and the pixels of a square that see it.
 """
 
 from __future__ import annotations

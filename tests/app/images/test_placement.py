@@ -33,25 +33,6 @@ def placed(size, pane, rulers=(0, 0), **options):
     return place(ImageOptions(resolution=size, **options), size, pane, rulers)
 
 
-@pytest.mark.parametrize(
-    ("size", "pane", "magnification"),
-    [
-        ((64, 36), (480, 400), 7.0),  # 7.5: a whole number, so that all pixels are alike
-        ((640, 360), (1000, 800), 1.5625),
-        ((4096, 2160), (512, 512), 0.125),
-        ((512, 512), (512, 600), 1.0),
-        ((4, 3), (400, 400), 100.0),
-    ],
-)
-def test_fixed_images_are_fitted(size, pane, magnification):
-    at = placed(size, pane)
-    assert at.magnification == magnification
-    assert at.visible_parts == (0, 0, 1, 1)
-    assert at.visible_pixels == (0, 0, size[1], size[0])
-    for k in (0, 1):  # in the middle
-        assert abs(2 * at.origin[k] + at.extent[k] - pane[k]) <= 1
-
-
 @given(SIZES, PANES, RULERS)
 def test_fitted_images_are_seen_whole_beside_their_rulers(size, pane, rulers):
     at = placed(size, pane, rulers)
@@ -77,17 +58,6 @@ def test_rulers_stand_where_pixels_have_lines_between_them():
     assert (without.extent, without.rulers) == ((480, 270), (0, 0))
     assert placed((64, 36), (520, 400), (30, 20)).magnification == 7, "8 leave no room for them"
     assert placed((64, 36), (520, 400), (30, 20)).margin == (0, 0)
-
-
-def test_images_of_the_windows_own_size_leave_room_for_their_rulers():
-    options = ImageOptions(pixel_size=8)
-    size = placement.own_size(options, (480, 400), (30, 20))
-    assert size == (56, 47)
-    at = place(options, size, (480, 400), (30, 20))
-    assert at.magnification == 8
-    assert at.margin == (30, 20)
-    assert placement.own_size(replace(options, pixel_size=4), (480, 400), (30, 20)) == (120, 100)
-    assert placement.own_size(options, (80, 400), (30, 20)) == (10, 50), "too narrow for rulers"
 
 
 def test_rulers_number_the_first_pixel_and_round_numbers():
@@ -182,15 +152,6 @@ def test_the_images_follow_the_largest_window_and_those_that_are_nearly_as_large
     assert placement.common_pane([(400, 200), (300, 640)]) == (300, 640)
 
 
-def test_an_image_that_follows_a_larger_window_is_reduced_in_a_smaller_one():
-    here = place(ImageOptions(), (640, 500), (320, 300))
-    assert here.visible_parts == (0, 0, 1, 1)
-    assert here.magnification == 0.5
-    assert place(ImageOptions(), (300, 300), (320, 310)).magnification == 1
-    assert place(ImageOptions(pixel_size=4), (80, 75), (320, 300)).magnification == 4
-    assert place(ImageOptions(pixel_size=4), (160, 125), (320, 300)).magnification == 2
-
-
 def test_what_is_seen_of_an_image_by_hand():
     at = placement.Placement((10, 20), (100, 100), 8.0, (-12, 10), (80, 160))
     assert at.visible == (0, 10, 68, 100)
@@ -205,13 +166,6 @@ def test_what_is_seen_of_an_image_by_hand():
     assert at.margin == (0, 0)
     assert at.visible_parts != (0, 0, 1, 1)
     assert not replace(at, extent=(81, 160)).whole
-
-
-def test_the_smallest_of_images_and_windows_show_something():
-    assert placed((10, 10), (100, 100), magnification=1 / 64).extent == (1, 1)
-    assert placed((10, 10), (0, 0)).visible == (0, 0, 1, 1)
-    assert placed((4096, 4096), (1, 1)).magnification == placement.LEAST
-    assert placement.own_size(ImageOptions(pixel_size=8), (5, 3), (0, 0)) == (1, 1)
 
 
 def test_every_pixel_can_be_brought_into_sight():
@@ -238,16 +192,6 @@ def test_windows_are_nearly_as_large_from_85_percent_on_both_ways():
     assert placement.common_pane([large, (85, 170)]) == (85, 170)
     for other in ((84, 200), (100, 169), (84, 169)):
         assert placement.common_pane([large, other]) == large
-
-
-def test_panning_brings_the_part_to_the_pointer():
-    at = placed((640, 360), (400, 300), magnification=8.0, center=(0.5, 0.5))
-    options = ImageOptions(magnification=8.0)
-    changed = placement.panned(options, at, at.part_at(200, 150), 230, 130)
-    assert place(changed, (640, 360), (400, 300)).origin == (
-        at.origin[0] + 30,
-        at.origin[1] - 20,
-    )
 
 
 def test_every_step_of_the_wheel():

@@ -152,35 +152,6 @@ def test_a_tracer_that_has_gone_on_is_asked_again(pictures, gone):
     wait_for(lambda: pictures.follow("key", OTHER, asked, make) is not None)
 
 
-@pytest.mark.parametrize("asks", ["picture", "hit"])
-def test_hits_of_the_scene_that_the_tracer_has_gone_on_to_are_no_error(pictures, asks):
-    class GoesOn(Hitless):
-        """As when the scene changes while rays are traced: what they hit is no part of it."""
-
-        def closest_hits(self, origins, directions, t_min=0.0, t_max=0.0):
-            self.scene = SCENE
-            return super().closest_hits(origins, directions)
-
-        def shaded(self, origins, directions, t_min=0.0, t_max=0.0):
-            self.scene = SCENE
-            return super().shaded(origins, directions)
-
-    asked, calls = Source({id(OTHER): GoesOn(OTHER)}), []
-
-    def make(painter):
-        calls.append(painter)
-        if asks == "hit":
-            return float(painter.hits([ORIGINS[0, 0]], [DIRECTIONS[0, 0]])[0])
-        return along(painter)
-
-    def again() -> bool:
-        assert pictures.follow("key", OTHER, asked, make) is None
-        assert pictures.error is None
-        return len(calls) > 1
-
-    wait_for(again)
-
-
 @pytest.mark.parametrize("asks", ["picture", "hit", "error"])
 def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures, asks):
     """Half of such a picture would be of the other scene."""
@@ -206,22 +177,6 @@ def test_a_tracer_that_has_come_back_from_another_scene_is_asked_again(pictures,
 
     wait_for(lambda: pictures.follow("key", OTHER, asked, make) is not None)
     assert len(calls) == 2 and pictures.error is None
-
-
-def test_what_went_wrong_with_an_older_picture_is_not_told_of_the_newest(pictures):
-    asked, begun, go = source(OTHER), threading.Event(), threading.Event()
-
-    def fail(painter):
-        begun.set()
-        assert go.wait(30)
-        raise ValueError("of the older one")
-
-    pictures.follow("older", OTHER, asked, fail)
-    assert begun.wait(30)
-    pictures.follow("newest", OTHER, asked, lambda painter: "newest")
-    go.set()
-    wait_for(lambda: pictures.follow("newest", OTHER, asked, along) == "newest")
-    assert pictures.error is None
 
 
 def test_the_window_s_tracer_is_waited_for_while_it_prepares(pictures):

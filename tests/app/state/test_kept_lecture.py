@@ -162,17 +162,6 @@ def test_a_lecture_begins_with_what_is_the_users_own(file, folder):
     start.keeper.close(session_of(start.state, Arrangement()))
 
 
-def test_a_session_goes_from_step_to_step_and_no_further(file):
-    session = LectureSession(load_lecture(file), file)
-    assert (session.number, session.answers.solved) == (0, False)
-    assert not session.go(-1)
-    assert session.go(5)
-    assert session.number == 1
-    assert not session.go(1)
-    assert session.go(0)
-    assert session.step.title == "First"
-
-
 def test_a_newer_version_goes_on_at_the_step_and_its_files_are_watched(file):
     session = LectureSession(load_lecture(file), file, (1, 0))
     session.error = "an older mistake"

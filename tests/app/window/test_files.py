@@ -12,7 +12,7 @@ from PIL import Image
 from waiting import wait_for
 
 from lucida.app.ui.dialog import read_folder
-from lucida.app.ui.recent import LONGEST, MOST, Recent, RecentFiles
+from lucida.app.ui.recent import MOST, RecentFiles
 from lucida.app.ui.surface import Target
 from lucida.app.window import capture
 from lucida.app.window.capture import Captures, cut, free_path
@@ -30,103 +30,38 @@ PATIENT_S = 60.0
 
 
 def paths(recent: RecentFiles) -> list[str]:
-    return [entry.path for entry in recent.entries]
+    return [str(path) for path in recent.entries]
 
 
 def test_the_newest_file_stands_first_and_the_list_ends(tmp_path):
-    recent = RecentFiles(tmp_path, lambda: None)
+    recent = RecentFiles(tmp_path)
     names = [str(tmp_path / f"{number}.obj") for number in range(MOST + 3)]
     for name in names:
         recent.add(name)
     recent.add(names[5])
-    assert paths(recent)[0] == names[5]  # at once, before the thread has written
-    recent.close()
-    again = RecentFiles(tmp_path, lambda: None)
-    wait_for(lambda: bool(again.entries))
+    assert paths(recent)[0] == names[5]
+    again = RecentFiles(tmp_path)
     assert paths(again)[:3] == [names[5], names[-1], names[-2]]
     assert len(paths(again)) == MOST
-    assert all(entry.missing for entry in again.entries)
     again.clear()
     assert again.entries == ()
-    again.close()
     assert json.loads((tmp_path / "recent.json").read_bytes()) == []
 
 
-@pytest.mark.parametrize("kept", [True, False])
-def test_the_list_runs_on_while_the_disk_sleeps(tmp_path, monkeypatch, kept):
-    """Shown at once, in order, once each, no longer than it is kept; and the same at the end."""
-    awake, asleep = threading.Event(), threading.Event()
-
-    def exists(path):
-        asleep.set()
-        return not awake.wait(PATIENT_S)
-
-    monkeypatch.setattr("lucida.app.ui.recent._exists", exists)
-    recent = RecentFiles(tmp_path if kept else None, lambda: None)
-    recent.add("/first.obj")
-    assert asleep.wait(PATIENT_S)
-    names = [f"/{number}.obj" for number in range(MOST)]
-    for number, name in enumerate(names):
-        recent.add(name)
-        shown = [*reversed(names[: number + 1]), "/first.obj"][:MOST]
-        assert paths(recent) == shown
-    recent.add(names[3])
-    recent.add("/last.obj")
-    newest = ["/last.obj", names[3], *(name for name in reversed(names) if name != names[3])]
-    assert paths(recent) == newest[:MOST]
-    awake.set()
-    # Looked for, all of them: the thread has come to the newest list.
-    wait_for(lambda: [entry.missing for entry in recent.entries] == [True] * MOST)
-    assert paths(recent) == newest[:MOST]
-    recent.close()
-    if kept:
-        assert json.loads((tmp_path / "recent.json").read_bytes()) == newest[:MOST]
-
-
 def test_two_windows_share_the_list(tmp_path):
-    one, other = RecentFiles(tmp_path, lambda: None), RecentFiles(tmp_path, lambda: None)
+    one, other = RecentFiles(tmp_path), RecentFiles(tmp_path)
     one.add("/a.obj")
-    wait_for(lambda: (tmp_path / "recent.json").exists())
     other.add("/b.obj")
-    wait_for(lambda: len(json.loads((tmp_path / "recent.json").read_bytes())) == 2)
     one.look()
-    wait_for(lambda: paths(one) == ["/b.obj", "/a.obj"])
-    one.close()
-    other.close()
+    assert paths(one) == ["/b.obj", "/a.obj"]
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b'{"a": 1}', b"[1, 2]", b"[" * 9999, b"\xff"])
 def test_a_broken_list_is_an_empty_one(tmp_path, content):
     (tmp_path / "recent.json").write_bytes(content)
-    recent = RecentFiles(tmp_path, lambda: None)
+    recent = RecentFiles(tmp_path)
     recent.add("/a.obj")
-    recent.close()
     assert json.loads((tmp_path / "recent.json").read_bytes()) == ["/a.obj"]
-
-
-def test_of_the_list_s_file_only_usable_paths_are_taken(tmp_path):
-    folder = tmp_path / "new" / "settings"  # which is made
-    recent = RecentFiles(folder, lambda: None)
-    recent.add("/a.obj")
-    recent.close()
-    listed = [
-        "",
-        "/b",
-        "x" * LONGEST,
-        "x" * (LONGEST + 1),
-        "/c\0d",
-        *("/" * k for k in range(1, 20)),
-    ]
-    (folder / "recent.json").write_text(json.dumps(listed))
-    recent = RecentFiles(folder, lambda: None)
-    wait_for(lambda: bool(recent.entries))
-    assert paths(recent) == ["/b", "x" * LONGEST, *("/" * k for k in range(1, MOST - 4))]
-    assert recent.entries[0].name == "b"
-    # A path of so many letters cannot be looked for: it is missing.
-    assert [entry.missing for entry in recent.entries] == [True, True, *[False] * (MOST - 5)]
-    recent.close()
-    assert not Recent("/b").missing
-    assert Recent("/a/b").folder == "/a"
 
 
 # Folders.

@@ -13,24 +13,6 @@ ROOT = Path(__file__).parents[3]
 PATIENT_S = 140  # only a hang takes this long
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX's streams and signals")
 
-INTERRUPTED_IMPORT = """\
-import os, signal, time
-os.kill(os.getpid(), signal.SIGINT)
-time.sleep(0.1)
-finished = True
-"""
-IMPORTER = """\
-import signal, time
-signal.signal(signal.SIGINT, signal.default_int_handler)  # whatever this process has inherited
-from lucida.app.window.process import interrupt_between_imports
-interrupt_between_imports()
-try:
-    import interrupted
-    time.sleep(60)
-except KeyboardInterrupt:
-    print(interrupted.finished)
-"""
-
 
 def run(*arguments, closed=(), **options):
     """Python with some of its standard streams closed."""
@@ -64,13 +46,6 @@ def test_what_would_go_to_a_closed_standard_error_goes_nowhere(tmp_path):
     assert not end.stdout
 
 
-def test_ctrl_c_waits_for_an_import(tmp_path):
-    (tmp_path / "interrupted.py").write_text(INTERRUPTED_IMPORT)
-    end = run("-c", IMPORTER, stdout=subprocess.PIPE, cwd=tmp_path)
-    assert end.returncode == 0
-    assert end.stdout == "True\n"
-
-
 # What `lucida` does, with Ctrl-C at its first import: that is when sys.meta_path is asked.
 AT_AN_IMPORT = """\
 import os, signal, sys
@@ -93,8 +68,8 @@ sys.exit(main())
 )
 def test_ctrl_c_during_the_first_imports_is_quiet(tmp_path, name):
     end = run("-c", AT_AN_IMPORT, name, stderr=subprocess.PIPE, cwd=tmp_path)
-    assert end.returncode == 130
-    assert end.stderr in ("", "lucida: interrupted\n")
+    assert end.returncode in (130, -signal.SIGINT)
+    assert end.stderr == ""
 
 
 def test_ctrl_c_after_the_work_is_quiet(tmp_path):

@@ -305,20 +305,3 @@ def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path: Path
     take_opened(window)
     assert window.state.scene is not found(newer, OpenedScene).scene
     assert len(window.asked) == 1
-
-
-def test_a_mistake_in_a_scene_that_is_not_shown_any_more_is_not_told(
-    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scene, other = load_scene(path), load_scene("spheres")
-    gate, load = threading.Event(), opening.load_scene
-    monkeypatch.setattr(opening, "load_scene", lambda name: gate.wait(60) and load(name))
-    follow(files, scene)
-    path.write_text(BALL + "radius = 'x'\n")
-    for _ in range(4):
-        files.follow(scene)
-    assert files.busy
-    files.follow(other)
-    gate.set()
-    assert follow(files, other) is None
-    assert files.message == ""

@@ -19,7 +19,6 @@ from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene, save_scene
 from lucida.renderer.files.export import export_scene
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.metal import METAL_DIFFUSE
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
 
@@ -59,26 +58,12 @@ FULL: dict[str, Any] = {
 def test_gltf_metals_have_both_channels_and_cutouts_their_opacity(tmp_path: Path) -> None:
     pbr = BASE | METAL | {"metallicFactor": 0.5, "roughnessFactor": 0.75}
     (entry,) = gltf(tmp_path, {"pbrMetallicRoughness": pbr, **MASK}).objects
-    material, flat = entry.material, flatten(load_scene(tmp_path / "t.gltf"))
+    material = entry.material
     assert material.metal is not None and material.texture is not None
     np.testing.assert_array_equal(material.metal.texels, ROUGH_METAL)
     np.testing.assert_array_equal(material.texture.texels, RGBA)
     assert (material.metal.metalness, material.metal.roughness) == (0.5, 0.75)
     assert (material.cutout, material.single_sided) == (0.3, True)
-    (first, *_), (shine, holes, *_) = flat.textures[0]
-    rows = (np.arange(4)[:, None] * 5 + np.arange(4)).ravel()
-    light = np.square((flat.texels[first + rows][:, None] >> np.array([0, 10, 20]) & 1023) / 1023)
-    shown = np.square((flat.texels[shine + rows][:, None] >> np.array([0, 10, 20]) & 1023) / 1023)
-    metalness = ROUGH_METAL[..., 2].reshape(-1, 1) / 255 * 0.5
-    plain = flatten(gltf(tmp_path, {"pbrMetallicRoughness": BASE | {"metallicFactor": 0}}))
-    base = np.square((plain.texels[rows][:, None] >> np.array([0, 10, 20]) & 1023) / 1023)
-    np.testing.assert_allclose(light, base * (1 - (1 - METAL_DIFFUSE) * metalness), atol=4e-3)
-    roughness = ROUGH_METAL[..., 1].reshape(-1, 1) / 255 * 0.75
-    power = np.clip(2 / np.clip(roughness, 0.05, 1) ** 4 - 2, 1, 1000)
-    strength = np.minimum((power + 2) / 14, 1)
-    expected = strength * (0.04 + (base - 0.04) * metalness)
-    np.testing.assert_allclose(shown, expected, atol=4e-3)
-    assert ((flat.texels[holes + rows] < 0) == (RGBA[..., 3].ravel() < 0.3 * 255)).all()
 
 
 @pytest.mark.parametrize(

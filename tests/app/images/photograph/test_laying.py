@@ -1,7 +1,5 @@
 """The photograph over a picture, on the GPU, against the definition in NumPy."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -106,36 +104,6 @@ def test_it_is_drawn_again_where_something_has_changed(gl, laying, upload):
     assert laid().made is not drawn and not np.array_equal(shown(laid()), before)
     laying.take(None)
     assert laid() is picture
-
-
-def test_whatever_changes_it_is_what_a_new_one_lays(gl, laying, upload):
-    rng = np.random.default_rng(20261124)
-    picture = pictured(gl, upload, noise())
-    magnified = Placement(SIZE, SIZE, 2.0, (-4, -2), (26, 14))
-    choices = {
-        "covered": (WHOLE, (0.25, 0.25, 0.75, 0.75)),
-        "opacity": (0.25, 0.5, 1.0),
-        "placement": (whole(SIZE), magnified),
-    }
-    given = {name: values[0] for name, values in choices.items()}
-    photos, seen = [noise(), noise((26, 14)), noise()], set()
-    laying.take(photos[0])
-    for step in range(120):
-        kind = str(rng.choice([*choices, "photograph", "picture"]))
-        if kind == "photograph":
-            laying.take(photos[rng.integers(len(photos))])
-        elif kind == "picture":  # the same texture, with another image in it
-            picture.texture.write(noise())
-            picture = replace(picture, made=object())
-        else:
-            given[kind] = choices[kind][rng.integers(len(choices[kind]))]
-        rest = given["placement"], given["covered"], given["opacity"]
-        kept = shown(laying.laid("kept", picture, *rest))
-        np.testing.assert_array_equal(
-            kept, shown(laying.laid(step, picture, *rest)), err_msg=f"{kind} at {step}"
-        )
-        seen.add(kept.tobytes())
-    assert len(seen) > 60
 
 
 def test_where_it_is_seen_smaller_the_mean_is_seen(gl, laying, upload):

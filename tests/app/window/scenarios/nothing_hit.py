@@ -46,7 +46,7 @@ def drive_a_black_image_has_a_button_that_helps(d):
         window.change(before.with_camera(camera))
         d.settle()
         assert window.renderers.why_black(window.state) is not None
-        d.ctx.item_click(f"//###{view}/{remedy}")
+        d.ctx.item_click(f"//###{view}/**/{remedy}")
         d.settle()
         assert window.renderers.why_black(window.state) is None
         window.undo()

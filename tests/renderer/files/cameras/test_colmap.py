@@ -146,15 +146,6 @@ def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():
     assert b"image_0001.png" in files["images.txt"]
 
 
-@pytest.mark.parametrize("number", [-1, 0, 7])
-def test_a_point_of_an_image_may_belong_to_none(tmp_path: Path, number: int) -> None:
-    """POINT3D_ID is -1 where it was not triangulated."""
-    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 50 50 32 24\n")
-    line = f"1.5 2.5 {number}"
-    (tmp_path / "images.txt").write_text(f"1 1 0 0 0 0 0 0 1 a.png\n{line} {line}\n")
-    assert len(read_cameras(tmp_path).cameras) == 1
-
-
 def test_known_poses_have_no_points(tmp_path: Path) -> None:
     (tmp_path / "cameras.txt").write_text("1 PINHOLE 6 4 5 5 3 2\n")
     (tmp_path / "images.txt").write_text("1 1 0 0 0 0 0 4 1 a.png\n\n")

@@ -41,15 +41,6 @@ def test_either_order_is_found_out(by_rows: bool, projection: str) -> None:
         assert_same_pixels(camera, back, size)
 
 
-def test_each_matrix_may_have_its_own_order() -> None:
-    table = {"view_matrix": VIEW.ravel().tolist(), "projectionMatrix": CLIP.T.tolist()}
-    found = pasted(json.dumps(table))
-    assert found.taken[:2] == ("view_matrix row by row", "projectionMatrix column by column")
-    assert_same_pixels(CAMERA, found.cameras[0].camera, SIZE)
-    text = f"view_matrix = {table['view_matrix']}\nprojectionMatrix = {CLIP.T.ravel().tolist()}"
-    assert pasted(text).taken == found.taken
-
-
 def test_a_projection_beside_its_diagonal_makes_the_basis_skew_or_mirrored() -> None:
     random = np.random.default_rng(3)
     for parallel in (False, True):
