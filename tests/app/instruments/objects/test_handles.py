@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from imgui_bundle import ImVec2
 
 from lucida.app.instruments.objects.handles import (
     STEPS_PER_REACH,
@@ -12,7 +11,6 @@ from lucida.app.instruments.objects.handles import (
     frame_of,
     gizmo,
     handle_of,
-    length_px,
     moved_by,
     operation_of,
     snap_step,
@@ -172,8 +170,3 @@ def test_what_has_a_direction_alone_is_turned_where_others_are_moved(items):
     assert kind("move", "point") == "move"
     assert kind("none", "directional") == "none"
     assert kind("scale", "directional") == "scale"
-
-
-@pytest.mark.parametrize("picture", [ImVec2(100, 768), ImVec2(768, 100)])
-def test_handles_stay_in_a_narrow_picture(picture: ImVec2) -> None:
-    assert length_px(picture, picture) < 100 / 4
