@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.calls import Call, Failure, Run, Student
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.kinds.values import text_of
-from lucida.app.checking.running.told import told_call
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.kinds.kind import CheckKind, text_of
+from lucida.app.checking.running.program import ProgramStudent, told_call
+from lucida.app.checking.tasks import Call, CheckCase, CheckTask, Failure, Run
+from lucida.app.ui.explaining.symbols import arguments
 from lucida.renderer.files.reading import close_matches
 
 if TYPE_CHECKING:
@@ -67,7 +66,7 @@ class TaskResult:
     output: str = ""
 
 
-def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
+def check(student: ProgramStudent, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
     """Yield the results of the tasks in order, each as soon as it is known. Raises LucidaError if
     the student's code cannot be run at all.
     """
@@ -79,7 +78,7 @@ def check(student: Student, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
             yield checked(student, task)
 
 
-def checked(student: Student, task: CheckTask) -> TaskResult:
+def checked(student: ProgramStudent, task: CheckTask) -> TaskResult:
     """Return the result of one task. The student's code must have its function."""
     kind = KINDS[task.kind]
     cases = kind.cases(task)
@@ -89,7 +88,7 @@ def checked(student: Student, task: CheckTask) -> TaskResult:
     return result
 
 
-def _asked_again(student: Student, result: TaskResult) -> TaskResult:
+def _asked_again(student: ProgramStudent, result: TaskResult) -> TaskResult:
     """Call the first wrong case again, twice, in a program that remembers no other call. If an
     answer has changed, add a sentence on that to the result.
     """
@@ -106,20 +105,20 @@ def _asked_again(student: Student, result: TaskResult) -> TaskResult:
         np.asarray(given, float), np.asarray([first.answer] * 2, float), equal_nan=True
     ):
         return result
-    from lucida.app.checking.mistakes.diagnosis import Diagnosis
-
-    told = result.diagnosis or Diagnosis(())
+    told = result.diagnosis
+    assert told is not None
     return replace(result, diagnosis=replace(told, sentences=(CHANGES, *told.sentences)))
 
 
 def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
     """Return the result of a run of all of a task's calls."""
     kind = KINDS[task.kind]
-    failure = run.failure
-    failures = [value for value in run.values if isinstance(value, Failure)]
-    if failure is None and failures:
-        number = next(n for n, value in enumerate(run.values) if isinstance(value, Failure))
-        failure = replace(failures[0], call=number)
+    failures = (
+        replace(value, call=number)
+        for number, value in enumerate(run.values)
+        if isinstance(value, Failure)
+    )
+    failure = run.failure or next(failures, None)
     if failure is not None:
         return failed(task, failure, len(cases), run.output)
     given, problems = kind.given(task, cases, run.values)
@@ -165,9 +164,10 @@ def status_of(results: Sequence[TaskResult]) -> int:
     return 2 if "failed" in statuses else int("wrong" in statuses)
 
 
-def arguments_text(case: CheckCase) -> str:
+def arguments_text(task: CheckTask, case: CheckCase) -> str:
     """Return the call's arguments as text: `i=2, j=5, camera=...`."""
     text = ", ".join(f"{name}={text_of(value)}" for name, value in case.arguments)
+    text = arguments(text, task.notation)
     return text if len(text) <= ARGUMENT_LETTERS else f"{text[: ARGUMENT_LETTERS - 3]}..."
 
 
@@ -187,11 +187,4 @@ def _first_wrong(
     number = int(np.argmax(wrong))
     case = cases[number]
     where, right, answer = kind.first_wrong(task, case, given[number])
-    return WrongCase(
-        case,
-        arguments_text(case),
-        right,
-        answer,
-        where,
-        given[number],
-    )
+    return WrongCase(case, arguments_text(task, case), right, answer, where, given[number])

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from lucida.app.checking.words import GROUPS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
@@ -112,22 +113,8 @@ class Shot:
     up: Vector
 
 
-_ROW = "the row, from {first} at the {near}"
-_COLUMN = "the column, from {first} at the left"
-
-# The words of a pixel, and what they mean; see Conventions.explained().
-PIXEL_WORDS: Mapping[str, str] = {
-    "i": _ROW,
-    "j": _COLUMN,
-    "row": _ROW,
-    "column": _COLUMN,
-    "x_pixel": "the pixel's centre in pixels from the left edge, 0.5 in the first column",
-    "y_pixel": "the pixel's centre in pixels from the {near} edge, 0.5 in the first row",
-    "x01": "the pixel's centre, 0 at the left edge, 1 at the right edge",
-    "y01": "the pixel's centre, 0 at the {near} edge, 1 at the {far} edge",
-    "x11": "the pixel's centre, -1 at the left edge, 1 at the right edge",
-    "y11": "the pixel's centre, -1 at the {near} edge, 1 at the {far} edge",
-}
+PIXEL_WORDS, VISION_WORDS = GROUPS["pixel"], GROUPS["vision"]
+CAMERA_WORDS = {**GROUPS["camera"], **VISION_WORDS}
 
 # Arguments that hold two numbers.
 PAIRS = {
@@ -138,70 +125,12 @@ PAIRS = {
     "xy11": ("x11", "y11"),
 }
 
-_ANGLES = {
-    f"{name}{ending}": f"angle of view {sides}, in {unit}"
-    for name, sides in (
-        ("fov_x", "from the left to the right edge"),
-        ("fov_y", "from the bottom to the top edge"),
-        ("fov_long", "of the image's longer side"),
-        ("fov_short", "of the image's shorter side"),
-    )
-    for ending, unit in (("", "degrees"), ("_rad", "radians"))
-}
-
-# The words of computer vision, for camera space with x right, y down and z forward.
-VISION_WORDS: Mapping[str, str] = {
-    "K": "3 x 3: from a point in camera space, divided by its z, to the pixel (column, row, 1)",
-    "fx": "K[0, 0], the focal length in columns",
-    "fy": "K[1, 1], the focal length in rows",
-    "cx": "K[0, 2], the column of the principal point",
-    "cy": "K[1, 2], the row of the principal point",
-    "R": "3 x 3, from the world's directions to camera space: its rows are right, down, forward",
-    "t": "the world's origin in camera space: a point there is R X + t",
-    "cam_from_world": "4 x 4, [R | t]: from the world to camera space",
-    "world_from_cam": "4 x 4, from camera space to the world",
-}
 FOCAL_WORDS = frozenset({"K", "fx", "fy"})
 VISION_AXES = (1, -1, -1)
 
-# The words of a camera, and what they mean.
-CAMERA_WORDS: Mapping[str, str] = {
-    "eye": "the camera's position",
-    "u": "the basis: right in the image",
-    "v": "the basis: up in the image",
-    "w": "the basis: back, from what is seen to the eye",
-    "distance": "the viewport's distance from the camera's position",
-    "left": "the viewport's left edge, along u",
-    "right": "its right edge",
-    "bottom": "its bottom edge, along v",
-    "top": "its top edge",
-    "viewport": "the four in one: left, right, bottom, top",
-    "viewport_width": "the viewport's width",
-    "viewport_height": "the viewport's height",
-    "projection": '"perspective" or "parallel"',
-    "width": "the number of columns",
-    "height": "the number of rows",
-    "size": "[width, height] of the image",
-    "aspect": "width / height of the image",
-    "target": "a point that is looked at",
-    "up": "a vector that is upwards in the image; not of length 1, nor at right angles to the view",
-    "forward": "where the camera looks, of length 1",
-    **_ANGLES,
-    "camera_to_world": "4 x 4, from camera space ({axes}) to the world",
-    "world_to_camera": "4 x 4, from the world to camera space ({axes})",
-    "rotation": "3 x 3, from directions in camera space ({axes}) to the world",
-    "pixel00": "the centre of the top left pixel on the viewport, a point of the world",
-    "delta_u": "from one pixel's centre on the viewport to the next one's to its right",
-    "delta_v": "from one pixel's centre on the viewport to the next one's below it",
-    "top_left": "the viewport's top left corner, a point of the world",
-    "bottom_left": "the viewport's bottom left corner, a point of the world",
-    "horizontal": "the viewport's bottom edge, from left to right",
-    "vertical": "the viewport's left edge, from bottom to top",
-    **VISION_WORDS,
-}
-
 # Only an orthonormal camera with a symmetric viewport has these values.
-RIGID_WORDS = frozenset({"target", "up", "forward", *_ANGLES})
+RIGID_WORDS = {"target", "up", "forward"}
+RIGID_WORDS |= {word for word in CAMERA_WORDS if word.startswith("fov_")}
 
 # Transposed for row vectors.
 MATRICES = {"camera_to_world", "world_to_camera", "rotation", "K", "R"}
@@ -225,10 +154,7 @@ def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> dict
     return {
         **{name: np.asarray(getattr(camera, name)) for name in ("eye", "u", "v", "w")},
         "distance": camera.distance,
-        "left": left,
-        "right": right,
-        "bottom": bottom,
-        "top": top,
+        **dict(zip(("left", "right", "bottom", "top"), camera.viewport, strict=True)),
         "viewport_width": wide,
         "viewport_height": high,
         "width": width,

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from lucida.app.checking.builtin import builtin_tasks
-from lucida.app.checking.calls import Limits
 from lucida.app.checking.cases import camera_kinds, check_size, check_views
 from lucida.app.checking.conventions import (
     CAMERA_WORDS,
@@ -22,8 +21,8 @@ from lucida.app.checking.conventions import (
 )
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
-from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask
+from lucida.app.checking.task_schema import PROJECTIONS, ConventionsTable, TaskFile, TaskTable
+from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask, Limits
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
@@ -35,11 +34,6 @@ from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
 REMOVED = ("vectorised",)  # fields of older files; a function is called for each pixel
-PROJECTIONS = {
-    "perspective": ("perspective",),
-    "parallel": ("parallel",),
-    "both": ("perspective", "parallel"),
-}
 # Words that give the size of a parallel view.
 SIZED = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
 SIZED |= {"pixel00", "top_left", "bottom_left"}

@@ -14,6 +14,11 @@ from lucida.renderer.files.schema import Numbers3, StrictTable
 
 Seed = Annotated[int, Meta(ge=0)]
 Side = Annotated[int, Meta(ge=1, le=512)]  # of a task's images
+PROJECTIONS = {
+    "perspective": ("perspective",),
+    "parallel": ("parallel",),
+    "both": ("perspective", "parallel"),
+}
 FeedbackName = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 
 

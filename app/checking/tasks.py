@@ -1,4 +1,7 @@
-"""Tasks for students: a task, its cases, and the built-in tasks.
+"""Tasks for students, their cases, and the calls to a student's code that answer them.
+
+Values of calls are JSON values. A camera, an object or a scene is a dict: Python code receives it
+as an object with attributes, any other program as plain JSON.
 
 A lecturer's own tasks come from a file (task_file.py).
 """
@@ -17,6 +20,68 @@ from lucida.renderer.images.shared_numbers import LUMINANCE
 
 if TYPE_CHECKING:
     from lucida.renderer.scene.model import View
+
+Kind = Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of a run of the student's code.
+
+    seconds: for all calls together, from the program's start.
+    memory_mb: memory of each process, on Linux.
+    output: the number of printed characters that are kept.
+    """
+
+    seconds: float = 20.0
+    memory_mb: int = 1024
+    output: int = 20_000
+
+
+@dataclass(frozen=True)
+class Call:
+    """One call.
+
+    function: its name.
+    arguments: names, for messages, and values, in their order.
+    as_arrays: lists are passed as NumPy arrays.
+    notation: of the names in messages.
+    """
+
+    function: str
+    arguments: tuple[tuple[str, Any], ...]
+    as_arrays: bool = False
+    notation: Notation = "code"
+
+
+@dataclass(frozen=True)
+class Failure:
+    """The reason for a missing answer, in one line with the remedy.
+
+    traceback: the student's own lines.
+    call: the number of the call in the run; None if no call caused it.
+    """
+
+    kind: Kind
+    text: str
+    traceback: tuple[str, ...] = ()
+    call: int | None = None
+
+
+@dataclass(frozen=True)
+class Run:
+    """The results of a run.
+
+    values: for each call, its JSON value or its Failure; shorter than the calls if the run ended
+    early.
+    output: the printed text, shortened in the middle.
+    failure: the reason why the run ended early, or None.
+    """
+
+    values: tuple[Any, ...]
+    output: str = ""
+    failure: Failure | None = None
+
 
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosis")

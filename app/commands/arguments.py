@@ -174,7 +174,7 @@ def check_is_scene(source: str) -> None:
     scene.
     """
     if source.lower().endswith((".json", ".jsonl")):
-        from lucida.app.checking.results.reading import is_results
+        from lucida.app.checking.results.model import is_results
 
         if is_results(source):
             remedy = f"lucida lecture --results {source} -o class.html"

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from lucida.app.checking.calls import Limits, Student
-    from lucida.app.checking.tasks import CheckTask
+    from lucida.app.checking.running.program import ProgramStudent
+    from lucida.app.checking.tasks import CheckTask, Limits
 
 WITH_CAMERAS = ("viewing-ray", "render")  # kinds of tasks with cameras
 
@@ -20,7 +20,7 @@ SIZE = (64, 48)  # of --view's image at most; its aspect ratio is the camera's o
 def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
     """Return the tasks and limits of a task file or a course; without one, the built-in tasks."""
     from lucida.app.checking.builtin import BUILTIN
-    from lucida.app.checking.calls import Limits
+    from lucida.app.checking.tasks import Limits
 
     if source is None:
         return list(BUILTIN), Limits()
@@ -117,7 +117,7 @@ def _small(own: tuple[int, int] | None) -> tuple[int, int]:
 
 
 def possible(
-    arguments: argparse.Namespace, student: Student, tasks: list[CheckTask]
+    arguments: argparse.Namespace, student: ProgramStudent, tasks: list[CheckTask]
 ) -> list[CheckTask]:
     """Return the tasks to try: all that a lecturer or the user has named; of the built-in ones,
     those whose functions exist.

@@ -19,13 +19,12 @@ from lucida.app.commands.given_camera import add_view_option
 from lucida.renderer.system.errors import LucidaError, not_together, one_line, visible
 
 if TYPE_CHECKING:
-    from lucida.app.checking.calls import Limits
     from lucida.app.checking.checked import TaskResult
-    from lucida.app.checking.reports.pictured import Pictured
+    from lucida.app.checking.reports.picture import Pictured
     from lucida.app.checking.running.account import Account
     from lucida.app.checking.running.command import CommandStudent
     from lucida.app.checking.running.file import FileStudent
-    from lucida.app.checking.tasks import CheckTask
+    from lucida.app.checking.tasks import CheckTask, Limits
 
 NAME = "check"
 
@@ -256,15 +255,15 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from lucida.app.checking.reports.terminal import is_colored, lines
+    from lucida.app.checking.reports.told import is_colored, terminal_lines
 
     if arguments.json == "-":
         return
-    print("\n".join(lines(result, is_colored(sys.stdout))), flush=True)
+    print("\n".join(terminal_lines(result, is_colored(sys.stdout))), flush=True)
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:
-    from lucida.app.checking.starter import starter
+    from lucida.app.checking.own_words import starter
     from lucida.renderer.system.atomic import atomic_write
 
     tasks, _ = all_tasks(arguments.tasks)

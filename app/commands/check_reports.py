@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
-    from lucida.app.checking.calls import Student
     from lucida.app.checking.checked import TaskResult
-    from lucida.app.checking.reports.pictured import Pictured
+    from lucida.app.checking.reports.picture import Pictured
+    from lucida.app.checking.running.program import ProgramStudent
     from lucida.app.checking.tasks import CheckTask
 
 
@@ -27,9 +27,9 @@ def write_json(
 ) -> None:
     if arguments.json is None:
         return
-    from lucida.app.checking.reports import gradescope
+    from lucida.app.checking.reports.told import gradescope
 
-    values = gradescope.results(results, tasks, seconds, problem)
+    values = gradescope(results, tasks, seconds, problem)
     text = json.dumps(values, indent=2, allow_nan=False) + "\n"
     if arguments.json == "-":
         sys.stdout.write(text)
@@ -47,8 +47,8 @@ def write_json(
             raise
 
 
-def pictures_of(student: Student, result: TaskResult) -> dict[str, Pictured]:
-    from lucida.app.checking.reports.pictured import pictured
+def pictures_of(student: ProgramStudent, result: TaskResult) -> dict[str, Pictured]:
+    from lucida.app.checking.reports.picture import pictured
 
     found = pictured(student, result)
     return {} if found is None else {result.task.name: found}

@@ -194,9 +194,8 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     """Write a page about a class's answers."""
-    from lucida.app.checking.results.model import class_results
+    from lucida.app.checking.results.model import class_results, read_answers
     from lucida.app.checking.results.page import page
-    from lucida.app.checking.results.reading import read_answers
     from lucida.renderer.system.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)

@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 def as_data(task: CheckTask) -> dict[str, Any]:
     """Return a task as JSON values."""
     from lucida.app.checking.kinds import KINDS
-    from lucida.app.checking.starter import returned, signature
+    from lucida.app.checking.own_words import returned, signature
 
     words, said = KINDS[task.kind].words, task.conventions.explained
     return {
@@ -78,7 +78,7 @@ def as_data(task: CheckTask) -> dict[str, Any]:
 
 def listed(tasks: list[CheckTask]) -> list[str]:
     """Return a line for each task, in columns."""
-    from lucida.app.checking.starter import returned, signature
+    from lucida.app.checking.own_words import returned, signature
 
     rows = [
         (task.name, f"{task.points:g}", f"{signature(task)} -> {returned(task)}") for task in tasks
@@ -89,7 +89,7 @@ def listed(tasks: list[CheckTask]) -> list[str]:
 
 def described(task: CheckTask) -> list[str]:
     """Return a task with its text and the meanings of its words."""
-    from lucida.app.checking.starter import arguments_text, returned, signature
+    from lucida.app.checking.own_words import arguments_text, returned, signature
 
     points = "point" if task.points == 1 else "points"
     return [

@@ -25,7 +25,6 @@ from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError, describe
 
-SNIFFED_BYTES = 1 << 20
 T = TypeVar("T")
 Use = Literal["open", "first", "newer", "add"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lucida.app.checking.calls import Call
+from lucida.app.checking.tasks import Call
 
 CAMERA = {
     "eye": [0.0, 0.0, 5.0],

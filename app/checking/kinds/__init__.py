@@ -1,7 +1,6 @@
 """The kinds of functions that a task can ask for, one per file.
 
-kind         the base class
-values       reading what a student's function returned, generously
+kind         the base class, and reading what a student's function returned, generously
 viewing_ray  the ray of a pixel
 basis        a camera's basis from a target
 hits         a sphere, a triangle, the nearest of several; their mathematics: shapes

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from lucida.app.checking.cases import generator, look
-from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, named
-from lucida.app.checking.kinds.values import vectors
+from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, named, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 
@@ -57,23 +57,7 @@ class BasisKind(CheckKind):
         return {name: (sign * answer[which]).tolist() for name, (which, sign) in PARTS.items()}
 
 
-BASIS = BasisKind(
-    name="basis",
-    function="basis",
-    words={
-        "eye": "the camera's position",
-        "target": "a point that is looked at",
-        "up": "a vector that is upwards in the image; not of length 1, nor at right angles to w",
-        "forward": "from the eye to the target, of length 1",
-    },
-    arguments=("eye", "target", "up"),
-    answer="u, v and w, three numbers each",
-    returns=("u", "v", "w"),
-    return_words={
-        "u": "right in the image", "v": "up", "w": "back, from the target to the eye",
-        "right": "u", "up": "v", "back": "w", "left": "-u", "down": "-v", "forward": "-w",
-    },
-)  # fmt: skip
+BASIS = BasisKind(**described("basis"))
 
 
 def conditioning(eye: Vector, target: Vector, up: Vector) -> float:

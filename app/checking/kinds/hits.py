@@ -15,16 +15,27 @@ rounding of float32.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.app.checking.cases import generator, point, rounded
-from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, Words, named
+from lucida.app.checking.kinds.kind import (
+    FLOAT32,
+    CheckKind,
+    Floats,
+    in_order,
+    is_miss,
+    named,
+    number,
+    text_of,
+)
 from lucida.app.checking.kinds.shapes import hits, tolerance
-from lucida.app.checking.kinds.values import in_order, is_miss, number, text_of
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
+from lucida.renderer.camera.checks import Vector
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
@@ -34,31 +45,28 @@ MISS = (-1.0, np.inf)
 Place = Literal["ahead", "beside", "behind", "around"]
 PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
 Values = dict[str, Any]
-Simple = tuple[tuple[list[float], list[float], list[Values]], ...]
-RAY_WORDS: Words = {
-    "origin": "where the ray starts",
-    "direction": "where it goes; of any length",
-    "ray": "an object with origin and direction",
-}
 
 
 @dataclass(frozen=True, kw_only=True)
 class HitKind(CheckKind):
     """A ray that meets one object, or several.
 
-    simple: the first cases: origin, direction, objects.
+    rays, objects: of the first cases, each with each. A ray is an origin and a direction.
     shape: the type of the one object; "" for several of both types.
     places: of the generated objects, in turn; see _sphere and _triangle.
     """
 
-    answer: str = "a number t, or None"
-    simple: Simple
+    rays: tuple[tuple[Vector, Vector], ...]
+    objects: tuple[list[Values], ...]
     shape: str = ""
     places: tuple[Place, ...] = PLACES
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
-        made = [({"origin": o, "direction": d}, objects) for o, d, objects in self.simple]
+        made = [
+            ({"origin": list(origin), "direction": list(direction)}, objects)
+            for (origin, direction), objects in product(self.rays, self.objects)
+        ]
         make = self._one_object if self.shape else _several_objects
         made += [make(random, number) for number in range(task.count)]
         return [self._case(task, *one) for one in made]
@@ -115,72 +123,45 @@ def _flat(z: float) -> Values:
     return {"type": "triangle", **corners}
 
 
-_AHEAD = [0.0, 0.0, -1.0]
+_AT_5, _AHEAD = (0.0, 0.0, 5.0), (0.0, 0.0, -1.0)
 SPHERE = HitKind(
-    name="hit-sphere",
-    function="hit_sphere",
-    words={
-        **RAY_WORDS,
-        "center": "the sphere's centre",
-        "radius": "its radius",
-        "sphere": "an object with center and radius",
-    },
-    arguments=("origin", "direction", "center", "radius"),
+    **described("hit-sphere"),
     shape="sphere",
     places=("ahead", "beside", "ahead", "behind", "around"),
-    simple=(
-        ([0.0, 0.0, 5.0], _AHEAD, [_at(0.0)]),
-        ([0.0, 0.0, 5.0], [0.0, 0.0, -2.0], [_at(0.0)]),
-        ([0.0, 0.0, 5.0], [0.0, 0.0, 1.0], [_at(0.0)]),
-        ([0.0, 0.0, 5.0], [0.0, 1.0, 0.0], [_at(0.0)]),
-        ([0.0, 0.0, 0.0], [0.0, 0.5, 0.0], [_at(0.0)]),
+    rays=(
+        (_AT_5, _AHEAD),
+        (_AT_5, (0.0, 0.0, -2.0)),
+        (_AT_5, (0.0, 0.0, 1.0)),
+        (_AT_5, (0.0, 1.0, 0.0)),
+        ((0.0, 0.0, 0.0), (0.0, 0.5, 0.0)),
     ),
+    objects=([_at(0.0)],),
 )
 TRIANGLE = HitKind(
-    name="hit-triangle",
-    function="hit_triangle",
-    words={
-        **RAY_WORDS,
-        "a": "a corner",
-        "b": "the next one",
-        "c": "the last one",
-        "triangle": "an object with a, b and c",
-    },
-    arguments=("origin", "direction", "a", "b", "c"),
+    **described("hit-triangle"),
     shape="triangle",
     places=("ahead", "beside", "ahead", "beside", "beside", "behind"),
-    simple=(
-        ([0.0, 0.0, 4.0], _AHEAD, [_flat(0.0)]),
-        ([0.0, 0.0, 4.0], [0.0, 0.0, -2.0], [_flat(0.0)]),
-        ([0.0, 0.0, -4.0], [0.0, 0.0, 1.0], [_flat(0.0)]),
-        ([0.0, 0.0, 4.0], [0.0, 0.0, 1.0], [_flat(0.0)]),
-        ([1.5, 1.5, 4.0], _AHEAD, [_flat(0.0)]),
-        ([0.0, 0.0, 4.0], [0.0, 1.0, 0.0], [_flat(0.0)]),
+    rays=(
+        (_AT_5, _AHEAD),
+        (_AT_5, (0.0, 0.0, -2.0)),
+        ((0.0, 0.0, -4.0), (0.0, 0.0, 1.0)),
+        (_AT_5, (0.0, 0.0, 1.0)),
+        ((1.5, 1.5, 4.0), _AHEAD),
+        (_AT_5, (0.0, 1.0, 0.0)),
     ),
+    objects=([_flat(0.0)],),
 )
 CLOSEST = HitKind(
-    name="closest-hit",
-    function="closest_hit",
-    words={
-        **RAY_WORDS,
-        "objects": "a list of objects: type ('sphere' or 'triangle') with center and radius, or a, "
-        "b and c",
-    },
-    arguments=("origin", "direction", "objects"),
-    answer="the object's number and t, or None",
-    returns=("object", "t"),
-    return_words={"object": "its number", "t": "the ray parameter"},
-    simple=tuple(
-        ([0.0, 0.0, 5.0], _AHEAD, objects)
-        for objects in (
-            [_at(0.0)],
-            [_at(0.0), _at(-4.0)],
-            [_at(-4.0), _at(0.0)],
-            [_at(0.0), _flat(2.0), _at(-4.0)],
-            [_at(9.0), _at(-4.0), _at(0.0)],
-            [_at(0.0, 5.0), _at(9.0)],
-            [],
-        )
+    **described("closest-hit"),
+    rays=((_AT_5, _AHEAD),),
+    objects=(
+        [_at(0.0)],
+        [_at(0.0), _at(-4.0)],
+        [_at(-4.0), _at(0.0)],
+        [_at(0.0), _flat(2.0), _at(-4.0)],
+        [_at(9.0), _at(-4.0), _at(0.0)],
+        [_at(0.0, 5.0), _at(9.0)],
+        [],
     ),
 )
 

@@ -14,25 +14,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lucida.app.checking.calls import Call
 from lucida.app.checking.cases import generator
 from lucida.app.checking.kinds.kind import (
     Cases,
     CheckKind,
     Flags,
     Floats,
-    Words,
+    array,
     named,
+    number,
+    text_of,
     wrong_numbers,
 )
-from lucida.app.checking.kinds.values import array, number, text_of
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.tasks import Call, CheckCase, CheckTask
+from lucida.app.checking.words import described
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
 
 HALF_A_BYTE = 0.5 / 255
-SIZE_WORDS: Words = {"width": "the number of columns", "height": "the number of rows"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,23 +128,11 @@ def _image(random: Random, more: tuple[int, ...] = ()) -> Floats:
 
 
 GRAY = ImageKind(
-    name="to-gray",
-    function="to_gray",
-    words={"rgb": "height x width x 3 numbers from 0 to 1", **SIZE_WORDS},
-    arguments=("rgb",),
-    answer="height x width numbers",
+    **described("to-gray"),
     make=_gray_cases,
 )
 BITMAP = ImageKind(
-    name="to-bitmap",
-    function="to_bitmap",
-    words={
-        "gray": "height x width numbers",
-        "threshold": "the number that decides",
-        **SIZE_WORDS,
-    },
-    arguments=("gray", "threshold"),
-    answer="height x width of 0 and 1",
+    **described("to-bitmap"),
     make=_bitmap_cases,
 )
 
@@ -173,12 +161,4 @@ class OffsetKind(CheckKind):
         return f"{float(answer):.15g}"
 
 
-OFFSET = OffsetKind(
-    name="memory-offset",
-    function="memory_offset",
-    words={
-        "i": "the row", "j": "the column", "row": "the row", "column": "the column", **SIZE_WORDS,
-    },
-    arguments=("i", "j", "width"),
-    answer="a whole number",
-)  # fmt: skip
+OFFSET = OffsetKind(**described("memory-offset"))

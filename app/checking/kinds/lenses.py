@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lucida.app.checking.cases import generator, rounded
-from lucida.app.checking.kinds.kind import CheckKind, named
-from lucida.app.checking.kinds.values import in_order, number
+from lucida.app.checking.kinds.kind import CheckKind, in_order, named, number
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
 from lucida.renderer.camera.lenses import Lens
 
 if TYPE_CHECKING:
@@ -28,39 +28,6 @@ Values = dict[str, Any]
 PIXELS = 1e-3  # tolerance
 INTRINSICS = ("fx", "fy", "cx", "cy")
 BROWN_SPREAD = {"k1": 0.25, "k2": 0.06, "p1": 0.02, "p2": 0.02, "k3": 0.02}
-CAMERA_WORDS = {
-    "fx": "the focal length in pixels, across",
-    "fy": "the same, down",
-    "cx": "the principal point's column, in pixels",
-    "cy": "its row",
-    "K": "the matrix of fx, fy, cx and cy, 3 x 3",
-    "distortion": "all coefficients in a list, in OpenCV's order",
-}
-POINT_WORDS = {
-    "point": "a point in the camera's coordinates: X to the right, Y down, Z forwards",
-    "X": "its first coordinate, to the right",
-    "Y": "the second, down",
-    "Z": "the third, forwards",
-    **CAMERA_WORDS,
-}
-PIXEL_WORDS = {
-    "column": "where the point is seen, in pixels to the right",
-    "row": "in pixels down",
-}
-# Coefficients in OpenCV's order.
-BROWN_WORDS = {
-    "k1": "the first radial coefficient, of r^2",
-    "k2": "the second, of r^4",
-    "p1": "the first tangential coefficient",
-    "p2": "the second",
-    "k3": "the third radial one, of r^6",
-}
-FISHEYE_WORDS = {
-    "k1": "the first coefficient, of theta^2",
-    "k2": "the second, of theta^4",
-    "k3": "the third, of theta^6",
-    "k4": "the fourth, of theta^8",
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,33 +100,13 @@ class LensKind(CheckKind):
         return found if len(found) == len(parts) else None
 
 
-PROJECT = LensKind(
-    name="project",
-    function="project",
-    words={**POINT_WORDS, **BROWN_WORDS},
-    arguments=("point", *INTRINSICS, *BROWN_WORDS),
-    answer="column and row, two numbers",
-    returns=("column", "row"),
-    return_words=PIXEL_WORDS,
-)
+PROJECT = LensKind(**described("project"))
 FISHEYE = LensKind(
-    name="project-fisheye",
-    function="project_fisheye",
-    words={**POINT_WORDS, **FISHEYE_WORDS},
-    arguments=("point", *INTRINSICS, *FISHEYE_WORDS),
-    answer=PROJECT.answer,
-    returns=PROJECT.returns,
-    return_words=PIXEL_WORDS,
+    **described("project-fisheye"),
     model="fisheye",
     spread={"k1": 0.05, "k2": 0.01, "k3": 0.002, "k4": 0.0004},
 )
 UNDISTORT = LensKind(
-    name="undistort",
-    function="undistort",
-    words={**PIXEL_WORDS, **CAMERA_WORDS, **BROWN_WORDS},
-    arguments=("column", "row", *INTRINSICS, *BROWN_WORDS),
-    answer="a and b, two numbers",
-    returns=("a", "b"),
-    return_words={"a": "X / Z of the point", "b": "Y / Z"},
+    **described("undistort"),
     is_inverse=True,
 )

@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.cases import generator, rounded, shots
-from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, Shot, camera_values
+from lucida.app.checking.conventions import Shot, camera_values
 from lucida.app.checking.kinds.images import HALF_A_BYTE, ImageKind
 from lucida.app.checking.kinds.kind import Flags, named
 from lucida.app.checking.kinds.shapes import hits
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
@@ -57,17 +58,7 @@ def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
 
 
 RENDER = ImageKind(
-    name="render",
-    function="render",
-    words={
-        "scene": "an object with objects (type, its numbers, and color) and background (a colour)",
-        "objects": "the scene's objects alone",
-        "background": "its background alone",
-        CAMERA: "an object with these fields",
-        **CAMERA_WORDS,
-    },
-    arguments=("scene", "camera", "width", "height"),
-    answer="height x width x 3 numbers from 0 to 1",
+    **described("render"),
     make=_cases,
     takes_arrays=False,
 )

@@ -20,18 +20,14 @@ import numpy as np
 
 from lucida.app.checking.cases import shots
 from lucida.app.checking.conventions import (
-    CAMERA,
-    CAMERA_WORDS,
-    PAIRS,
-    PIXEL_WORDS,
     Conventions,
     Shot,
     argument_lists,
 )
 from lucida.app.checking.kinds.basis import conditioning
-from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats
-from lucida.app.checking.kinds.values import vectors
+from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
 from lucida.renderer.camera.camera import Camera
 
 
@@ -74,23 +70,7 @@ class ViewingRayKind(CheckKind):
         return where, *super().first_wrong(task, case, answer)[1:]
 
 
-VIEWING_RAY = ViewingRayKind(
-    name="viewing-ray",
-    function="viewing_ray",
-    words={
-        **PIXEL_WORDS,
-        **{
-            name: f"two numbers: {PIXEL_WORDS[a]}; {PIXEL_WORDS[b]}"
-            for name, (a, b) in PAIRS.items()
-        },
-        **CAMERA_WORDS,
-        CAMERA: "an object with these fields",
-    },
-    arguments=("i", "j", "width", "height", "camera"),
-    answer="origin and direction, three numbers each",
-    returns=("origin", "direction"),
-    return_words={"origin": "where the ray starts", "direction": "where it goes"},
-)
+VIEWING_RAY = ViewingRayKind(**described("viewing-ray"))
 
 
 def cases_of(task: CheckTask, shot: Shot) -> list[CheckCase]:
@@ -156,10 +136,10 @@ def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance:
     (N, 2).
     """
     with np.errstate(all="ignore"):
-        lengths = _norms(given[:, 1])
-        directions = _unit(given[:, 1])
-        wanted = _unit(right[:, 1])
-        turned = _norms(np.cross(directions, wanted))
+        lengths = np.linalg.norm(given[:, 1], axis=1)
+        directions = given[:, 1] / lengths[:, None]
+        wanted = right[:, 1] / np.linalg.norm(right[:, 1], axis=1, keepdims=True)
+        turned = np.linalg.norm(np.cross(directions, wanted), axis=1)
         ahead = np.sum(directions * wanted, axis=1) > 0
         fine = ahead & (turned <= tolerance[:, 1])
         apart = given[:, 0] - right[:, 0]
@@ -167,22 +147,11 @@ def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance:
         if conventions.any_origin:
             along = np.sum(apart * wanted, axis=1)
             apart = apart - along[:, None] * wanted
-        fine &= _norms(apart) <= tolerance[:, 0] + along * tolerance[:, 1]
+        fine &= np.linalg.norm(apart, axis=1) <= tolerance[:, 0] + along * tolerance[:, 1]
         fine &= along >= -tolerance[:, 0]
         if conventions.unit:
             fine &= np.abs(lengths - 1) <= FLOAT32
     return fine
-
-
-def _norms(vectors: Floats) -> Floats:
-    """Return lengths without overflow: a direction may be of any length."""
-    largest = np.max(np.abs(vectors), axis=1)
-    return largest * np.linalg.norm(vectors / np.where(largest > 0, largest, 1)[:, None], axis=1)
-
-
-def _unit(vectors: Floats) -> Floats:
-    scaled = vectors / np.max(np.abs(vectors), axis=1, keepdims=True)
-    return scaled / np.linalg.norm(scaled, axis=1, keepdims=True)
 
 
 def _frame(conventions: Conventions, case: CheckCase) -> tuple[Floats, Floats]:

@@ -1,11 +1,10 @@
 """The classic wrong lines, as code that runs, and what a student's numbers reveal about them.
 
-catalogue      the lines and their mistakes, from the tables in catalogue/
-program        lines of Python, some of them wrong, which are both run and shown
-vectors, hits  the functions that these lines may use
-rays           the program for the viewing ray in a task's words
-programs       the program for any task, and the values that its lines use
-trials         the distances between a program's answers and the given ones
-candidates     the mistakes, one or two at once, that reproduce the given numbers
-diagnosis      the explanation of wrong answers, in sentences
+catalogue  the lines and their mistakes, from the tables in catalogue/
+program    lines of Python, some of them wrong, which are both run and shown
+vectors    the functions that these lines may use
+rays       the program for the viewing ray in a task's words
+programs   the program for any task, and the values that its lines use
+trials     the mistakes, one or two at once, that reproduce the given numbers
+diagnosis  the explanation of wrong answers, in sentences
 """

@@ -57,50 +57,45 @@ def _catalogue() -> dict[str, _Table]:
     return tables
 
 
-def part(name: str, values: Values | None = None, facts: Set[str] = frozenset()) -> Part:
+def part(
+    name: str,
+    values: Values | None = None,
+    facts: Set[str] = frozenset(),
+    angles: Values | None = None,
+) -> Part:
     """Return the lines of a part, and their mistakes.
 
     values: for the names in braces.
     facts: those that hold for the task, as in _Row.when.
+    angles: the task's word for the angle of each edge of the viewport, by the edge's name in the
+    part. The mistakes in the use of angles come first.
     """
-    values = values or {}
-    table = _catalogue()[name]
+    values, table, angle = values or {}, _catalogue()[name], _catalogue()["angle"]
+    rows = [(table.title, row) for row in table.mistakes]
+    if angles:
+        values = {**values, **_edges(angle.lines["edge"], angles)}
+        rows[:0] = [
+            (angle.title, msgspec.structs.replace(row, wrong=_edges(row.wrong["edge"], angles)))
+            for row in angle.mistakes
+        ]
     lines = _filled(table.lines, values)
     made: list[Mistake] = []
-    for row in table.mistakes:
+    for title, row in rows:
         if all(
             (fact.removeprefix("not ") in facts) != fact.startswith("not ") for fact in row.when
         ):
             wrong = _filled(row.wrong, values)
             written = _filled(table.lines, {**values, **wrong})
             written |= {key: wrong[key] for key in lines.keys() & wrong.keys()}
-            made += _mistakes(row, table.title, values, _changed(lines, written))
+            made += _mistakes(row, title, values, _changed(lines, written))
     return [CodeLine(*line) for line in lines.items()], made
 
 
-def part_from_angles(name: str, words: Values, values: Values) -> Part:
-    """Return a part whose edges follow from angles, with the mistakes in their use first.
-
-    words: the task's word for the angle of each edge, by the edge's name in the part.
-    """
-
-    def edges(code: str) -> dict[str, str]:
-        return {
-            edge: code.format(
-                word=word, angle=word if word.endswith("_rad") else f"radians({word})"
-            )
-            for edge, word in words.items()
-        }
-
-    angle = _catalogue()["angle"]
-    right = {**values, **edges(angle.lines["edge"])}
-    lines = _filled(_catalogue()[name].lines, right)
-    made = []
-    for row in angle.mistakes:
-        written = _filled(_catalogue()[name].lines, {**values, **edges(row.wrong["edge"])})
-        made += _mistakes(row, angle.title, values, _changed(lines, written))
-    shown, others = part(name, right)
-    return shown, made + others
+def _edges(code: str, angles: Values) -> dict[str, str]:
+    return {
+        edge: code.format(word=word, angle=word if word.endswith("_rad") else f"radians({word})")
+        for edge, word in angles.items()
+    }
 
 
 def _filled(texts: Values, values: Values) -> dict[str, str]:

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from lucida.app.checking.cases import is_orthonormal, is_symmetric
 from lucida.app.checking.kinds.kind import Flags
 from lucida.app.checking.kinds.viewing_ray import are_right
-from lucida.app.checking.mistakes.candidates import candidates
 from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import program_of
-from lucida.app.checking.mistakes.trials import trial_of
+from lucida.app.checking.mistakes.trials import candidates, trial_of
 from lucida.app.checking.own_words import AS_IF, in_the_tasks_words
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.renderer.camera.camera import Camera
@@ -55,7 +54,7 @@ def diagnosis(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagno
 
 
 def _of_all(task: CheckTask, cases: Cases, given: Any) -> str:
-    """Return a sentence that describes all answers; empty if there is none."""
+    """Return a sentence that describes all answers; empty if no sentence does."""
     if task.kind == "viewing-ray":
         of_any_length = replace(task.conventions, unit=False)
         right = np.array([case.right for case in cases], float)

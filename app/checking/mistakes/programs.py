@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from lucida.app.checking.mistakes.catalogue import part
-from lucida.app.checking.mistakes.hits import SHAPES
 from lucida.app.checking.mistakes.program import Program
 from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_task, ray_values
+from lucida.app.checking.mistakes.vectors import SHAPES
 from lucida.app.checking.tasks import WITH_CAMERAS, CheckCase, CheckTask
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.checking.conventions import PAIRS, camera_words, pixel_words
-from lucida.app.checking.mistakes.catalogue import Part, part, part_from_angles
+from lucida.app.checking.mistakes.catalogue import Part, part
 from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.tasks import CheckTask
 from lucida.renderer.camera.camera import Camera
@@ -44,7 +44,14 @@ UNITS = {
     "01": ("x01", "y01"),
     "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
 }
-LIMITS = {"long": "minimum", "short": "maximum"}
+SIDES = ("long", "short")
+# The values of the parts that use an angle of view, by the angle's side or axis.
+ANGLES: dict[str, dict[str, str]] = {
+    "long": {"side": "long", "other_side": "short", "limit": "minimum", "other_limit": "maximum"},
+    "short": {"side": "short", "other_side": "long", "limit": "maximum", "other_limit": "minimum"},
+    "y": {"axis": "vertical", "first": "top", "second": "right", "times": "*", "over": "/"},
+    "x": {"axis": "horizontal", "first": "right", "second": "top", "times": "/", "over": "*"},
+}
 
 # The translation of a task's words into those of the lines.
 LETTERS = {"row": "i", "column": "j"}
@@ -208,26 +215,23 @@ def _viewport_part(words: frozenset[str]) -> list[Part]:
         "ratio": aspect,
         "aspect": f"({aspect})" if " " in aspect else aspect,
     }
-    for unit in ("", "_rad"):
-        edges = {f"edge_{axis}": f"fov_{axis}{unit}" for axis in "xy"}
-        if words.issuperset(edges.values()):
-            return [part_from_angles("two_angles", edges, values)]
-        for side, other in (("long", "short"), ("short", "long")):
-            if (word := f"fov_{side}{unit}") in words:
-                values |= {"side": side, "other_side": other}
-                values |= {"limit": LIMITS[side], "other_limit": LIMITS[other]}
-                return [part_from_angles("side", {"edge": word}, values)]
-    if words.issuperset(SIZES):
+    given = {
+        axis: word
+        for axis in ANGLES
+        for word in (f"fov_{axis}", f"fov_{axis}_rad")
+        if word in words
+    }
+    if {"x", "y"} <= given.keys():
+        edges = {f"edge_{axis}": given[axis] for axis in "xy"}
+        return [part("two_angles", values, angles=edges)]
+    axis = next(iter(given), "")
+    if words.issuperset(SIZES) and axis not in SIDES:
         return [part("sizes")]
-    for word, unit in ((f"fov_{axis}{unit}", unit) for unit in ("", "_rad") for axis in "yx"):
-        if word in words:
-            values |= {"angle": word if unit else f"radians({word})", "axis": "vertical"}
-            values |= {"first": "top", "second": "right", "times": "*", "over": "/"}
-            if word.startswith("fov_x"):
-                values |= {"first": "right", "second": "top", "times": "/", "over": "*"}
-                values["axis"] = "horizontal"
-            return [part_from_angles("fov", {"edge": word}, values)]
-    return []
+    if not axis:
+        return []
+    word = given[axis]
+    values |= ANGLES[axis] | {"angle": word if word.endswith("_rad") else f"radians({word})"}
+    return [part("side" if axis in SIDES else "fov", values, angles={"edge": word})]
 
 
 def ray_values(

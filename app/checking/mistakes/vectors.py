@@ -1,14 +1,19 @@
 """The functions that the programs' lines may use, for one ray and for many at once.
 
+The last of them select a ray's hit among its crossings with an object, correctly and incorrectly.
+
 A number is an array (..., 1), a vector (..., 3), so that `x*u` is written as in a formula.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from lucida.app.checking.kinds.shapes import crossings, hits
 
 Floats = NDArray[np.float64]
 
@@ -86,3 +91,23 @@ FUNCTIONS: dict[str, Any] = {
     "minimum": np.minimum, "maximum": np.maximum,
     "inf": np.inf,
 }  # fmt: skip
+
+
+def hit(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
+    """Return the smallest t > 0."""
+    return hits(origin, direction, shape)[0]
+
+
+def first_crossing(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
+    """Return the smallest t of any sign."""
+    found = np.fmin.reduce(crossings(origin, direction, shape)[0])
+    return np.where(np.isnan(found), np.inf, found)
+
+
+def last_crossing(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:
+    """Return the largest t > 0."""
+    last = np.fmax.reduce(crossings(origin, direction, shape)[0])
+    return np.where(last > 0, last, np.inf)
+
+
+SHAPES = {"hit": hit, "first_crossing": first_crossing, "last_crossing": last_crossing}

@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.checked import TaskResult
-from lucida.app.checking.reports.picture import changed_pixels, difference_picture
-from lucida.app.checking.reports.pictured import Pictured
-from lucida.app.checking.reports.told import VERDICTS, Reported, of_points, reported, summary
-from lucida.app.checking.starter import signature
+from lucida.app.checking.own_words import signature
+from lucida.app.checking.reports.picture import Pictured, changed_pixels, difference_picture
+from lucida.app.checking.reports.told import VERDICTS, Told, of_points, reported, summary
 from lucida.app.checking.tasks import CheckTask
 from lucida.renderer.images.png import png_of
 from lucida.renderer.system.errors import visible
@@ -88,29 +87,29 @@ def page(
     )
 
 
-def _section(one: Reported, pictures: Pictured | None) -> str:
-    task, say = one.task, one.say
-    verdict = say.verdict or "tried"
+def _section(one: Told, pictures: Pictured | None) -> str:
+    task = one.task
+    verdict = one.verdict or "tried"
     shown = VERDICTS.get(verdict, verdict)
-    points = "" if say.verdict is None else of_points(one.points, task.points)
+    points = "" if one.verdict is None else of_points(one.points, task.points)
     parts = [
         f'<h2><span>{_text(task.name)}</span> <span class="verdict">{shown}</span>'
         f' <span class="points">{points}</span></h2>\n'
         f'<p class="dim"><code>{_text(signature(task))}</code></p>\n'
     ]
-    if say.failure:
-        reason, *lines = say.failure
+    if one.failure:
+        reason, *lines = one.failure
         parts.append(f"<p>{_text(reason)}</p>\n")
         parts.append(_pre("", lines))
-    if say.diagnosis:
-        items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in say.diagnosis)
+    if one.diagnosis:
+        items = "".join(f"<li>{_coded(sentence)}</li>" for sentence in one.diagnosis)
         parts.append(f'<ul class="told">{items}</ul>\n')
-    if say.first is not None:
-        parts.append(_pre(f"{say.wrong}; the first one:", say.first_lines))
+    if one.first is not None:
+        parts.append(_pre(f"{one.wrong}; the first one:", one.first_lines))
         if pictures is not None:
             parts.append(_pictures(pictures))
-    if say.output:
-        parts.append(_pre("Printed", [say.output], "printed"))
+    if one.output:
+        parts.append(_pre("Printed", [one.output], "printed"))
     return f'<section class="{verdict}">\n{"".join(parts)}</section>\n'
 
 

@@ -1,22 +1,27 @@
-"""The part of a result that the task's feedback allows to report; shared by all reports."""
+"""The part of a result that the task's feedback allows to report: as lines on the terminal, and for
+Gradescope's autograder.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any, TextIO
 
-from lucida.app.checking.calls import Failure
 from lucida.app.checking.checked import Status, TaskResult, WrongCase
-from lucida.app.checking.tasks import FEEDBACK, CheckTask
-from lucida.app.ui.explaining.symbols import arguments
+from lucida.app.checking.own_words import signature
+from lucida.app.checking.tasks import FEEDBACK, CheckTask, Failure
 from lucida.renderer.system.errors import one_line, visible
 
 if TYPE_CHECKING:
     from lucida.app.checking.mistakes.diagnosis import Diagnosis
 
-
 VERDICTS = {"right": "correct"}  # a status in words, where it is not its own
+MOST = 8  # printed lines to show on the terminal
+COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
+OUTPUT_LETTERS = 4000  # characters of the student's output for Gradescope
 
 
 @dataclass(frozen=True)
@@ -24,6 +29,7 @@ class Told:
     """The reported part of a result.
 
     verdict: None if it is withheld.
+    is_right: also if the verdict is withheld.
     diagnosis: sentences.
     wrong: the number of wrong cases, in words.
     first: the first wrong case.
@@ -32,11 +38,13 @@ class Told:
     mistakes: those of the diagnosis, as class_results reads them.
     """
 
+    task: CheckTask
     verdict: Status | None
+    points: float = 0.0
+    is_right: bool = False
     diagnosis: tuple[str, ...] = ()
     wrong: str = ""
     first: WrongCase | None = None
-    function: str = ""
     failure: tuple[str, ...] = ()
     output: str = ""
     mistakes: tuple[dict[str, str], ...] = ()
@@ -53,7 +61,7 @@ class Told:
     def first_lines(self) -> tuple[str, ...]:
         """The first wrong case."""
         assert self.first is not None
-        called = f"{self.function}({self.first.arguments})"
+        called = f"{self.task.function}({self.first.arguments})"
         answers = f"correct: {self.first.right}", f"given: {self.first.given}"
         return (*[self.first.where] * bool(self.first.where), called, *answers)
 
@@ -64,26 +72,31 @@ def told(result: TaskResult) -> Told:
     The reason for a failure, with the call that led to it, is always included: without it, nobody
     could correct the code.
     """
-    feedback = FEEDBACK.index(result.task.feedback)
+    task = result.task
+    feedback = FEEDBACK.index(task.feedback)
     output = visible(result.output.replace("\r\n", "\n")).rstrip()
-    if result.status == "failed":
-        assert result.failure is not None
+    if result.failure is not None:
         why = one_line(result.failure.text)
-        return Told("failed", failure=(why, *failure_lines(result.failure)), output=output)
+        return Told(task, "failed", failure=(why, *failure_lines(result.failure)), output=output)
+    is_right = result.status == "right"
     if feedback == 0:
-        return Told(None)
-    if result.status == "right" or feedback == 1:
-        return Told(result.status, output=output)
+        return Told(task, None, result.points, is_right)
+    if is_right or feedback == 1:
+        return Told(task, result.status, result.points, is_right, output=output)
     diagnosis = result.diagnosis if feedback == 3 else None
     return Told(
+        task,
         "wrong",
-        diagnosis.sentences if diagnosis else (),
-        f"{result.wrong} of {result.cases} cases {'is' if result.wrong == 1 else 'are'} wrong",
-        _shown(result),
-        result.task.function,
+        diagnosis=diagnosis.sentences if diagnosis else (),
+        wrong=f"{result.wrong} of {result.cases} cases {_are(result.wrong)} wrong",
+        first=result.first,
         output=output,
         mistakes=_mistakes(diagnosis) if diagnosis else (),
     )
+
+
+def _are(count: int) -> str:
+    return "is" if count == 1 else "are"
 
 
 def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
@@ -96,26 +109,7 @@ def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
     )
 
 
-def _shown(result: TaskResult) -> WrongCase | None:
-    first = result.first
-    if first is None:
-        return None
-    return replace(first, arguments=arguments(first.arguments, result.task.notation))
-
-
-@dataclass(frozen=True)
-class Reported:
-    """A task in a report. is_right: also if the verdict is withheld."""
-
-    task: CheckTask
-    say: Told
-    points: float = 0.0
-    is_right: bool = False
-
-
-def reported(
-    tried: Sequence[TaskResult], tasks: Sequence[CheckTask], problem: str
-) -> list[Reported]:
+def reported(tried: Sequence[TaskResult], tasks: Sequence[CheckTask], problem: str) -> list[Told]:
     """Return all tasks for a report. Those without a result failed.
 
     tried: the results that exist.
@@ -123,11 +117,9 @@ def reported(
     problem: the reason if nothing could be run at all.
     """
     names = {result.task.name for result in tried}
-    untried = Told("failed", failure=(problem or "was not tried",))
-    return [
-        *(Reported(one.task, told(one), one.points, one.status == "right") for one in tried),
-        *(Reported(task, untried) for task in tasks if task.name not in names),
-    ]
+    why = (problem or "was not tried",)
+    untried = [Told(task, "failed", failure=why) for task in tasks if task.name not in names]
+    return [*map(told, tried), *untried]
 
 
 def summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
@@ -149,3 +141,73 @@ def failure_lines(failure: Failure) -> list[str]:
     if lines and lines[-1] in failure.text:
         del lines[-1]
     return lines if len(lines) > 1 else []
+
+
+def is_colored(stream: TextIO) -> bool:
+    """Return True if a stream is a terminal and may be coloured: https://no-color.org."""
+    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
+def terminal_lines(result: TaskResult, colored: bool = False) -> list[str]:
+    """Return a task's verdict in a line for the terminal, and help if it is not correct."""
+    say = told(result)
+
+    def painted(text: str, color: str) -> str:
+        return f"\x1b[{COLORS[color]}m{text}\x1b[0m" if colored else text
+
+    name = one_line(result.task.name)
+    if say.verdict is None:
+        return [f"{painted('tried  ', 'dim')} {name}"]
+    points = painted(f"  {of_points(result.points, result.task.points)}", "dim")
+    head = f"{painted(f'{VERDICTS.get(say.verdict, say.verdict):7}', say.verdict)} {name}{points}"
+    printed = say.output.split("\n") if say.output else []
+    if len(printed) > MOST:
+        printed[MOST:] = [f"... and {len(printed) - MOST} lines more"]
+    if printed:
+        printed = ["printed:", *(f"  {line}" for line in printed)]
+    lines = [*map(visible, say.lines), *(painted(line, "dim") for line in printed)]
+    return [head, *(f"        {line}" for line in lines)]
+
+
+def gradescope(
+    tried: Sequence[TaskResult],
+    tasks: Sequence[CheckTask],
+    seconds: float,
+    problem: str = "",
+) -> dict[str, Any]:
+    """Return Gradescope's results.json as JSON values. Each task is a test.
+
+    https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
+
+    A test omits what the task's feedback withholds. It is hidden if nothing may be shown.
+
+    tried, tasks, problem: as in reported.
+    """
+    every = enumerate(reported(tried, tasks, problem), 1)
+    return {
+        "score": round(sum(result.points for result in tried), 6),
+        "execution_time": round(seconds, 3),
+        "output": problem or summary(tried, tasks),
+        "output_format": "text",
+        "test_output_format": "text",
+        "test_name_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "extra_data": {"lucida": "check", "time": datetime.now(UTC).isoformat(timespec="seconds")},
+        "tests": [{**_test(one), "number": str(number)} for number, one in every],
+    }
+
+
+def _test(one: Told) -> dict[str, Any]:
+    lines = list(one.lines)
+    if one.output:
+        lines += [""] * bool(lines) + ["Printed:", one.output[:OUTPUT_LETTERS]]
+    test = {
+        "name": f"{one.task.name}: {signature(one.task)}",
+        "max_score": one.task.points,
+        "score": one.points,
+        "status": "passed" if one.is_right else "failed",
+        "output": "\n".join(lines) or ("Correct." if one.verdict == "right" else ""),
+        "visibility": "hidden" if one.verdict is None else "visible",
+    }
+    return {**test, "extra_data": {"mistakes": one.mistakes}} if one.mistakes else test

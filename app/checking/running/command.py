@@ -11,10 +11,16 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from lucida.app.checking.calls import Call, Failure, Limits, Run
 from lucida.app.checking.running.account import Account
-from lucida.app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
-from lucida.app.checking.running.told import told_call, told_over, whole_number
+from lucida.app.checking.running.program import (
+    ProgramOverError,
+    ProgramStudent,
+    StudentProgram,
+    told_call,
+    told_over,
+    whole_number,
+)
+from lucida.app.checking.tasks import Call, Failure, Limits, Run
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 

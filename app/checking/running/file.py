@@ -10,10 +10,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
-from lucida.app.checking.calls import Call, Failure, Limits, Run
 from lucida.app.checking.running.account import Account
-from lucida.app.checking.running.program import ProgramOverError, ProgramStudent, StudentProgram
-from lucida.app.checking.running.told import told_call, told_over, whole_number
+from lucida.app.checking.running.program import (
+    ProgramOverError,
+    ProgramStudent,
+    StudentProgram,
+    told_call,
+    told_over,
+    whole_number,
+)
+from lucida.app.checking.tasks import Call, Failure, Limits, Run
 from lucida.renderer.files.reading import read_file
 from lucida.renderer.system.child import interpreter
 from lucida.renderer.system.errors import LucidaError, one_line, shortened

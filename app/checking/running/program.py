@@ -16,9 +16,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from lucida.app.checking.calls import Limits
+from lucida.app.checking.kinds.kind import text_of
 from lucida.app.checking.running.account import Account
-from lucida.renderer.system.errors import LucidaError
+from lucida.app.checking.tasks import Call, Kind, Limits, Run
+from lucida.app.ui.explaining.symbols import arguments
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too
@@ -202,17 +204,32 @@ class ProgramStudent:
         self._change = threading.Lock()
         self._program: StudentProgram | None = None
 
+    def functions(self) -> frozenset[str] | None:
+        """Return the names of its functions; None if they cannot be known. Raises LucidaError if it
+        cannot be run at all.
+        """
+        raise NotImplementedError
+
+    def call(self, calls: Sequence[Call]) -> Run:
+        """Run all calls in order, and block until they are done. May be called again; the time
+        limit applies to each run.
+        """
+        raise NotImplementedError
+
     def stop(self) -> None:
+        """Stop the current run, from any thread: `call` returns soon, with a failure."""
         with self._change:
             program = self._program
         if program:
             program.stop()
 
     def restart(self) -> None:
+        """Make the next run begin in a new process, which remembers no call."""
         with self._turn:
             self._end()
 
     def close(self) -> None:
+        """End its process, and everything that it started."""
         self._closed = True
         self.stop()
         with self._turn:
@@ -249,3 +266,41 @@ def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Seque
         orders.append(f"ulimit -u {_MOST_PROCESSES} || ulimit -p {_MOST_PROCESSES}")  # bash, dash
     script = "".join(f"{{ {order}; }} 2>/dev/null; " for order in orders)
     return ["/bin/sh", "-c", f'{script}exec "$@"', "sh", *command]
+
+
+_LONGEST_VALUE = 80
+
+
+def told_call(call: Call) -> str:
+    """Return the call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
+    given = (
+        f"{name}={shortened(arguments(text_of(value), call.notation), _LONGEST_VALUE)}"
+        for name, value in ((arguments(n, call.notation), v) for n, v in call.arguments)
+    )
+    return one_line(f"{call.function}({', '.join(given)})")
+
+
+def told_over(over: ProgramOverError, limits: Limits, it: str) -> tuple[Kind, str]:
+    """Return the kind of failure, and what ended a program. it: "it" or "its process"."""
+    if over.why == "time":
+        return "time", f"the time limit of {limits.seconds:g} s is over"
+    ends = {
+        "stopped": "was stopped",
+        "length": "answered too much",
+        "garbled": "wrote into a file of ours: one that it has not opened itself",
+    }
+    return "ended", f"{it} {ends.get(over.why) or _told_status(over.status)}"
+
+
+def _told_status(status: int | None) -> str:
+    """Describe how a program ended, from its exit status; -9 means signal 9."""
+    if status is None:
+        return "closed what it answers through"
+    if status >= 0:
+        return f"ended with exit status {status}"
+    return f"was ended by signal {-status} ({signal.strsignal(-status)})"
+
+
+def whole_number(text: str) -> int | float:
+    """Return an integer of an answer. Integers of 18 or more characters become floats."""
+    return int(text) if len(text) < 18 else float(text)

@@ -1,7 +1,7 @@
 """The pictures of an answer on the screen: the given one, the correct one, their difference.
 
-Includes the thread that makes them, their textures, and the clicked pixel. The arrays are made by
-pictures.py.
+Includes the thread that makes them, their textures, and the clicked pixel. Light is linear,
+(H, W, 3); pictures are uint8 (H, W, 3), sRGB.
 """
 
 from __future__ import annotations
@@ -14,19 +14,75 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from lucida.app.checking.checked import WrongCase
-from lucida.app.checking.your_code.model import CodeRays, canvas_pixel
-from lucida.app.checking.your_code.pictures import IMAGES, CodePictures, compared, image_pair
-from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.checking.reports.picture import changed_pixels, difference_picture
+from lucida.app.checking.your_code.model import CodeRays, CodeReport, canvas_pixel
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
+from lucida.app.instruments.mistakes.model import told_difference
 from lucida.app.instruments.outside.paint import role_color
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
+from lucida.app.ui.messages import wrapped
 from lucida.app.ui.picture_grid import GridPicture, picture_grid
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
+
+Bytes = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
+SAME = "the same colours"  # though rays are wrong
+IMAGES = ("render", "to-gray", "to-bitmap")  # kinds of functions whose answers are images
+
+
+@dataclass(frozen=True, eq=False)
+class CodePictures:
+    """Pictures of an answer."""
+
+    given: Bytes
+    right: Bytes
+    difference: Bytes
+    told: str  # the size of the difference, in words
+
+    @property
+    def size(self) -> tuple[int, int]:
+        height, width = self.right.shape[:2]
+        return width, height
+
+
+def compared(
+    given: NDArray[np.float32],
+    right: NDArray[np.float32],
+    came: NDArray[np.bool_],
+    wrong: NDArray[np.bool_],
+    exposure_ev: float = 0.0,
+) -> CodePictures:
+    """Return the pictures of two images.
+
+    came: the pixels that have an answer, bool (H, W).
+    wrong: the wrong ones, whatever their colour.
+    """
+    shown = to_srgb8(np.where(came[..., None], given, 0), exposure_ev)
+    wanted = to_srgb8(right, exposure_ev)
+    changed = changed_pixels(wanted, shown) & came
+    difference = difference_picture(wanted, changed)
+    difference[wrong & came & ~changed] = SAME_COLOR
+    told = told_difference(changed) if changed.any() else "none" if not wrong.any() else SAME
+    if not came.all():
+        told = f"{np.count_nonzero(~came)} of {came.size} missing"
+    return CodePictures(shown, wanted, difference, told)
+
+
+def image_pair(right: Floats, given: Floats) -> CodePictures:
+    """Return the pictures of two images of the same shape, in linear light or gray from 0 to 1."""
+    first, second = (
+        (one if one.ndim == 3 else np.repeat(one[..., None], 3, axis=2)).astype(np.float32)
+        for one in (right, given)
+    )
+    came = np.asarray(np.isfinite(second).all(axis=2))
+    return compared(second, first, came, np.zeros(came.shape, bool))
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +153,10 @@ class PicturesShown:
         t_range = rays.camera.t_range
 
         def make(painter: RayPainter) -> _Painted:
-            given = painter.picture(rays.origins, rays.directions, t_range)
-            right = painter.picture(rays.right_origins, rays.right_directions, t_range)
+            given, right = (
+                painter.picture(one[..., 0, :], one[..., 1, :], t_range)
+                for one in (rays.given, rays.right)
+            )
             return _Painted(rays, given, right)
 
         made = self._painter.follow(rays, state.scene, host.renderers.live, make)
@@ -116,9 +174,7 @@ class PicturesShown:
         text = describe(error) if error is not None else host.renderers.preparing()
         if self.expected:
             imgui.begin_child("waiting", room)
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(theme.ERROR if error is not None else theme.DIM, text)
-        imgui.pop_text_wrap_pos()
+        wrapped(text, theme.ERROR if error is not None else theme.DIM)
         if self.expected:
             imgui.end_child()
 
@@ -173,7 +229,7 @@ def _images(host: Host) -> tuple[Camera, tuple[int, int]]:
     return host.renderers.camera(host.state), host.renderers.size
 
 
-def _answered(first: WrongCase) -> CodePictures | None:
+def _answered(first: WrongCase) -> CodePictures:
     return image_pair(first.case.right, first.answer)
 
 

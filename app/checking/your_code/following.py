@@ -17,7 +17,6 @@ from lucida.app.ui.watching import FilesWatch
 from lucida.renderer.system.file_dependencies import stamp
 
 LOOK_S = 0.1
-AWAY_LOOKS = 3
 
 
 class FileFollower:
@@ -26,7 +25,6 @@ class FileFollower:
     wake: called when a file was saved, and at each check while is_busy().
     tick: called on the thread at each check.
     version: of the files; changes each time one was saved.
-    is_away: True if a file has been missing for a while.
     """
 
     def __init__(
@@ -36,12 +34,10 @@ class FileFollower:
         self._watch: FilesWatch | None = None
         self._paths: tuple[str, ...] = ()
         self._others: tuple[str, ...] = ()
-        self._missed = 0  # looks that have not found one, one after another
         self._looking, self._closed = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="lucida-follow", daemon=True)
         self._thread.start()
         self.version = 0
-        self.is_away = False
 
     def follow(self, *paths: str) -> None:
         """Watch these files from now on."""
@@ -86,22 +82,12 @@ class FileFollower:
     def _run(self) -> None:
         while self._looking.wait() and not self._closed.wait(LOOK_S):
             self._tick()
-            self._note_missing()
             watch = self._watch
             if watch is not None and watch.changed(time.monotonic()):
                 self.version += 1
                 self._wake()
             elif self._is_busy():
                 self._wake()
-
-    def _note_missing(self) -> None:
-        """Count misses: an editor may remove a file for a moment when it replaces it."""
-        missing = any(stamp(Path(path)) is None for path in self._paths)
-        self._missed = self._missed + 1 if missing else 0
-        is_away = self._missed > AWAY_LOOKS
-        if is_away != self.is_away:
-            self.is_away = is_away
-            self._wake()
 
 
 def editor_command(path: str) -> list[str] | None:

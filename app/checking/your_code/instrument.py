@@ -2,8 +2,40 @@
 
 from __future__ import annotations
 
-from lucida.app.checking.your_code.actions import YOURS
-from lucida.app.checking.your_code.view import YourCodeView
+from lucida.app.checking.your_code.panel import CodeWish
+from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
+from lucida.app.ui import layout
+from lucida.app.ui.action import Action
+from lucida.app.ui.host import Host
+
+MENU = "File/Your code"
+
+
+def _ask(wish: CodeWish, window: Host) -> None:
+    window.show_in(YOUR_CODE, layout.LOOPS)
+    window.view(YourCodeView).ask(wish)
+
+
+def _has_file(window: Host) -> bool:
+    return bool(window.state.options.your_code.file)
+
+
+YOURS = (
+    Action(MENU, "Open Python code...", lambda window: _ask("open", window)),
+    Action(MENU, "Write code to begin with...", lambda window: _ask("starter", window)),
+    Action(MENU, "Open a course's tasks...", lambda window: _ask("tasks", window)),
+    Action(
+        MENU,
+        "Built-in tasks",
+        lambda window: _ask("built-in", window),
+        can=lambda window: bool(window.state.options.your_code.tasks),
+    ),
+    Action(
+        MENU, "Run your code", lambda window: _ask("run", window), can=_has_file, separated=True
+    ),
+    Action(MENU, "Stop your code", lambda window: _ask("stop", window), can=_has_file),
+    Action(MENU, "Edit your code", lambda window: _ask("edit", window), can=_has_file),
+)
 
 
 class YourCode(YourCodeView):

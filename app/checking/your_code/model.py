@@ -1,26 +1,25 @@
 """The questions to a file about the window's camera, and the rays in its answers.
 
-Turns a task and a camera into cases, and answers into the rays of a small image. Pure.
+Turns a task and a camera into cases, and answers into the rays of a small image. A report holds
+the findings on a file as one immutable value: a thread makes it, the view reads it. Pure.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.builtin import BUILTIN, builtin_tasks
-from lucida.app.checking.calls import Failure, Limits, Run
 from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.basis import case_of
 from lucida.app.checking.kinds.viewing_ray import cases_of
 from lucida.app.checking.mistakes.diagnosis import Diagnosis, diagnosis
 from lucida.app.checking.task_file import TaskSet, load_tasks
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Limits, Run
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -29,8 +28,8 @@ from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 
-RAY, BASIS = "viewing-ray", "basis"  # the kinds of functions that make pictures of a camera
-EXACT = 1e-9
+RAY = "viewing-ray"  # the kind of functions that make pictures of a camera
+EXACT = 1e-6  # pixels: of a corner between four, the upper left one
 LIMITS = Limits(seconds=10.0)  # of the built-in tasks
 
 
@@ -39,31 +38,25 @@ class CodeRays:
     """The rays of an image, as a function computes them and as they should be.
 
     size: (width, height).
-    origins, directions: (H, W, 3), NaN where missing; right_origins, right_directions likewise.
+    given, right: origins and directions, (H, W, 2, 3); NaN where missing.
     wrong: the wrong rays among those returned, bool (H, W).
-    result: that of a check, without diagnosis.
+    result: that of a check.
     camera: the window's, mirrored if the course's coordinates are left-handed.
-    cases, given: the cases, and the answers in the kind's own form.
     """
 
     task: CheckTask
     camera: Camera
     size: Size
-    origins: Floats
-    directions: Floats
-    right_origins: Floats
-    right_directions: Floats
-    wrong: NDArray[np.bool_]
-    result: TaskResult
     cases: Sequence[CheckCase]
     given: Floats
+    right: Floats
+    wrong: NDArray[np.bool_]
+    result: TaskResult
 
     @property
     def came(self) -> NDArray[np.bool_]:
         """The pixels that have a ray, bool (H, W)."""
-        numbers = np.isfinite(self.origins) & np.isfinite(self.directions)
-        came: NDArray[np.bool_] = np.logical_and.reduce(numbers, axis=2)
-        return came
+        return np.asarray(np.isfinite(self.given).all(axis=(2, 3)))
 
 
 def asked_of(path: str, notation: Notation = "book") -> TaskSet:
@@ -88,7 +81,7 @@ def is_of_camera(task: CheckTask) -> bool:
 
     The course must allow it, because the picture shows what is wrong and where.
     """
-    return task.kind in (RAY, BASIS) and task.feedback in ("first-wrong", "diagnosis")
+    return task.kind == RAY and task.feedback in ("first-wrong", "diagnosis")
 
 
 def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
@@ -105,7 +98,7 @@ def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUI
     fitting = (
         one
         for one in asked
-        if one.kind == task.kind == RAY
+        if one.kind == RAY
         and one.function == task.function
         and camera.projection in one.projections
     )
@@ -114,8 +107,6 @@ def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUI
 
 def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
     """Explain why a task cannot be asked for a camera; empty if it can."""
-    if task.kind != RAY:
-        return ""
     if camera.projection not in task.projections:
         other = "parallel" if "parallel" in task.projections else "perspective"
         return f"{task.name} is for {other} projection: P switches to it."
@@ -134,66 +125,28 @@ def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
 
 
 def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
-    """Return the cases: the ray of each pixel, or the basis, once. camera: for that size."""
-    shot = shot_of(View(camera, fit=False), size, task.conventions)
-    if task.kind == RAY:
-        return cases_of(task, shot)
-    return [case_of(task, camera.eye, shot.target, shot.up)]
+    """Return the case of each pixel. camera: for that size."""
+    return cases_of(task, shot_of(View(camera, fit=False), size, task.conventions))
 
 
-def rays_of(
-    task: CheckTask,
-    camera: Camera,
-    size: Size,
-    cases: Sequence[CheckCase],
-    run: Run,
-) -> CodeRays:
+def rays_of(task: CheckTask, size: Size, cases: Sequence[CheckCase], run: Run) -> CodeRays:
     """Return the rays of a run that answers all of the cases, or the first of them."""
+    camera = cases[0].camera
+    assert camera is not None
     kind = KINDS[task.kind]
     values = [None if isinstance(value, Failure) else value for value in run.values]
     given = np.array(kind.given(task, cases, values)[0])
+    wrong = kind.wrong(task, cases, given) & np.isfinite(given).all(axis=(1, 2))
+    right = np.array([case.right for case in cases], float)
+    shape = size[1], size[0]
+    given, right = given.reshape(*shape, 2, 3), right.reshape(*shape, 2, 3)
     result = judged(replace(task, feedback="first-wrong"), cases, run)
-    if task.kind == RAY:
-        right, rays = np.array([case.right for case in cases], float), given
-        wrong = kind.wrong(task, cases, given) & np.isfinite(given).all(axis=(1, 2))
-    else:
-        right, rays = _turned(camera, size, cases[0].right), _turned(camera, size, given[0])
-        wrong = np.full(len(rays), bool(kind.wrong(task, cases, given)[0]))
-        wrong &= np.isfinite(rays).all(axis=(1, 2))
-    width, height = size
-    shape = (height, width, 3)
-    return CodeRays(
-        task,
-        cases[0].camera or camera,
-        size,
-        rays[:, 0].reshape(shape),
-        rays[:, 1].reshape(shape),
-        right[:, 0].reshape(shape),
-        right[:, 1].reshape(shape),
-        wrong.reshape(height, width),
-        result,
-        cases,
-        given,
-    )
+    return CodeRays(task, camera, size, cases, given, right, wrong.reshape(shape), result)
 
 
 def diagnosis_of(rays: CodeRays) -> Diagnosis:
     """Return the diagnosis of the rays. Takes a while."""
-    wrong = KINDS[rays.task.kind].wrong(rays.task, rays.cases, rays.given)
-    return diagnosis(rays.task, rays.cases, rays.given, wrong)
-
-
-def _turned(camera: Camera, size: Size, basis: Floats) -> Floats:
-    """Return the camera's rays with another basis, u, v, w in its rows: (N, 2, 3)."""
-    width, height = size
-    i, j = np.indices((height, width)).reshape(2, -1)
-    rays = camera.ray(i, j, size)
-    count = width * height
-    eye = np.asarray(camera.eye)
-    change = np.linalg.inv(camera.basis).T @ basis
-    origins = eye + (np.broadcast_to(rays.origin, (count, 3)) - eye) @ change
-    directions = np.broadcast_to(rays.direction, (count, 3)) @ change
-    return np.stack([origins, directions], axis=1)
+    return diagnosis(rays.task, rays.cases, rays.given.reshape(-1, 2, 3), rays.wrong.ravel())
 
 
 def canvas_pixel(
@@ -204,11 +157,86 @@ def canvas_pixel(
     The cameras differ in their viewports, or one is the mirror image of the other. Both pixels are
     (row, column), from 0.
     """
-    left, right, bottom, top = of.viewport
-    x = left + (pixel[1] + 0.5) / size[0] * (right - left)
-    y = top - (pixel[0] + 0.5) / size[1] * (top - bottom)
-    x = -x if np.dot(of.u, to.u) < 0 else x
-    left, right, bottom, top = to.viewport
-    row = int((top - y) / (top - bottom) * to_size[1] - EXACT)
-    column = int((x - left) / (right - left) * to_size[0] - EXACT)
+    ray = of.pinhole.ray(*pixel, size)
+    seen = to.pinhole.project(ray.origin + ray.direction, to_size)
+    row, column = (int(place + 0.5 - EXACT) for place in (seen.row, seen.column))
     return min(max(row, 0), to_size[1] - 1), min(max(column, 0), to_size[0] - 1)
+
+
+ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
+
+
+@dataclass(frozen=True)
+class CodeContent:
+    """What is asked about.
+
+    path: of the file.
+    tasks: the file of tasks, "" for the built-in ones.
+    notation: the window's.
+    version: changes with the content of the file or of the tasks' file.
+    """
+
+    path: str
+    tasks: str = ""
+    notation: Notation = "book"
+    version: int = 1
+
+    def is_of_files(self, other: CodeContent) -> bool:
+        """Return True if both are versions of the same files."""
+        return (self.path, self.tasks) == (other.path, other.tasks)
+
+
+@dataclass(frozen=True)
+class CodeQuestion:
+    """A question to a file.
+
+    task: the name of the selected one.
+    camera, size: for the canvas.
+    """
+
+    content: CodeContent
+    task: str
+    camera: Camera
+    size: Size
+
+    def differs_in_camera(self, other: CodeQuestion) -> bool:
+        """Return True if it is the same as the other one, except for the camera."""
+        return replace(self, camera=other.camera) == other
+
+
+@dataclass(frozen=True, eq=False)
+class CodeReport:
+    """The findings on a file.
+
+    tasks: those whose functions the file has.
+    chosen: the selected one.
+    rays: for the window's camera, None if the selected task makes none.
+    results: of the tasks that have been tried, by name.
+    diagnosis: the reason why the rays are wrong; None while unknown.
+    failure: the reason why the file answers nothing at all.
+    output: the text that it printed.
+    seconds, at: the duration of the newest run, and its end in seconds since 1970.
+    asked: all tasks.
+    not_asked: the reason why there are no rays, if it is the camera.
+    """
+
+    question: CodeQuestion
+    tasks: tuple[CheckTask, ...] = ()
+    chosen: CheckTask | None = None
+    rays: CodeRays | None = None
+    results: Mapping[str, TaskResult] = field(default_factory=dict)
+    diagnosis: Diagnosis | None = None
+    failure: Failure | None = None
+    output: str = ""
+    seconds: float = 0.0
+    at: float = 0.0
+    asked: tuple[CheckTask, ...] = BUILTIN
+    not_asked: str = ""
+
+    @property
+    def halted(self) -> bool:
+        """True if the file should not run again by itself: it would only take as long again."""
+        failure = self.failure
+        if failure is None and self.rays is not None:
+            failure = self.rays.result.failure
+        return failure is not None and failure.kind in ENDLESS

@@ -1,4 +1,4 @@
-"""An answer in the outside view: the student's camera, basis, and rays of one pixel.
+"""An answer in the outside view: the student's camera, and rays of one pixel.
 
 Pure. outside/second_camera.py and outside/answers.py draw it.
 """
@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.checking.your_code.model import BASIS, CodeRays
+from lucida.app.checking.your_code.model import CodeRays
 from lucida.app.instruments.outside import answers
-from lucida.app.instruments.outside.diagram import Item, Role, Segments, in_notation
+from lucida.app.instruments.outside.diagram import Item, Segments, in_notation
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
     SecondCamera,
@@ -17,8 +17,6 @@ from lucida.app.instruments.outside.second_camera import (
     second_camera,
 )
 from lucida.app.state.options.shared import Notation, Pixel
-
-SAME = 1e-5  # vectors that differ less look the same
 
 
 def outside_items(
@@ -35,23 +33,13 @@ def outside_items(
     items: list[Item] = []
     if not rays.wrong.any():
         if marked is not None:
-            start, way = rays.right_origins[marked], end * rays.right_directions[marked]
-            items.append(
-                Segments("right ray", "ray", np.array([[start, start + way]]), 2.5, layer=3)
-            )
+            start, way = rays.right[marked]
+            line = np.array([[start, start + end * way]])
+            items.append(Segments("right ray", "ray", line, 2.5, layer=3))
         return in_notation(items, notation)
-    corners = corner_rays(rays.origins, rays.directions)
-    name = "" if rays.task.kind == BASIS else "yours"  # a basis has its vectors' names
-    items += second_camera(SecondCamera(*corners, None, name, first), reach)
-    if rays.task.kind == BASIS:
-        given, correct = rays.given[0], rays.cases[0].right
-        for number, name in enumerate(("u", "v", "w")):
-            if not np.allclose(given[number], correct[number], atol=SAME):
-                role: Role = name  # type: ignore[assignment]
-                items += answers.vector(name, role, camera.eye, given[number], correct[number])
+    corners = corner_rays(rays.given[..., 0, :], rays.given[..., 1, :])
+    items += second_camera(SecondCamera(*corners, None, "yours", first), reach)
     pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
     if rays.came[pixel]:
-        given_ray = GivenRay(rays.origins[pixel], rays.directions[pixel])
-        right = GivenRay(rays.right_origins[pixel], rays.right_directions[pixel])
-        items += answers.ray(given_ray, right, reach)
+        items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)
     return in_notation(items, notation)

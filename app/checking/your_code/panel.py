@@ -13,9 +13,9 @@ from typing import Literal
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.checking.builtin import builtin_tasks
-from lucida.app.checking.starter import returned, signature
+from lucida.app.checking.own_words import returned, signature
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.checking.your_code.model import CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from lucida.app.instruments.stepper.controls import CANVASES
@@ -25,7 +25,8 @@ from lucida.app.ui import theme
 from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.app.ui.lettering import lettering
-from lucida.app.ui.rows import follow, tip
+from lucida.app.ui.messages import wrapped
+from lucida.app.ui.rows import button_width, follow, tip
 from lucida.app.ui.theme import Fonts
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import one_line
@@ -43,7 +44,6 @@ INVITATION = (
     " here, again whenever you save it, and shows your picture beside the correct one."
 )
 SIGNATURE = "def {}:\n    ...\n    return {}"
-AWAY = "moved or deleted"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
     " on some systems with your rights. Read it first."
@@ -53,26 +53,18 @@ TRUST = (
 def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
     """Draw the panel when no file is open. tasks: the name of the file of tasks, or ""."""
     task = next(task for task in builtin_tasks(notation) if task.kind == "viewing-ray")
-    code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text(INVITATION)
-    imgui.pop_text_wrap_pos()
-    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
+    wrapped(INVITATION)
     with lettering(fonts.mono):
+        code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
         imgui.text_colored(theme.DIM, code)
-    imgui.dummy(ImVec2(0, 0.3 * imgui.get_font_size()))
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):
         wish = "starter"
     tip("a Python file with empty functions, and what each is to return")
-    follow(imgui.calc_text_size("Open a Python file...").x + 2 * imgui.get_style().frame_padding.x)
+    follow(button_width("Open a Python file..."))
     if imgui.button("Open a Python file..."):
         wish = "open"
-    wish = _tasks(tasks) or wish
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.DIM, "Or drop one on the window, or: lucida rays.py")
-    imgui.pop_text_wrap_pos()
-    return wish
+    return _tasks(tasks) or wish
 
 
 def head(
@@ -80,13 +72,11 @@ def head(
     options: YourCodeOptions,
     runs: CodeRuns | None,
     report: CodeReport | None,
-    is_away: bool,
     fonts: Fonts,
 ) -> tuple[CodeWish, Size]:
     """Draw the file and its buttons. Return the wish and the selected canvas size.
 
     runs: None if the file may not run, because the user has not opened it.
-    is_away: the file, or that of its tasks, is missing.
     """
     wish: CodeWish = ""
     with lettering(fonts.bold):
@@ -94,36 +84,30 @@ def head(
         imgui.text(one_line(file.name))
     tip(one_line(str(file.parent)))
     running_s = runs.running_s if runs is not None else 0.0
-    running = running_s > RUNNING_S
-    label, said = ("Stop", "end its process") if running else ("Run", "as when the file is saved")
-    for name, shown, tooltip in (
-        ("stop" if running else "run", label, said),
+    buttons: list[tuple[CodeWish, str, str]] = [
         ("edit", "Edit", "open it in your editor; it runs again when you save it"),
         ("open", "Open...", "another Python file"),
-    ):
-        if name == "run" and runs is None:
-            continue
-        follow(_button_width(shown))
+    ]
+    if running_s > RUNNING_S:
+        buttons.insert(0, ("stop", "Stop", "end its process"))
+    elif runs is not None:
+        buttons.insert(0, ("run", "Run", "as when the file is saved"))
+    for name, shown, tooltip in buttons:
+        follow(button_width(shown))
         if imgui.button(f"{shown}###{name}"):
-            wish = name  # type: ignore[assignment]
+            wish = name
         tip(tooltip)
     wish = _tasks(Path(options.tasks).name) or wish
     canvas = options.canvas if runs is None else _canvas(options.canvas)
-    if runs is not None and running:
-        width = 9 * imgui.get_font_size()
-        follow(width)
-        # A negative part shows that it is unknown.
-        imgui.progress_bar(-0.5 * running_s, ImVec2(width, 0), f"{running_s:.0f} s")
-    elif is_away:
-        follow(imgui.calc_text_size(AWAY).x)
-        imgui.align_text_to_frame_padding()
-        imgui.text_colored(theme.ERROR, AWAY)
+    text = ""
+    if running_s > RUNNING_S:
+        text = f"running for {running_s:.0f} s"
     elif report is not None and report.at:
         at = time.strftime("%H:%M:%S", time.localtime(report.at))
         text = f"ran at {at}, {report.seconds:.2g} s"
-        follow(imgui.calc_text_size(text).x)
-        imgui.align_text_to_frame_padding()
-        imgui.text_colored(theme.DIM, text)
+    follow(imgui.calc_text_size(text).x)
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(theme.DIM, text)
     return wish, canvas
 
 
@@ -131,7 +115,7 @@ def _tasks(name: str) -> CodeWish:
     """Draw the source of the tasks. Return the wish to use others."""
     wish: CodeWish = ""
     shown = f"Tasks: {one_line(name)}" if name else "Tasks"
-    follow(_button_width(shown))
+    follow(button_width(shown))
     if imgui.button(f"{shown}###tasks"):
         imgui.open_popup("tasks")
     tip("what is asked for: the built-in tasks, or those of a course")
@@ -154,7 +138,7 @@ def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
         shown = "correct" if verdict == "right" else verdict
         label = f"{task.name}: {shown or '...'}"
         if number:
-            follow(_button_width(label))
+            follow(button_width(label))
         on = task == chosen
         color = {"right": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
         imgui.push_style_color(imgui.Col_.text, color or theme.DIM)
@@ -188,9 +172,7 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
         for number, line in enumerate(lines):
             with lettering(*_lettering(line, number, fonts)):
                 if line.role == "code":
-                    imgui.push_text_wrap_pos(0.0)
-                    imgui.text_colored(_color(line.role), line.text)
-                    imgui.pop_text_wrap_pos()
+                    wrapped(line.text)
                 else:
                     coded_text(line.text, left.x, _color(line.role), fonts)
     imgui.end_child()
@@ -208,9 +190,7 @@ def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont 
 
 def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
     """Draw the text of a file that the user has not opened. Return True if it should be run."""
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text(TRUST)
-    imgui.pop_text_wrap_pos()
+    wrapped(TRUST)
     run = bool(imgui.button("Run it"))
     left = imgui.get_content_region_avail()
     if imgui.begin_child(
@@ -243,7 +223,3 @@ def _canvas(chosen: Size) -> Size:
         imgui.end_combo()
     tip("the pictures' size: one call a pixel")
     return chosen
-
-
-def _button_width(name: str) -> float:
-    return imgui.calc_text_size(name).x + 2 * imgui.get_style().frame_padding.x

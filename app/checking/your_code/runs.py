@@ -13,14 +13,16 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from lucida.app.checking.calls import Failure, Limits
 from lucida.app.checking.checked import TaskResult, checked, failed
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.running.file import FileStudent, NotRunnableError
 from lucida.app.checking.task_file import TaskSet
-from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.tasks import CheckTask, Failure, Limits
 from lucida.app.checking.your_code.model import (
+    CodeContent,
+    CodeQuestion,
     CodeRays,
+    CodeReport,
     asked_of,
     cases_for,
     chosen_of,
@@ -31,7 +33,6 @@ from lucida.app.checking.your_code.model import (
     tasks_of,
     why_not_asked,
 )
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.ui.background import Background
 from lucida.renderer.system.errors import LucidaError, describe
 
@@ -265,7 +266,7 @@ class CodeRuns:
 def _rays(question: CodeQuestion, task: CheckTask, student: FileStudent) -> CodeRays:
     camera, size = question.camera, question.size
     cases = cases_for(task, camera, size)
-    return rays_of(task, camera, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
+    return rays_of(task, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
 
 
 def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:

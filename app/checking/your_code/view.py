@@ -9,21 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import moderngl
 from imgui_bundle import imgui
 
-from lucida.app.checking.starter import starter
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.own_words import starter
 from lucida.app.checking.your_code import panel
-from lucida.app.checking.your_code.code_pictures import PicturesShown, marked_pixel
+from lucida.app.checking.your_code.code_pictures import CodePictures, PicturesShown, marked_pixel
 from lucida.app.checking.your_code.following import FileFollower, open_in_editor
-from lucida.app.checking.your_code.model import RAY, asked_of
+from lucida.app.checking.your_code.model import RAY, CodeContent, CodeQuestion, CodeReport, asked_of
 from lucida.app.checking.your_code.outside_items import outside_items
 from lucida.app.checking.your_code.panel import CodeWish
-from lucida.app.checking.your_code.pictures import CodePictures
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, told_of
 from lucida.app.instruments.outside.extent import end_parameter
@@ -31,11 +27,12 @@ from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
+from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.renderer.files.reading import first_bytes
 from lucida.renderer.system.atomic import atomic_write
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo
 
 YOUR_CODE = "Your-code"
@@ -44,14 +41,14 @@ READ_BYTES = 100_000  # to show of a file that is not run
 
 
 class YourCodeView(Instrument):
-    """The view "Your code". runs: None before there is a context."""
+    """The view "Your code"."""
 
     name = YOUR_CODE
     title = "Your code"
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
-        self.runs: CodeRuns | None = None
+        self.runs = CodeRuns(lambda: Background.wake_window())
         self._follower: FileFollower | None = None
         self._pictures: PicturesShown | None = None
         self._agreed: set[str] = set()  # files that the user has opened in this window
@@ -59,7 +56,6 @@ class YourCodeView(Instrument):
         self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
-        self._counted: str | None = None  # the file of tasks whose count the window has taken
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
@@ -68,7 +64,7 @@ class YourCodeView(Instrument):
     @property
     def report(self) -> CodeReport | None:
         """The report on the open file; None before the first."""
-        return self.runs.report if self.runs is not None else None
+        return self.runs.report
 
     @property
     def pictures(self) -> CodePictures | None:
@@ -88,9 +84,8 @@ class YourCodeView(Instrument):
 
     def open_tasks(self, window: Host, path: str) -> None:
         """Open a course's file of tasks for the user; "" for the built-in ones."""
-        options = window.state.options
-        asked = replace(options.your_code, tasks=stored(path), task="")
-        window.change(window.state.with_options(replace(options, **_notation_of(path)), asked))
+        asked = replace(window.state.options.your_code, tasks=stored(path), task="")
+        window.change(window.state.with_options(asked))
         window.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:
@@ -99,20 +94,18 @@ class YourCodeView(Instrument):
 
     @property
     def settled(self) -> bool:
-        if not self._seen or self.runs is None or self._pictures is None:
+        if not self._seen or self._pictures is None:
             return True
         return not (self.runs.busy or self._pictures.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        runs = self.runs = CodeRuns(host.animate)
-        self._follower = FileFollower(host.animate, lambda: runs.busy, runs.tick)
+        self._follower = FileFollower(host.animate, lambda: self.runs.busy, self.runs.tick)
         self._pictures = PicturesShown(host, context)
 
     def end(self) -> None:
         if self._follower is not None:
             self._follower.close()
-        if self.runs is not None:
-            self.runs.close()
+        self.runs.close()
         if self._pictures is not None:
             self._pictures.close()
 
@@ -122,7 +115,7 @@ class YourCodeView(Instrument):
         assert self._follower is not None and self._pictures is not None
         self._seen = False
         self._follower.rest()
-        if self.runs is not None and self.runs.busy:
+        if self.runs.busy:
             self.runs.forget()  # nothing runs while hidden
         self._pictures.forget()
         self._outside.show(YOUR_CODE, ())
@@ -132,7 +125,6 @@ class YourCodeView(Instrument):
         self._pictures.begin_frame()
         self._seen = True
         host.renderers.need_size(host.state.images)
-        assert self.runs is not None and self._follower is not None
         path = restored(host.state.options.your_code.file)
         if self._written:
             self._open_written(host)
@@ -151,8 +143,7 @@ class YourCodeView(Instrument):
 
     def _rest(self) -> None:
         """Run nothing, and show nothing of earlier runs."""
-        assert self.runs is not None and self._follower is not None
-        assert self._pictures is not None
+        assert self._follower is not None and self._pictures is not None
         self._follower.forget()
         self._pictures.rest()
         self.runs.poll()
@@ -170,8 +161,7 @@ class YourCodeView(Instrument):
         return Path(path) in host.files.recent.entries
 
     def _of_file(self, host: Host, path: str) -> CodeWish:
-        assert self.runs is not None and self._follower is not None
-        assert self._pictures is not None
+        assert self._follower is not None and self._pictures is not None
         runs, options = self.runs, host.state.options.your_code
         tasks = restored(options.tasks)
         self._follower.follow(*(one for one in (path, tasks) if one))
@@ -183,15 +173,12 @@ class YourCodeView(Instrument):
         report = runs.report
         if report is not None and not report.question.content.is_of_files(content):
             report = None
-        wish, canvas = panel.head(
-            Path(path), options, runs, report, self._follower.is_away, host.fonts
-        )
+        wish, canvas = panel.head(Path(path), options, runs, report, host.fonts)
         if canvas != options.canvas:
             host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
-        self._count_as(host, report)
         clicked = panel.tasks(report, report.chosen)
         if clicked is not None:
             host.edit(replace(host.options.your_code, task=clicked.name))
@@ -205,20 +192,11 @@ class YourCodeView(Instrument):
             self._pictures.tell_waiting(host, for_pictures)
         if beside:
             imgui.same_line()
-        self.told = self._words(report, marked, host.state.options.indexing)
+        self.told = self._words(report, marked)
         left = imgui.get_content_region_avail()  # pictures may need less than they may have
         panel.words(self.told, for_words if beside else left, host.fonts)
         self._show_outside(host, report, marked)
         return wish
-
-    def _count_as(self, host: Host, report: CodeReport) -> None:
-        """Count pixels as the tasks do, once for each file of tasks. A lecture's count holds."""
-        tasks, state = report.question.content.tasks, host.state
-        if report.chosen is not None and tasks != self._counted and state.step is None:
-            self._counted = tasks
-            one_based = report.chosen.conventions.base == 1
-            if one_based != state.options.one_based:
-                host.amend(state.with_options(replace(state.options, one_based=one_based)))
 
     # In the outside view.
 
@@ -245,7 +223,7 @@ class YourCodeView(Instrument):
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """Draw a file that a lecture has named: its text, which the user may run."""
         options = host.state.options.your_code
-        wish, _ = panel.head(Path(path), options, None, None, False, host.fonts)
+        wish, _ = panel.head(Path(path), options, None, None, host.fonts)
         if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
             self._agree(host, path)
         return wish
@@ -256,7 +234,7 @@ class YourCodeView(Instrument):
         host.animate()
 
     def _grant(self, host: Host, wish: CodeWish, path: str) -> None:
-        assert self.runs is not None and self._follower is not None
+        assert self._follower is not None
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
@@ -296,16 +274,6 @@ class YourCodeView(Instrument):
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
         host.edit(replace(host.options.your_code, file=stored(path), task=""))
-
-
-def _notation_of(path: str) -> dict[str, Any]:
-    """Return the window's option that a file of tasks sets; none if it cannot be read, which is
-    reported where it is used.
-    """
-    try:
-        return {"notation": load_tasks(path).notation} if path else {}
-    except LucidaError:
-        return {}
 
 
 def source_text(path: str) -> str:

@@ -10,11 +10,10 @@ from typing import Literal
 import numpy as np
 
 from lucida.app.checking.checked import TaskResult
-from lucida.app.checking.kinds.values import text_of
+from lucida.app.checking.kinds.kind import text_of
 from lucida.app.checking.reports.told import told
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.model import BASIS, CodeRays
-from lucida.app.checking.your_code.report import CodeReport
+from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import visible
@@ -36,9 +35,9 @@ class ToldLine:
     text: str
 
 
-def told_of(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> list[ToldLine]:
+def told_of(report: CodeReport, pixel: Pixel | None) -> list[ToldLine]:
     """Return all findings, the most helpful first. pixel: the marked one, in the pictures."""
-    lines = [*_of_file(report)] or [*_of_task(report, pixel, indexing)]
+    lines = [*_of_file(report)] or [*_of_task(report, pixel)]
     lines = [line for line in lines if not _is_marks(line)]
     return [*lines, *_of_output(report)]
 
@@ -78,7 +77,7 @@ def _of_file(report: CodeReport) -> Iterator[ToldLine]:
         yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
 
 
-def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Iterator[ToldLine]:
+def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
     chosen, rays = report.chosen, report.rays
     assert chosen is not None
     if report.not_asked:
@@ -89,7 +88,7 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
             other = "parallel" if "parallel" in chosen.projections else "perspective"
             yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
         if pixel is not None and bool(rays.came[pixel]):
-            yield from _of_pixel(rays, pixel, indexing)
+            yield from _of_pixel(rays, pixel)
         if rays.result.failure is not None:
             return
     result = report.results.get(chosen.name)
@@ -103,16 +102,16 @@ def _of_task(report: CodeReport, pixel: Pixel | None, indexing: Indexing) -> Ite
 
 def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     """Yield what the pictures show, and why."""
-    result, is_basis = rays.result, rays.task.kind == BASIS
+    result = rays.result
     if result.failure is not None:
         yield from _of_failure(result)
         if report.halted:
             yield ToldLine("dim", f"{HALTED}: choose fewer pixels, save the file, or press Run.")
     elif result.status == "right":
-        yield ToldLine("good", "The basis is correct." if is_basis else "Every ray is correct.")
+        yield ToldLine("good", "Every ray is correct.")
     else:
-        count = f"{int(rays.wrong.sum())} of {rays.wrong.size} rays are wrong."
-        yield ToldLine("bad", "The basis is wrong." if is_basis else count)
+        wrong = int(rays.wrong.sum())
+        yield ToldLine("bad", f"{wrong} of {rays.wrong.size} rays are wrong.")
         assert report.chosen is not None
         tried = report.results.get(report.chosen.name)
         found, others = report.diagnosis, tried.diagnosis if tried else None
@@ -122,9 +121,6 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
             yield ToldLine("dim", "looking for the reason ...")
         for sentence in found.sentences if found else ():
             yield ToldLine("text", sentence)
-        if is_basis and result.first is not None:
-            yield ToldLine("code", f"yours    {result.first.given}")
-            yield ToldLine("code", f"correct  {result.first.right}")
 
 
 def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
@@ -135,15 +131,11 @@ def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
         yield ToldLine("code" if number else "bad", line)
 
 
-def _of_pixel(rays: CodeRays, pixel: Pixel, indexing: Indexing) -> Iterator[ToldLine]:
+def _of_pixel(rays: CodeRays, pixel: Pixel) -> Iterator[ToldLine]:
+    indexing = Indexing(rays.task.conventions.base)
     yield ToldLine("dim", f"pixel {indexing.text(pixel)}, {indexing.told}, of the pictures:")
-    for name, origins, directions in (
-        ("yours  ", rays.origins, rays.directions),
-        ("correct", rays.right_origins, rays.right_directions),
-    ):
-        origin, direction = (
-            text_of(np.round(part[pixel], 12).tolist()) for part in (origins, directions)
-        )
+    for name, image in (("yours  ", rays.given), ("correct", rays.right)):
+        origin, direction = map(text_of, np.round(image[pixel], 12).tolist())
         yield ToldLine("code", f"{name}  {origin} + t {direction}")
 
 

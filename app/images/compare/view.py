@@ -115,6 +115,9 @@ class CompareView(ImageView):
         both = host.renderers
         if self._uploads is not None:
             self._uploads.begin_frame()
+        outcome = self._work.poll()
+        if outcome is not None and outcome.value is not None:
+            self._made = outcome.value
         is_picture = host.options.compare.mode in ("wipe", "flip")
         pane = Pane(
             lambda state, placement: self._picture(both, state, placement),
@@ -200,9 +203,6 @@ class CompareView(ImageView):
         signed = options.mode == "signed"
         key = images.channel, images.component, options.gain, signed
         self._work.ask(difference_picture, raster, ray, *key)
-        outcome = self._work.poll()
-        if outcome is not None and outcome.value is not None:
-            self._made = outcome.value
         return self._made[1] if self._made is not None and self._made[0] is ray else None
 
     def _placed(self, name: str, picture: Bytes, placement: Placement) -> moderngl.Texture:

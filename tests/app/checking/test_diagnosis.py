@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 
 from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.mistakes.candidates import LOOSE, candidates
 from lucida.app.checking.mistakes.diagnosis import MOST, diagnosis
 from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import known_values, program_of, programs
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
-from lucida.app.checking.mistakes.trials import RayTrial
+from lucida.app.checking.mistakes.trials import LOOSE, RayTrial, candidates
 from lucida.renderer.camera.camera import Camera
 
 TASKS = {task.name: task for task in BUILTIN}

@@ -14,17 +14,15 @@ import pytest
 
 from lucida.app.checking import own_words
 from lucida.app.checking.builtin import builtin_tasks
-from lucida.app.checking.calls import Failure
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.mistakes.programs import case_values, known_values, programs
 from lucida.app.checking.mistakes.rays import ray_task
-from lucida.app.checking.own_words import AS_IF, functions, in_the_tasks_words, own_names
+from lucida.app.checking.own_words import AS_IF, functions, in_the_tasks_words, own_names, starter
 from lucida.app.checking.running.file import FileStudent
-from lucida.app.checking.starter import starter
 from lucida.app.checking.task_file import load_tasks
-from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.tasks import CheckCase, CheckTask, Failure
 
 TASKS = [
     pytest.param(task, id=f"{name}: {task.name}")

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from asked_rays import made_case, made_cases
+from asked_rays import made_cases
 
 import lucida.app.lecture.lectures
 from lucida.app.checking.builtin import BUILTIN
@@ -22,7 +21,6 @@ from lucida.app.checking.mistakes.rays import (
     ray_values,
     run_rays,
 )
-from lucida.app.checking.mistakes.trials import RayTrial
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
 
@@ -45,21 +43,6 @@ TASKS = {
 }
 
 
-def asked(words: str):
-    """Return a task's cases with all that its words pass; square pixels if an angle is given."""
-    symmetric = any("fov" in word for word in TASKS[words])
-    rigid = symmetric or "target" in TASKS[words]
-    made = []
-    for case in made_cases(4, 8, kinds=("orthonormal",) if rigid else ("off-axis", "skewed")):
-        camera = case.camera
-        if symmetric:
-            high = camera.viewport[3]
-            wide = high * case.size[0] / case.size[1]
-            camera = replace(camera, viewport=(-wide, wide, -high, high))
-        made.append(made_case(camera, case.size, case.pixel))
-    return made
-
-
 @pytest.mark.parametrize("projection", PROJECTIONS)
 @pytest.mark.parametrize("indexing", Indexing)
 def test_the_right_program_is_the_camera_s(projection, indexing):
@@ -70,36 +53,6 @@ def test_the_right_program_is_the_camera_s(projection, indexing):
         scale = np.abs(right.origin).max() + np.abs(right.direction).max()
         assert np.abs(origin - right.origin).max() <= 1e-15 * scale
         assert (direction == right.direction).all()
-
-
-@pytest.mark.parametrize("words", TASKS)
-@pytest.mark.parametrize("projection", PROJECTIONS)
-def test_the_right_program_in_a_task_s_words(words, projection):
-    if projection == "parallel" and any("fov" in word for word in TASKS[words]):
-        return
-    cases = [
-        replace(case, camera=replace(case.camera, projection=projection)) for case in asked(words)
-    ]
-    right = [case.camera.ray(*case.pixel, case.size) for case in cases]
-    wanted = np.array([ray.direction / np.linalg.norm(ray.direction) for ray in right])
-    for indexing in Indexing:
-        for from_top in (True, False):
-            task = RayTask(projection, indexing, from_top, frozenset(TASKS[words]))
-            known = RayTrial(cases, np.zeros(0), task).known
-            needed = {"eye", *(WORDS if words == "in other words" else TASKS[words])}
-            given = {name: known[name] for name in needed & known.keys()}
-            origin, direction = run_rays(ray_program(task), given)
-            along = direction / np.linalg.norm(direction, axis=1)[:, None]
-            assert np.abs(origin - [ray.origin for ray in right]).max() < 1e-12
-            assert np.abs(along - wanted).max() < 1e-12
-
-
-def test_the_right_basis():
-    cases = asked("from a target")
-    known = {name: np.array([getattr(c, name) for c in cases]) for name in ("target", "up")}
-    known["eye"] = np.array([case.camera.eye for case in cases])
-    for made, name in zip(BASIS.run(known)[0], "uvw", strict=True):
-        assert np.abs(made - [getattr(case.camera, name) for case in cases]).max() < 1e-14
 
 
 def test_the_table():

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lucida.app.checking.kinds import values
+from lucida.app.checking.kinds import kind as values
 from lucida.app.checking.kinds.hits import parameter
 
 numbers = st.floats(allow_nan=False) | st.integers(-(10**6), 10**6)

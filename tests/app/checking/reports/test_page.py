@@ -17,14 +17,16 @@ from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult, checked
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
 from lucida.app.checking.reports.page import page
-from lucida.app.checking.reports.picture import MARK, NO_RAY, changed_pixels, picture
-from lucida.app.checking.reports.pictured import Pictured, pictured
+from lucida.app.checking.reports.picture import (
+    MARK,
+    Pictured,
+    changed_pixels,
+    pictured,
+)
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.tasks import FEEDBACK
 from lucida.app.cli import main
 from lucida.app.ui.explaining import symbols
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images import to_srgb8
 
 TASK = next(task for task in BUILTIN if task.name == "viewing-ray")
 UPSIDE_DOWN = """
@@ -133,17 +135,6 @@ def test_what_the_feedback_keeps_back_is_not_in_the_file(tried, feedback: str) -
     assert (SENTENCE in parsed.text) is (level >= 3)
 
 
-def test_a_right_answer_and_one_that_cannot_be_hidden(tried) -> None:
-    right = replace(tried[0], status="right", points=3.0, first=None, diagnosis=None, wrong=0)
-    text = page([right], [right.task], "rays.py", "", {})
-    assert "1 of 1 tasks correct, 3 of 3 points" in text and "<img" not in text
-    other = replace(TASK, name="other", points=2.0)
-    text = page([right], [right.task, other], "a&b.py", "a&b.py, line 3: invalid syntax", {})
-    parsed = WellFormed(text)
-    assert "Lucida check: a&b.py" in parsed.text and "0 of 2 points" in parsed.text
-    assert parsed.text.count("line 3: invalid syntax") == 2
-
-
 def test_the_command_writes_the_page_with_the_files_name_only(tmp_path: Path, capsys) -> None:
     code, out = tmp_path / "rays.py", tmp_path / "report.html"
     code.write_text(UPSIDE_DOWN, "utf-8")
@@ -157,14 +148,3 @@ def test_the_command_writes_the_page_with_the_files_name_only(tmp_path: Path, ca
     assert main(arguments) == 2
     parsed = WellFormed(out.read_text("utf-8"))
     assert "line 1" in parsed.text and "rays.py" in parsed.text and tmp_path.name not in parsed.text
-
-
-def test_rays_that_are_none_are_shown_as_such() -> None:
-    camera, size = Camera.canonical(), (4, 3)
-    rays = np.stack(camera.rays(size), axis=-2)
-    rays[0, 0, 1] = np.nan
-    rays[0, 1, 1] = 0.0
-    rays[0, 2, 0] = np.inf
-    seen = picture(camera, size, rays)
-    wanted = to_srgb8(np.array(NO_RAY, np.float32))
-    assert (seen[0, :3] == wanted).all() and not (seen[0, 3] == wanted).all()

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 from both_lectures import both_lectures
 
-from lucida.app.checking.results.model import ClassAnswer, NamedMistake, class_results
+from lucida.app.checking.results.model import ClassAnswer, NamedMistake, class_results, read_answers
 from lucida.app.checking.results.page import page
-from lucida.app.checking.results.reading import read_answers
 from lucida.app.cli import main
 from lucida.app.lecture.answer_log import AnswerLog
 from lucida.app.state.kept_lecture import Answers
@@ -198,8 +197,3 @@ def test_checks_count_in_the_same_page(tmp_path, capsys):
     capsys.readouterr()
     assert main(["lecture", "--results", str(lines)]) == 2
     assert capsys.readouterr().err == "lucida: --results: has no page to write; add -o class.html\n"
-
-
-def test_the_class_ends_on_the_day_of_its_last_answer():
-    answers = [made("a", "One", 60 * hour, FLIPPED) for hour in (0, 24 * 100)]
-    assert class_results(answers, []).summary.endswith("24 November 2026 to 4 March 2027")

@@ -7,8 +7,8 @@ import textwrap
 import pytest
 from students import called
 
-from lucida.app.checking.calls import Limits
 from lucida.app.checking.running.file import FileStudent
+from lucida.app.checking.tasks import Limits
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 import threading
 
@@ -10,13 +9,12 @@ import pytest
 from students import CAMERA, called
 from waiting import wait_for
 
-from lucida.app.checking.calls import Limits
 from lucida.app.checking.running.command import CommandStudent
+from lucida.app.checking.tasks import Limits
 from lucida.renderer.system.errors import LucidaError
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="shells and C as POSIX has them")
 CALLS = [called("viewing_ray", i=i, j=j, camera=CAMERA) for i in range(48) for j in range(64)]
-RAYS = tuple({"origin": [0, 0, 5], "direction": [c.arguments[1][1], 0.5, -1]} for c in CALLS)
 
 
 @pytest.fixture
@@ -62,23 +60,6 @@ def test_whenever_a_program_answers(program, name):
     assert run.failure is None
     assert len(run.values) == len(CALLS)
     assert run.values[-1]["i"] == 47
-
-
-def test_values_as_programs_write_them(program):
-    written = [
-        '{"origin": [0], "direction": [1]}',
-        "[[0], [1.5]]",
-        "null",
-        "0.5",
-        "NaN",
-        "-Infinity",
-    ]
-    one = program(f"print('\\n'.join({written}))")
-    values = one.call([called("f")] * 6).values
-    assert values[:4] == ({"origin": [0], "direction": [1]}, [[0], [1.5]], None, 0.5)
-    assert values[4] != values[4]
-    assert values[5] == float("-inf")
-    assert program(f"print({'9' * 400})").call([called("f")]).values == (float("inf"),)
 
 
 FAULTS = {
@@ -154,23 +135,3 @@ def test_programs_that_cannot_be_started(tmp_path, monkeypatch):
     }.items():
         failure = CommandStudent(command).call([called("f")]).failure
         assert failure is not None and told in failure.text
-
-
-def of(command: str, calls=CALLS):
-    return CommandStudent(command, Limits(60)).call(calls)
-
-
-@pytest.mark.skipif(shutil.which("node") is None, reason="no node")
-def test_a_node_script(tmp_path):
-    """Its virtual memory is many times the limit: what it holds counts."""
-    (tmp_path / "rays.js").write_text(
-        "const lines = require('fs').readFileSync(0, 'utf8').split('\\n').filter(Boolean)\n"
-        "for (const line of lines) {\n"
-        "  const { j, camera } = JSON.parse(line)\n"
-        "  console.log(JSON.stringify({ origin: camera.eye, direction: [j, 0.5, -1] }))\n"
-        "}\n",
-        "utf-8",
-    )
-    run = of(f"node {tmp_path / 'rays.js'}")
-    assert run.failure is None
-    assert run.values == RAYS

@@ -51,22 +51,11 @@ def test_what_is_no_file(tmp_path):
         assert one.call([F]).failure.kind == "missing"
 
 
-def test_what_stands_under_main_is_not_run(student):
-    one = student("def f(): return 7\nif __name__ == '__main__':\n    raise SystemExit(3)\n")
-    assert one.call([F]).values == (7,)
-
-
 @pytest.mark.parametrize("name", ["lucida", "camera"])
 def test_imports_find_what_lies_beside_the_file(student, tmp_path, name):
     (tmp_path / f"{name}.py").write_text("mine = 7\n", "utf-8")
     assert student(f"import {name}\ndef f(): return {name}.mine\n").call([F]).values == (7,)
     assert not (tmp_path / "__pycache__").exists()
-
-
-@pytest.mark.parametrize("name", ["json.py", "2 rays-of light.py"])
-def test_a_file_of_any_name(student, name):
-    one = student("import json, queue\ndef f(): return 1\n", name)
-    assert one.call([F]).values == (1,)
 
 
 def test_it_runs_in_its_own_folder_from_any_other(student, tmp_path, monkeypatch):

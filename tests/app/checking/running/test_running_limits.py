@@ -7,15 +7,14 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 from pathlib import Path
 
 import pytest
 from students import called
 from waiting import wait_for
 
-from lucida.app.checking.calls import Failure, Limits, Run
 from lucida.app.checking.running.file import FileStudent
+from lucida.app.checking.tasks import Failure, Limits
 
 F = called("f")
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="Linux limits memory")
@@ -115,19 +114,6 @@ def test_what_is_written_between_the_answers(student, where):
     assert "its process wrote into a file of ours" in failure.failure.text
 
 
-@pytest.mark.parametrize(
-    "source",
-    [
-        "import sys\nsys.stdout = None\ndef f(): print(1)\n",
-        "import os\ndef f(): os.close(1); os.close(2); os.close(0)\n",
-        "import builtins, json\nbuiltins.print = json.dumps = None\ndef f(): return None\n",
-    ],
-)
-def test_what_is_done_to_the_output_disturbs_no_answer(student, source):
-    run = student(source).call([F, F])
-    assert (run.failure, run.values[0]) == (None, None)
-
-
 def test_all_that_is_printed_is_captured_in_its_order(student):
     one = student(
         """
@@ -164,37 +150,6 @@ def test_what_it_starts_ends_with_the_check(student, tmp_path):
     wait_for(lambda: not status.exists() or status.read_text().split()[2] == "Z")
 
 
-def stopped(one, calls, begun) -> Run:
-    """A run that is stopped as soon as that file is there."""
-    runs: list[Run] = []
-    thread = threading.Thread(target=lambda: runs.append(one.call(calls)))
-    thread.start()
-    wait_for(begun.exists)
-    one.stop()
-    thread.join()
-    return runs[0]
-
-
-def test_a_stop_from_another_thread(student, tmp_path):
-    begun = tmp_path / "begun"
-    one = student(
-        f"""
-        def f(i):
-            if i < 2:
-                return i
-            print("printed")
-            open({str(begun)!r}, "w").close()
-            while True:
-                pass
-        """
-    )
-    run = stopped(one, [called("f", i=i) for i in range(5)], begun)
-    assert run.values == (0, 1)
-    told = "rays.py: its process was stopped in call 3 of 5: f(i=2)"
-    assert run.failure == Failure("ended", told, call=2)
-    assert run.output == "printed\n"
-
-
 def test_closed_is_closed(student):
     one = student("def f(): return 7\n")
     assert one.call([F]).values == (7,)
@@ -227,7 +182,7 @@ def test_it_ends_with_lucida_however_that_ends(tmp_path):
     path.write_text(source, "utf-8")
     run = (
         "import sys\n"
-        "from lucida.app.checking.calls import Call, Limits\n"
+        "from lucida.app.checking.tasks import Call, Limits\n"
         "from lucida.app.checking.running.file import FileStudent\n"
         "FileStudent(sys.argv[1], Limits(1e6)).call([Call('f', ())])"
     )

@@ -7,7 +7,7 @@ import textwrap
 
 from students import CAMERA, called
 
-from lucida.app.checking.calls import Call, Failure
+from lucida.app.checking.tasks import Call, Failure
 
 RAY = {"origin": [0.0, 0.0, 5.0], "direction": [0.5, 0.25, -1.0]}
 

@@ -9,10 +9,9 @@ import pytest
 from right_code import right_ray
 
 from lucida.app.checking.builtin import BUILTIN
-from lucida.app.checking.calls import Call, Run
 from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.tasks import Call, Run
 from lucida.app.checking.your_code.model import (
-    BASIS,
     RAY,
     CodeRays,
     canvas_pixel,
@@ -30,20 +29,16 @@ SKEWED = replace(CAMERA, u=(0.8, 0.1, 0.2), viewport=(-0.2, 0.7, -0.4, 0.3))
 
 
 def task(kind: str, projection: str = "perspective"):
-    return next(
-        one
-        for one in BUILTIN
-        if one.kind == kind and (kind == BASIS or projection in one.projections)
-    )
+    return next(one for one in BUILTIN if one.kind == kind and projection in one.projections)
 
 
-def answered(camera: Camera, answer, kind: str = RAY, last: int | None = None) -> CodeRays:
+def answered(camera: Camera, answer) -> CodeRays:
     """The rays of a function of the arguments by their names."""
-    asked = task(kind, camera.projection)
+    asked = task(RAY, camera.projection)
     cases = cases_for(asked, camera, SIZE)
-    calls: list[Call] = KINDS[kind].calls(asked, cases)
-    values = [answer(dict(call.arguments)) for call in calls[:last]]
-    return rays_of(asked, camera, SIZE, cases, Run(tuple(values)))
+    calls: list[Call] = KINDS[RAY].calls(asked, cases)
+    values = [answer(dict(call.arguments)) for call in calls]
+    return rays_of(asked, SIZE, cases, Run(tuple(values)))
 
 
 @pytest.mark.parametrize(
@@ -55,10 +50,10 @@ def test_a_right_ray_is_right_on_the_window_s_camera(camera):
     assert not rays.wrong.any()
     assert rays.came.all()
     ray = camera.ray(3, 5, SIZE)
-    assert np.allclose(rays.right_origins[3, 5], ray.origin)
-    assert np.allclose(rays.right_directions[3, 5], ray.direction)
+    assert np.allclose(rays.right[3, 5, 0], ray.origin)
+    assert np.allclose(rays.right[3, 5, 1], ray.direction)
     factor = 1 if camera.is_parallel else 3
-    assert np.allclose(rays.directions[3, 5], factor * np.asarray(ray.direction))
+    assert np.allclose(rays.given[3, 5, 1], factor * np.asarray(ray.direction))
 
 
 def test_wrong_rays_are_marked_where_they_are():
@@ -71,45 +66,12 @@ def test_wrong_rays_are_marked_where_they_are():
     assert rays.wrong.tolist() == [[True] * 6] * 2 + [[False] * 6] * 2
 
 
-def right_basis(known):
-    w = np.subtract(known["eye"], known["target"])
-    w = w / np.linalg.norm(w)
-    u = np.cross(known["up"], w)
-    u = u / np.linalg.norm(u)
-    return [u.tolist(), np.cross(w, u).tolist(), w.tolist()]
-
-
-@pytest.mark.parametrize("camera", [CAMERA, PARALLEL], ids=["perspective", "parallel"])
-def test_a_basis_makes_the_rays_of_the_camera(camera):
-    rays = answered(camera, right_basis, BASIS)
-    assert rays.result.status == "right"
-    ray = camera.ray(1, 4, SIZE)
-    assert np.allclose(rays.origins[1, 4], ray.origin)
-    assert np.allclose(rays.directions[1, 4], ray.direction)
-
-    def mirrored(known):
-        u, v, w = right_basis(known)
-        return [[-part for part in u], v, w]
-
-    wrong = answered(camera, mirrored, BASIS)
-    assert wrong.result.status == "wrong"
-    assert wrong.wrong.all()
-    other = camera.ray(1, SIZE[0] - 1 - 4, SIZE)  # the viewport is symmetric
-    assert np.allclose(wrong.origins[1, 4], other.origin)
-    assert np.allclose(wrong.directions[1, 4], other.direction)
-
-
 def test_the_task_follows_the_projection():
     perspective, parallel = task(RAY), task(RAY, "parallel")
     assert perspective != parallel
     assert for_camera(perspective, PARALLEL) == parallel
     assert for_camera(parallel, CAMERA) == perspective
-    assert for_camera(task(BASIS), PARALLEL) == task(BASIS)
-    assert [is_of_camera(one) for one in (perspective, task(BASIS), task("hit-sphere"))] == [
-        True,
-        True,
-        False,
-    ]
+    assert is_of_camera(perspective) and not is_of_camera(task("hit-sphere"))
 
 
 def test_pixels_pass_from_the_canvas_to_the_image_and_back():

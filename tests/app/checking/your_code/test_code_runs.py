@@ -12,10 +12,10 @@ import pytest
 from right_code import right_ray
 from waiting import wait_for
 
-from lucida.app.checking.calls import Call, Failure, Limits, Run
 from lucida.app.checking.running.file import NotRunnableError
+from lucida.app.checking.tasks import Call, Failure, Limits, Run
 from lucida.app.checking.your_code import runs as runs_module
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion
+from lucida.app.checking.your_code.model import CodeContent, CodeQuestion
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError

@@ -66,7 +66,6 @@ def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
         later.unlink()
         save(file, "two, saved")
         wait_for(lambda: follower.version == 4)
-        assert not follower.is_away
     finally:
         follower.close()
 
@@ -85,29 +84,6 @@ def test_a_module_that_was_saved_while_it_was_read_makes_another_version(tmp_pat
         assert follower.version == 2  # once: the next reading has seen it
     finally:
         follower.close()
-
-
-def test_it_wakes_while_something_runs_and_not_otherwise(tmp_path: Path):
-    woken, busy = threading.Event(), threading.Event()
-    ticked = threading.Semaphore(0)
-    follower = FileFollower(woken.set, busy.is_set, ticked.release)
-    try:
-        follower.follow(str(tmp_path / "rays.py"))
-        for _ in range(3):
-            ticked.acquire()
-        assert not woken.is_set()
-        busy.set()
-        wait_for(woken.is_set)
-    finally:
-        follower.close()
-
-
-def test_nothing_is_looked_at_while_nobody_sees_it(tmp_path: Path):
-    ticks: list[int] = []
-    follower = FileFollower(lambda: None, lambda: True, lambda: ticks.append(1))
-    follower.rest()
-    follower.close()
-    assert not ticks
 
 
 def test_each_platform_s_editor_never_what_would_run_it(monkeypatch):

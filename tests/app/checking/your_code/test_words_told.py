@@ -8,15 +8,20 @@ from typing import Any
 from right_code import right_ray
 
 from lucida.app.checking.builtin import BUILTIN
-from lucida.app.checking.calls import Failure, Run
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
-from lucida.app.checking.your_code.model import RAY, cases_for, rays_of
-from lucida.app.checking.your_code.report import CodeContent, CodeQuestion, CodeReport
+from lucida.app.checking.tasks import Failure, Run
+from lucida.app.checking.your_code.model import (
+    RAY,
+    CodeContent,
+    CodeQuestion,
+    CodeReport,
+    cases_for,
+    rays_of,
+)
 from lucida.app.checking.your_code.words import told_of, verdict_of
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.pixels import Indexing
 
 SIZE = (4, 3)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
@@ -31,7 +36,7 @@ def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> C
     if run is None:
         calls = KINDS[RAY].calls(TASK, cases)
         run = Run(tuple(answer(dict(call.arguments)) for call in calls))
-    rays = rays_of(TASK, CAMERA, SIZE, cases, run)
+    rays = rays_of(TASK, SIZE, cases, run)
     found = CodeReport(QUESTION, (TASK, PARALLEL), TASK, rays, {TASK.name: RIGHT})
     return replace(found, **changes)
 
@@ -42,11 +47,11 @@ def mirrored(known: dict[str, Any]) -> list[list[float]]:
 
 
 def texts(one: CodeReport, pixel: tuple[int, int] | None = None) -> list[str]:
-    return [line.text for line in told_of(one, pixel, Indexing.LECTURE)]
+    return [line.text for line in told_of(one, pixel)]
 
 
 def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
-    found = told_of(report(), None, Indexing.LECTURE)
+    found = told_of(report(), None)
     assert [line.text for line in found] == [
         "Every ray is correct.",
         "viewing-ray: correct in all of 379 cases.",
@@ -71,7 +76,7 @@ def test_wrong_rays_are_told_with_the_reason_of_the_camera_that_names_it():
 def test_the_marked_pixel_in_numbers():
     found = texts(report(mirrored), (1, 2))
     first = next(k for k, text in enumerate(found) if text.startswith("pixel"))
-    assert found[first] == "pixel (2, 3), from 1, of the pictures:"
+    assert found[first] == "pixel (1, 2), from 0, of the pictures:"
     assert found[first + 1].startswith("yours    (1, 2, 5) + t (")
     assert found[first + 2].startswith("correct  (1, 2, 5) + t (")
     assert found[first + 1] != found[first + 2]
@@ -81,7 +86,7 @@ def test_the_marked_pixel_in_numbers():
 
 def test_an_exception_is_told_with_its_own_lines():
     failure = Failure("exception", "rays.py, line 3: ZeroDivisionError", ("File x", "1 / 0"))
-    found = told_of(report(run=Run((), "said\n", failure), output="said\n"), None, Indexing.LECTURE)
+    found = told_of(report(run=Run((), "said\n", failure), output="said\n"), None)
     assert [(line.role, line.text) for line in found[:3]] == [
         ("bad", "rays.py, line 3: ZeroDivisionError"),
         ("code", "File x"),

@@ -13,7 +13,7 @@ from imgui_bundle import hello_imgui, imgui
 from option_changes import with_options
 from window_driver import Driver, Key
 
-from lucida.app.checking.calls import Limits
+from lucida.app.checking.tasks import Limits
 from lucida.app.checking.your_code import model, panel
 from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
 from lucida.app.instruments.outside.view import OutsideView
@@ -142,10 +142,6 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     d.ctx.mouse_click(0)
     d.ctx.yield_(3)
     assert d.window.state.marked is not None
-    # The count is the tasks' once, at a window's first file; then it is the user's.
-    d.window.change(with_options(d.window.state, one_based=True))
-    until_told(d, "pixel (1, 1), from 1")
-    d.window.change(with_options(d.window.state, one_based=False))
     until_told(d, "pixel (0, 0), from 0")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
@@ -246,11 +242,9 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     course.write_text(TASKS)
     opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
-    d.window.change(with_options(d.window.state, one_based=False))
     d.drop([str(course)])
     d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
     until_told(d, "Every ray is correct.", "counting: correct in all of")
-    d.until(lambda: d.window.state.options.one_based)  # as the course counts
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
     until_told(d, "768 of 768 rays are wrong.")
@@ -261,7 +255,6 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     d.ctx.item_click("//$FOCUSED/built-in tasks")
     d.until(lambda: d.window.state.options.your_code.tasks == "")
     until_told(d, "768 of 768 rays are wrong.")
-    d.until(lambda: not d.window.state.options.one_based)
     leave(d)
 
 

@@ -1,0 +1,41 @@
+"""The words of tasks and their meanings, from words.toml."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+Words = Mapping[str, str]
+
+
+class _Kind(msgspec.Struct):
+    """A kind of function. words: its own; groups: those that it shares with other kinds."""
+
+    function: str
+    arguments: tuple[str, ...]
+    answer: str
+    returns: tuple[str, ...] = ()
+    words: dict[str, str] = {}
+    groups: tuple[str, ...] = ()
+    return_words: dict[str, str] = {}
+
+
+class _File(msgspec.Struct):
+    groups: dict[str, dict[str, str]]
+    kinds: dict[str, _Kind]
+
+
+_FILE = msgspec.toml.decode(Path(__file__).with_suffix(".toml").read_bytes(), type=_File)
+GROUPS = _FILE.groups
+
+
+def described(name: str) -> dict[str, Any]:
+    """Return what CheckKind needs to know about a kind of function."""
+    kind = _FILE.kinds[name]
+    own = msgspec.structs.asdict(kind) | {"name": name, "words": dict(kind.words)}
+    for group in own.pop("groups"):
+        own["words"] |= GROUPS[group]
+    return own
