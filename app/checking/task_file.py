@@ -42,12 +42,13 @@ NAME = re.compile(r"[^\W\d]\w*")
 
 @dataclass(frozen=True)
 class TaskSet:
-    """The tasks of a file, and its limits."""
+    """The tasks of a file, and its limits. removed: fields of older versions, which are ignored."""
 
     title: str
     tasks: tuple[CheckTask, ...]
     limits: Limits
     notation: Notation = "book"
+    removed: tuple[str, ...] = ()
 
 
 def load_tasks(path: str | Path) -> TaskSet:
@@ -90,7 +91,8 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
             tasks.append(task)
     limits = Limits()
     limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
-    return TaskSet(file.title, tuple(tasks), limits, file.notation)
+    removed = tuple(name for name in REMOVED if any(name in table for table in file.tasks))
+    return TaskSet(file.title, tuple(tasks), limits, file.notation, removed)
 
 
 def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:

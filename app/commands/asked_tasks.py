@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.errors import LucidaError, visible
 
 if TYPE_CHECKING:
     from lucida.app.checking.running.program import ProgramStudent
@@ -28,6 +29,8 @@ def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
     from lucida.app.checking.task_file import load_tasks
 
     found = load_tasks(task_path(source))
+    for name in found.removed:
+        print(f"lucida: {name} in {visible(source)} is ignored; see CHANGELOG.md", file=sys.stderr)
     return list(found.tasks), found.limits
 
 

@@ -54,6 +54,8 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
+    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
+        images.note("not read: the weights of vertices", "OBJ")
     places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
     corners = [column if column is None else column[places] for column in columns]
     if normals.shape[1] != 3:

@@ -73,7 +73,7 @@ def test_all_that_a_file_can_say(tmp_path):
         weights = [0.299, 0.587, 0.114]
         """,
     )
-    assert found.title == "Homework 2"
+    assert found.title == "Homework 2" and found.removed == ("vectorised",)
     assert (found.limits.seconds, found.limits.memory_mb) == (3.0, 256)
     rays, offset, bits, gray = found.tasks
     says = rays.conventions
