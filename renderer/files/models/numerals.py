@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,6 @@ Ints = NDArray[np.int64]
 
 _LONE_SIGN = re.compile(rb"[-+](?![0-9])")
 _NEWLINE, _SLASH, _BLANK = 10, 47, 32
-_BLOCK = 1 << 20  # bytes that are converted at once
 
 
 def is_number(word: str) -> bool:
@@ -74,22 +72,13 @@ def corners(text: bytes) -> tuple[list[Any], Ints]:
     return columns, counts
 
 
-def _blocks(text: bytes) -> Iterator[bytes]:
-    """Yield the text in blocks of whole lines, since NumPy lets no other thread run in between."""
-    begin = 0
-    while begin < len(text):
-        end = text.find(b"\n", begin + _BLOCK) + 1 or len(text)
-        yield text[begin:end]
-        begin = end
-
-
 def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
     """Return the text's numbers, if there are exactly so many and nothing else."""
     if not count:
         return np.zeros(0, kind)
     with warnings.catch_warnings():  # before NumPy 2.4 it only warned of what is no number
         warnings.simplefilter("ignore", DeprecationWarning)
-        numbers = np.concatenate([np.fromstring(block, kind, sep=" ") for block in _blocks(text)])
+        numbers = np.fromstring(text, kind, sep=" ")
     if len(numbers) != count:
         raise ValueError("not only numbers")
     return numbers
