@@ -88,7 +88,7 @@ def choosing(
     off: object = None,
     **more: Any,
 ) -> Action:
-    """Return the action that gives an option a value.
+    """Return the action that sets an option to a value.
 
     option: such as "shadows" or "images.channel". off: the value that it gives if the option has
     the first one; None: that stays. more: further fields of the action.

@@ -26,7 +26,7 @@ def lettering(font: imgui.ImFont | None, larger: float = 1.0) -> Iterator[None]:
 
 
 def underline(color: ImVec4) -> None:
-    """Underline the last item: what its colour says is to be seen without it."""
+    """Underline the last item: its meaning must be visible without its colour."""
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     draw = imgui.get_window_draw_list()
     draw.add_line((low.x, high.y), (high.x, high.y), theme.u32(color), theme.px(1.5))

@@ -1,4 +1,4 @@
-"""`lucida [SCENE]`: open what the command line gives in a window, or draw it once."""
+"""`lucida [SCENE]`: open the scene of the command line in a window, or draw it once."""
 
 from __future__ import annotations
 

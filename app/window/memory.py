@@ -19,7 +19,7 @@ _M_ARENA_MAX = -8  # in glibc's malloc.h
 
 
 class FreedMemory:
-    """Create it before there are threads: glibc gives each one a heap, up to eight a core."""
+    """Create it before there are threads: glibc makes a heap for each one, up to eight a core."""
 
     def __init__(self) -> None:
         self._returns_s = math.inf

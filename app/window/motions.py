@@ -1,4 +1,4 @@
-"""What moves by itself in the window: a camera's transition, a movement between two states, and a
+"""The movements of the window itself: a camera's transition, a movement between two states, and a
 flight while keys are held.
 """
 

@@ -168,7 +168,7 @@ ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for anot
 
 @dataclass(frozen=True)
 class CodeContent:
-    """What is asked about.
+    """The file, the tasks and the words of one check.
 
     path: of the file.
     tasks: the file of tasks, "" for the built-in ones.

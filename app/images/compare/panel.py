@@ -78,7 +78,7 @@ def toolbar(host: Host) -> None:
 
 
 def footer(host: Host, told: CompareReport, is_short: bool, draw_map: DrawMap) -> None:
-    """Draw everything below the image, or the headline and the scale alone if it is to be short.
+    """Draw everything below the image, or the headline and the scale alone if there is little room.
 
     Its height depends only on what the user does, so that nothing jumps. draw_map: draws the colour
     map between two corners.

@@ -1,4 +1,4 @@
-"""What a page of the laboratory draws from."""
+"""The data that a page of the laboratory draws."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The inspector's lines for materials.
 
-A change gives the selection a material of its own.
+After a change, the selection has a material of its own.
 """
 
 from __future__ import annotations

@@ -329,7 +329,7 @@ class OutsideView(Instrument):
         return MadePicture(key, texture, primitives, labels)
 
     def content(self, host: Host, screen: OutsideScreen) -> Content:
-        """Return what is to be drawn on a screen, with rays' ends as far as they are known."""
+        """Return the content of a screen, with rays' ends as far as they are known."""
         assert self.tools is not None
         both, state = host.renderers, host.state
         camera, size, options = both.camera(state), both.size, state.options.outside

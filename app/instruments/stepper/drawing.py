@@ -31,7 +31,7 @@ Lit = Mapping[int, float]  # for the numbers of lines, the opacity of their high
 
 @dataclass(frozen=True)
 class Drawn:
-    """What is drawn of a program.
+    """The drawn part of a program.
 
     in_words: the program is prose.
     """

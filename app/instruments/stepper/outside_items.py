@@ -1,4 +1,4 @@
-"""What the outside view shows of the loops: the current pixel, its ray, the current triangle."""
+"""The stepper's part of the outside view: the current pixel, its ray, the current triangle."""
 
 from __future__ import annotations
 

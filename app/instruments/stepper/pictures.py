@@ -1,4 +1,4 @@
-"""What a lecture shows of the loops: programs that run, with the images that they fill."""
+"""The lecture's pictures of the loops: programs that run, with the images that they fill."""
 
 from __future__ import annotations
 

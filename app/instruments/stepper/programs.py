@@ -131,7 +131,7 @@ def hits_of(model: Model, camera: Camera, size: Size) -> Hits:
 
 @dataclass(frozen=True, eq=False)
 class LoopMoment:
-    """What a run shows at a moment.
+    """The state of a run at one moment.
 
     canvas: linear light (height, width, 3), NaN where nothing was set.
     pixel: the current one; None before the run and after it.

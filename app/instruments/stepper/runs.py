@@ -1,4 +1,4 @@
-"""What is computed in the background of the current scene, camera and canvas."""
+"""The background work of the stepper for the current scene, camera and canvas."""
 
 from __future__ import annotations
 

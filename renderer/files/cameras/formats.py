@@ -149,7 +149,7 @@ def written(
 
 
 def _held(posed: PosedCamera, entry: Format, options: Options) -> PosedCamera:
-    """Return the camera, without its lens if that is to be ignored. Raises LucidaError for a lens
+    """Return the camera, without its lens if the options ignore it. Raises LucidaError for a lens
     that the format cannot hold: a lens is never dropped silently.
     """
     if options.ignore_distortion:

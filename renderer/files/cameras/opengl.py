@@ -97,7 +97,7 @@ def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
 
 
 def _assigned(text: str) -> dict[str, str]:
-    """Return what follows each name, without the type that stands before it in C."""
+    """Return what follows each name, without the type before it in C."""
     return {name.rpartition(" ")[2]: value for name, value in assigned(text).items()}
 
 
