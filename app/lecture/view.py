@@ -245,7 +245,7 @@ class LectureView(Instrument):
         """Handle new steps and newer files. Call once a frame, also while the view is hidden."""
         if self.session is None:
             return
-        division = self._is_over(host), _is_stacked(self.session.step.views)
+        division = self._is_over(host), is_stacked(self.session.step.views, layout.window_px())
         if division != (self._lies_over, self._is_stacked):
             self._lies_over, self._is_stacked = division
             self._arrange()
@@ -349,7 +349,7 @@ class LectureView(Instrument):
             self.go(host, asked)
 
 
-def _is_stacked(views: Sequence[str]) -> bool:
+def is_stacked(views: Sequence[str], window_px: tuple[float, float]) -> bool:
     """Return True if a step's two pictures are larger one above the other."""
-    width, height = layout.window_px()
+    width, height = window_px
     return len(views) == 2 and width < STACKED * height and UPRIGHT.isdisjoint(views)

@@ -11,6 +11,7 @@ from sample_lecture import FILE, read
 from lucida.app.lecture.exercises import ChoiceExercise, RayExercise
 from lucida.app.lecture.reading import lecture_from_toml, load_lecture
 from lucida.app.lecture.step_options import ELSEWHERE, state_of
+from lucida.app.lecture.view import is_stacked
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options import Options
 from lucida.renderer.camera.camera import Camera
@@ -172,3 +173,16 @@ answers = [
     assert str(told.value).startswith(
         "x.toml:9: steps[0].exercise.answers[0].wrong[0].feedback: a formula does not end"
     )
+
+
+@pytest.mark.parametrize(
+    ("views", "window", "stacked"),
+    [
+        (("outside", "ray"), (1024, 768), True),
+        (("outside", "ray"), (1200, 800), False),
+        (("stepper", "ray"), (1024, 768), False),
+        (("outside",), (1024, 768), False),
+    ],
+)
+def test_two_pictures_are_stacked_in_a_window_narrower_than_3_to_2(views, window, stacked):
+    assert is_stacked(views, window) == stacked

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from imgui_bundle import ImVec2
 
 from lucida.app.instruments.objects.handles import (
     STEPS_PER_REACH,
@@ -11,10 +12,12 @@ from lucida.app.instruments.objects.handles import (
     frame_of,
     gizmo,
     handle_of,
+    length_px,
     moved_by,
     operation_of,
     snap_step,
 )
+from lucida.app.ui import theme
 from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import fields_of, set_field
 from lucida.renderer.editing.moving import bounds_of, matrix_of
@@ -170,3 +173,9 @@ def test_what_has_a_direction_alone_is_turned_where_others_are_moved(items):
     assert kind("move", "point") == "move"
     assert kind("none", "directional") == "none"
     assert kind("scale", "directional") == "scale"
+
+
+@pytest.mark.parametrize("size", [(100, 768), (768, 100)])
+def test_handles_stay_in_a_narrow_picture(size, monkeypatch) -> None:
+    monkeypatch.setattr(theme, "px", float)  # type of 100 %, which ImGui knows in a window alone
+    assert length_px(ImVec2(*size), ImVec2(*size)) == pytest.approx(24)
