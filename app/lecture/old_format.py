@@ -8,8 +8,9 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
-from lucida.app.lecture.schema import StepTable
+from lucida.app.lecture.schema import OldStepTable, StepTable
 from lucida.app.lecture.text import Block, ItemList, parse
 
 Blocks = tuple[Block, ...]
@@ -20,12 +21,21 @@ REMEDY = (
 )
 
 
-def fields_of(table: StepTable) -> list[str]:
+def kind_of(table: Any) -> type[StepTable]:
+    """Return the structure of a step's table, which has not been checked yet.
+
+    Only a table with removed fields has them, so that no message suggests one to others.
+    """
+    is_old = isinstance(table, dict) and not table.keys().isdisjoint(FIELDS)
+    return OldStepTable if is_old else StepTable
+
+
+def fields_of(table: OldStepTable) -> list[str]:
     """Return the removed fields in a step."""
     return [name for name in FIELDS if getattr(table, name)]
 
 
-def old_builds(table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
+def old_builds(table: OldStepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
     """Return the texts of a step one after another: with the items of its lists one by one if it
     reveals them, and with the answer last. With each, the blocks that stay from the one before.
     """

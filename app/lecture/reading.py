@@ -14,13 +14,14 @@ from lucida.app.checking.task_file import check_known
 from lucida.app.lecture import text as texts
 from lucida.app.lecture.inheriting import inherited
 from lucida.app.lecture.model import Lecture, Step, Written
-from lucida.app.lecture.old_format import REMEDY, fields_of, old_builds
+from lucida.app.lecture.old_format import REMEDY, fields_of, kind_of, old_builds
 from lucida.app.lecture.reading_exercises import exercise_of, pixel_of
 from lucida.app.lecture.schema import (
     DEFAULT_VIEWS,
     VIEWS,
     BuildTable,
     LectureFile,
+    OldStepTable,
     StepTable,
 )
 from lucida.app.lecture.step_options import files_named, options_from_table, with_files
@@ -147,7 +148,7 @@ class _LectureReader:
         part, pieces = "", 0
         for number, table in enumerate(file.steps):
             field = f"steps[{number}]"
-            entry: StepTable = to_struct(table, StepTable, field)
+            entry: StepTable = to_struct(table, kind_of(table), field)
             part = entry.part or part
             for path, text in texts_of(table, field):
                 with under(path):
@@ -246,8 +247,7 @@ class _LectureReader:
 
     def _old_builds(self, table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
         """Return the texts of a step that may be of an older format, with what stays before."""
-        old = fields_of(table)
-        if not old or table.builds:
+        if not isinstance(table, OldStepTable) or table.builds or not (old := fields_of(table)):
             return [((), blocks)]
         if not self._old:
             field = f"{self._at}.{old[0]}"

@@ -28,7 +28,6 @@ class StepTable(StrictTable):
     pixel: the marked pixel, row and column, counted as the lecture does.
     full: the picture fills the window, and the text lies over it.
     exercise: asked in the last build.
-    reveal, answer, links, low, highlight: of the format before builds, see old_format.py.
     """
 
     title: str
@@ -43,6 +42,11 @@ class StepTable(StrictTable):
     pixel: tuple[int, int] | None = None
     exercise: dict[str, Any] | None = None
     builds: list[Any] = field(default_factory=list)
+
+
+class OldStepTable(StepTable):
+    """[[steps]] with fields of the format before builds, see old_format.py."""
+
     reveal: bool = False
     answer: str = ""
     links: dict[str, Any] = field(default_factory=dict)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from plain_text import plain_text
 from sample_lecture import read as read_text
 
 from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.old_format import FIELDS
 from lucida.app.lecture.reading import BUILDS, BUILTIN, load_lecture
 from lucida.app.lecture.session import LectureSession
 from lucida.app.lecture.step_options import state_of
@@ -116,6 +118,14 @@ def test_wrong_values_cost_one_line(more, said):
     with pytest.raises(LucidaError) as caught:
         read(f"{STEP}{BUILD}{more}\n")
     assert str(caught.value).startswith(f"x.toml:{said}")
+
+
+def test_an_unknown_field_is_not_told_to_be_one_that_left():
+    for near in ("revael = true", "answers = 'So.'", "hilight = []", "zzz = 1"):
+        with pytest.raises(LucidaError) as caught:
+            read(f"{STEP}{near}\n")
+        _, told, remedy = str(caught.value).partition(": is unknown; ")
+        assert told and set(re.findall(r"\w+", remedy)).isdisjoint(FIELDS)
 
 
 def test_a_step_has_so_many_builds():
