@@ -55,19 +55,23 @@ RAY_TRACING = (
 
 
 def whole_program(camera: Camera) -> tuple[Line, ...]:
-    """Return ray tracing with the formulas of a camera, in Python, with pixels counted from 0."""
+    """Return ray tracing with the formulas of a camera, in Python, with pixels counted from 0.
+
+    Both notations name the camera `cam`.
+    """
     place = "(j + 0.5) / width - 0.5", "-((i + 0.5) / height - 0.5)"
     if camera.viewport != (-0.5, 0.5, -0.5, 0.5):
         place = (
-            "left + (j + 0.5) / width * (right - left)",
-            "top - (i + 0.5) / height * (top - bottom)",
+            "cam.left + (j + 0.5) / width * (cam.right - cam.left)",
+            "cam.top - (i + 0.5) / height * (cam.top - cam.bottom)",
         )
-    ray = "eye", "x*u + y*v - distance*w"
+    ray = "cam.eye", "x*cam.u + y*cam.v - cam.distance*cam.w"
     if camera.is_parallel:
-        ray = "eye + x*u + y*v", "-w"
+        ray = "cam.eye + x*cam.u + y*cam.v", "-cam.w"
     return (
-        Line("def render(scene, canvas):", "once"),
-        Line("    height, width = size(canvas)", "once"),
+        Line("from objects import color, intersect, miss", "once"),
+        Line("def render(scene, cam, canvas):", "once"),
+        Line("    height, width = canvas.shape[:2]", "once"),
         Line("    for i in range(height):", "row"),
         Line("        for j in range(width):", "outer"),
         Line(f"            x = {place[0]}", "outer"),

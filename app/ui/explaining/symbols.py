@@ -56,7 +56,10 @@ NAMES: dict[Notation, str] = {
 _VECTORS = {one.book: one.code for one in TABLE if one.is_vector}
 _SCALARS = {one.book: one.code for one in TABLE if not one.is_vector}
 _LETTERS = {one.code: one.letter for one in TABLE} | {
-    f"camera.{one.code}": f"camera.{one.book}" for one in TABLE if one.of_camera
+    f"{camera}.{one.code}": f"{camera}.{one.book}"
+    for camera in ("cam", "camera")
+    for one in TABLE
+    if one.of_camera
 }
 _WORDS = {one.letter: one.code for one in TABLE}
 _ARGUMENTS = {one.code: one.book for one in TABLE if one.code not in ("x", "y", "point")}

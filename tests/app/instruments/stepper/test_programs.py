@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -90,19 +93,18 @@ def test_a_scene_without_objects_is_background() -> None:
 def drawn_by(lines: tuple[str, ...], scene: Scene, camera: Camera) -> np.ndarray:
     """Run a program's text; vectors are of the camera, in letters or in words."""
     model, array = Model(scene), np.full((SIZE[1], SIZE[0], 3), np.nan)
-    vectors = {name: np.array(getattr(camera, name)) for name in ("eye", "u", "v", "w")}
-    letters = {"e": vectors["eye"], "d": camera.distance, **vectors}
-    names: dict[str, object] = {**vectors, "distance": camera.distance}
-    names |= zip(("left", "right", "bottom", "top"), camera.viewport, strict=True)
-    names |= {
-        "cam": SimpleNamespace(**letters),
-        "size": lambda canvas: (SIZE[1], SIZE[0]),
+    fields = {name: np.array(getattr(camera, name)) for name in ("eye", "u", "v", "w")}
+    fields |= {"e": fields["eye"], "d": camera.distance, "distance": camera.distance}
+    fields |= zip(("left", "right", "bottom", "top"), camera.viewport, strict=True)
+    objects = {
         "miss": SimpleNamespace(t=math.inf, color=model.background),
         "intersect": lambda thing, *ray: hit_of(model, camera, thing, *ray),
         "color": lambda hit: hit.color,
     }
-    exec(compile("\n".join(lines), "program", "exec"), names)
-    names["render"](model.objects, array)  # type: ignore[operator]
+    names: dict[str, Any] = {}
+    with patch.dict(sys.modules, objects=SimpleNamespace(**objects)):
+        exec(compile("\n".join(lines), "program", "exec"), names)
+    names["render"](model.objects, SimpleNamespace(**fields), array)
     return array
 
 
@@ -120,7 +122,7 @@ def test_the_whole_program_draws_the_image(projection, notation) -> None:
     simple = replace(Camera.canonical(), projection=projection)
     for camera in (simple, replace(own, projection=projection, viewport=(-0.4, 0.5, -0.3, 0.6))):
         texts = tuple(line.text for line in whole_program(camera))
-        assert ("left" in texts[4]) == (camera is not simple) and len(texts) <= 15
+        assert ("left" in texts[5]) == (camera is not simple) and len(texts) <= 15
         lines = shown_lines(texts, notation, Indexing.LECTURE)
         told = image_order(Model(scene), camera, SIZE).array
         np.testing.assert_allclose(drawn_by(lines, scene, camera), told, atol=1e-9)
