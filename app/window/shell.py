@@ -177,7 +177,7 @@ class Shell:
 
     def frame(self, window: Host) -> None:
         """Update the parts. Call once a frame, before the views."""
-        self._draw_until_divided(window)
+        self.draw_until_divided(window)
         self.stage.follow()
         self.stage.leave_out_hidden(window)
         self._keep(window)
@@ -194,7 +194,7 @@ class Shell:
             else:
                 self.files.message = text
 
-    def _draw_until_divided(self, window: Host) -> None:
+    def draw_until_divided(self, window: Host) -> None:
         """Request frames until bars and views have their places: each takes effect a frame later,
         and the idle window of a slow machine would show what is in between for seconds.
         """

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from typing import Any
-from unittest.mock import patch
 
 from capitals import capital_heights
 from imgui_bundle import hello_imgui, imgui
@@ -13,7 +12,6 @@ from window_driver import SIZE, Driver, Key
 
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.view import LECTURE
-from lucida.app.window.shell import REDRAWN
 
 
 def overflow(d: Driver) -> float:
@@ -96,19 +94,3 @@ def drive_the_lecture_ends(d: Driver) -> None:
     assert state.images.resolution is None and not state.preferences.presentation
     shown = {view.name for view in d.window.shell.stage.shown}
     assert {"Camera", "Raster", "Ray"} <= shown and LECTURE not in shown
-
-
-def drive_frames_are_drawn_until_the_views_have_their_places(d: Driver) -> None:
-    """Otherwise an idle window shows a division that is under way."""
-    d.ctx.yield_(REDRAWN + 1)
-    with patch.object(d.window, "animate") as request:
-        d.ctx.yield_(4)
-        assert not request.called
-        d.press(int(Key.f9))
-        assert request.called
-        d.settle()
-        d.ctx.yield_(REDRAWN + 1)
-        request.reset_mock()
-        d.ctx.yield_(4)
-        assert not request.called
-    d.press(int(Key.f9))
