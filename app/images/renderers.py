@@ -158,8 +158,6 @@ class Renderers(ImageSize):
             if image is None or image.factor != factor:
                 return
             time_s += image.frame.time_s
-        elif not self.panes_px:  # on the image plane alone: the outside view has half of the time
-            time_s *= 2
         width, height = reduced(self.size, factor)
         self._pace.measured(factor, width * height, time_s)
 

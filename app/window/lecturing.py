@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from lucida.app.instruments.laboratory.view import LABORATORY, LaboratoryView
 from lucida.app.lecture.answer_log import AnswerLog
-from lucida.app.lecture.model import Lecture
+from lucida.app.lecture.model import Lecture, Step
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Theme
 from lucida.app.ui.surface import Target
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from lucida.app.web.lecture.page import Still
 
 THEMED = {"stepper", "costs", "probe", "mistakes", "poses"}  # views in the theme's colours
+WORLD_TYPE = 1.5  # the type's size in stills of the world against a hall's: phones show a third
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 
 
@@ -131,8 +132,8 @@ def lecture_stills(
     """Return pictures of the views in each build.
 
     They are without tools, and in the light theme, for prints; views in the theme's colours also in
-    the dark one. path, size: as in export_lecture().
-    Needs no display. Raises LucidaError.
+    the dark one. The outside view's type is larger than in the window. path, size: as in
+    export_lecture(). Needs no display. Raises LucidaError.
     """
     from lucida.app.web.lecture.page import Still
 
@@ -173,7 +174,7 @@ def _draw_builds(
     platform = start_platform(want_display=False)
     state = first_state(lecture)
     if for_print:
-        state = _in_theme(state, "light")
+        state = _for_still(state, lecture.builds[0], "light")
     run = WindowRun(platform, state, size, take_picture=True)
     run.take_picture = False  # not one picture at the end: one a build
     window = run.window
@@ -192,14 +193,15 @@ def _draw_builds(
         if quiet > QUIET_FRAMES:
             take(place, window, target)
             quiet, began_s = 0, time.monotonic()
-            if for_print and THEMED.intersection(step.views):
-                is_light = window.state.preferences.theme == "light"
-                window.amend(_in_theme(window.state, "dark" if is_light else "light"))
-                if is_light:
-                    return
+            is_light = window.state.preferences.theme == "light"
+            if for_print and is_light and THEMED.intersection(step.views):
+                window.amend(_for_still(window.state, step, "dark"))
+                return
             place += 1
             progress(place / count)
             if place < count:
+                if for_print:
+                    window.amend(_for_still(window.state, lecture.builds[place], "light"))
                 window.lecture.advance(window, 1)
             else:
                 run.params.app_shall_exit = True
@@ -214,5 +216,7 @@ def _draw_builds(
     run.run()
 
 
-def _in_theme(state: AppState, theme: Theme) -> AppState:
-    return state.with_options(replace(state.options.preferences, theme=theme))
+def _for_still(state: AppState, build: Step, theme: Theme) -> AppState:
+    """Return the state with the preferences for a still of this build."""
+    scale = WORLD_TYPE if "outside" in build.views else 1.0
+    return state.with_options(replace(state.options.preferences, theme=theme, font_scale=scale))
