@@ -197,7 +197,7 @@ def _set_style() -> None:
     fresh = imgui.Style()
     for name in dir(fresh):
         value = getattr(fresh, name)
-        if isinstance(value, float | ImVec2) and not name.startswith("_next"):
+        if isinstance(value, float | ImVec2) and not name.startswith(("_next", "font_")):
             setattr(imgui.get_style(), name, value)
     base = hello_imgui.ImGuiTheme_
     hello_imgui.apply_theme(

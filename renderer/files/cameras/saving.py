@@ -14,13 +14,14 @@ from lucida.renderer.system.errors import LucidaError
 def save_files(path: Path, files: Mapping[str, bytes]) -> None:
     """Write one file (named "") or a folder of files.
 
-    Raises LucidaError, and replaces no file, if one of them cannot be written.
+    Raises LucidaError, and leaves everything as it was, if one of them cannot be written.
     """
     if "" in files:
         with atomic_write(path) as file:
             file.write(files[""])
         return
-    if not path.is_dir():
+    is_new = not path.is_dir()
+    if is_new:
         check_writable(path)
         try:
             path.mkdir()
@@ -30,8 +31,14 @@ def save_files(path: Path, files: Mapping[str, bytes]) -> None:
     if others:
         problem = f"holds other files, such as {others[0]!r}"
         raise LucidaError("", problem, "give a folder of its own", str(path))
-    with contextlib.ExitStack() as stack:  # the files are renamed when all are written
-        for name, data in files.items():
-            file = stack.enter_context(atomic_write(path / name))
-            file.write(data)
-            file.flush()  # a full disk shows before any file is replaced
+    try:
+        with contextlib.ExitStack() as stack:  # the files are renamed when all are written
+            for name, data in files.items():
+                file = stack.enter_context(atomic_write(path / name))
+                file.write(data)
+                file.flush()  # a full disk shows before any file is replaced
+    except BaseException:
+        if is_new:
+            with contextlib.suppress(OSError):
+                path.rmdir()
+        raise

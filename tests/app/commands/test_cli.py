@@ -144,7 +144,7 @@ class TestMistakes:
             ("camera a.json --undistort=out", "--undistort: is no longer part of Lucida; COLMAP's"),
             (
                 "lecture --results no no2 -o a.html",
-                "--results: no: cannot be read: no such file or directory",
+                "--results: no: does not exist in",
             ),
         ],
     )

@@ -20,7 +20,7 @@ from lucida.app.web.lecture.mathml import inline
 from lucida.app.web.lecture.page import Still, page
 from lucida.app.web.lecture.text import blocks_html
 
-AXE = Path(__file__).parents[3] / "page/node_modules/axe-core/axe.min.js"
+AXE = Path(__file__).parents[1] / "node_modules/axe-core/axe.min.js"
 TITLES = (  # of steps with one of everything
     "Where do viewing rays come from?", "Raster images", "Parallel projection", "Ray tracing",
     "Exercise: hide the box", "From pixel to (u, v)", "One pixel, worked out",
