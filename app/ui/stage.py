@@ -141,7 +141,11 @@ class Stage:
             label = _large_label(view) if self.maximised else view.label
             imgui.set_window_focus(label)
             if self._by_key:
-                imgui.internal.nav_init_window(imgui.internal.find_window_by_name(label), False)
+                window = imgui.internal.find_window_by_name(label)
+                if window is None:  # a view is maximised for the first time, later in this frame
+                    self._next_focus = name
+                    return
+                imgui.internal.nav_init_window(window, False)
                 imgui.set_nav_cursor_visible(True)
             self._by_key = False
 
