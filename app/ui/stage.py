@@ -141,11 +141,10 @@ class Stage:
             label = _large_label(view) if self.maximised else view.label
             imgui.set_window_focus(label)
             if self._by_key:
-                window = imgui.internal.find_window_by_name(label)
-                if window is None:  # a view is maximised for the first time, later in this frame
+                if self.maximised and name not in self.rects:  # drawn later in this frame
                     self._next_focus = name
                     return
-                imgui.internal.nav_init_window(window, False)
+                imgui.internal.nav_init_window(imgui.internal.find_window_by_name(label), False)
                 imgui.set_nav_cursor_visible(True)
             self._by_key = False
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from lucida.app.instruments.objects import editing
 from lucida.app.instruments.objects.choosing import chosen, everything, walked
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.action import Action, changing
+from lucida.app.ui.action import Action, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.editing import objects
 from lucida.renderer.scene.focus import Focus
@@ -17,25 +18,10 @@ MENU, HANDLES = "Scene", "Scene/Handles"
 
 
 def _toggle(
-    menu: str,
-    name: str,
-    field: str,
-    on: object,
-    off: object,
-    keys: str = "",
-    separated: bool = False,
+    menu: str, name: str, field: str, on: object, off: object, keys: str = "", **more: Any
 ) -> Action:
-    """Return the action that switches an option between two values."""
-
-    def is_on(state: AppState) -> bool:
-        return bool(getattr(state.options.objects, field) == on)
-
-    def toggled(state: AppState) -> AppState:
-        return state.with_options(
-            state.options.with_changes({"objects": {field: off if is_on(state) else on}})
-        )
-
-    return Action(menu, name, changing(toggled), keys, is_on=is_on, separated=separated)
+    """Return the action that switches an option of objects between two values."""
+    return choosing(menu, name, f"objects.{field}", on, keys, off, **more)
 
 
 def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Host], None]:
