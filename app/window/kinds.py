@@ -42,7 +42,7 @@ def _is_tasks(source: str) -> bool:
 def _is_view(source: str) -> bool:
     """Return True for a view file: a camera without objects."""
     text = _toml(source)
-    return b"[camera]" in text and b"objects" not in text and not is_lecture(source)
+    return b"[camera]" in text and b"objects" not in text
 
 
 def _is_code(source: str) -> bool:
@@ -62,8 +62,8 @@ def _toml(source: str) -> bytes:
 _KINDS: tuple[tuple[Kind, Callable[[str], bool]], ...] = (
     ("tasks", _is_tasks),
     ("photograph", is_photograph),
-    ("view", _is_view),
     ("lecture", is_lecture),
+    ("view", _is_view),  # not before lectures, whose steps have cameras
     ("cameras", is_cameras),
     ("code", _is_code),
 )

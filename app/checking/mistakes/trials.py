@@ -26,6 +26,7 @@ Numbers = NDArray[np.intp]
 # well above those of float64 (2^-53) and of float32 (2^-24), respectively.
 STRICT, LOOSE = 1e-11, 2.0**-18
 FEW = 12  # cases that rule out most mistakes
+EXACT = ("to-bitmap", "memory-offset")  # kinds whose answers must be equal
 
 
 def candidates(program: Program, trial: Trial, wrong: NDArray[np.bool_]) -> tuple[Mistakes, ...]:
@@ -69,9 +70,6 @@ def _worst(
 
 def _chosen(tried: Sequence[Mistakes], flags: NDArray[np.bool_]) -> list[Mistakes]:
     return [one for one, is_chosen in zip(tried, flags, strict=True) if is_chosen]
-
-
-EXACT = ("to-bitmap", "memory-offset")
 
 
 def trial_of(

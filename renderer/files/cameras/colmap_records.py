@@ -133,8 +133,9 @@ class _Binary:
 
     def take(self, form: str) -> tuple[Any, ...]:
         """Return the next values. Raises LucidaError if the file ends within them."""
+        begin = self.place
         self.skip(struct.calcsize(form))
-        return struct.unpack_from(form, self._data, self.place - struct.calcsize(form))
+        return struct.unpack_from(form, self._data, begin)
 
     def skip(self, size_bytes: int) -> None:
         self.place += size_bytes

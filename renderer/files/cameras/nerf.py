@@ -91,17 +91,18 @@ def read(given: Given, options: Options) -> CameraSet:
     size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
     cameras = []
-    for i, frame in enumerate(frames):
+    tables = [{**table, **frame} for frame in frames]
+    for i, whole in enumerate(tables):
         try:
-            cameras.append(_camera({**table, **frame}, size, folder, options))
+            cameras.append(_camera(whole, size, folder, options))
         except LucidaError as error:
-            inside = error.field in ("transform_matrix", *frame)
+            inside = error.field in ("transform_matrix", *frames[i])
             raise error.within(f"frames[{i}]") if inside else error from None
     taken = ["transform_matrix takes the camera's points to the world"]
     taken += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         taken.append("transform_matrix is no rotation, and held as it is")
-    if any(_disagree({**table, **frame}) for frame in frames):
+    if any(map(_disagree, tables)):
         taken.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     unused = (name for part in (table, *frames) for name in part if name not in _USED)
     notes = (*filter(None, [sizing]), *notes_on(unused))
