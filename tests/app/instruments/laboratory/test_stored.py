@@ -36,9 +36,7 @@ def test_the_lecture_s_bright_scene_is_clipped_in_part_and_its_highlight_returns
     after_ev = step.changes["laboratory"]["after_ev"]
     lost = (color > 1).all(axis=2)
     assert 0.01 < lost.mean() < 0.3
-    flat, bright = (
-        kept(color, kind, 0.0, after_ev)[lost] for kind in (kinds.COLOR, kinds.FLOAT)
-    )
+    flat, bright = (kept(color, kind, 0.0, after_ev)[lost] for kind in (kinds.COLOR, kinds.FLOAT))
     assert flat.max() == to_srgb8(2.0**after_ev)  # white, darkened
     assert len(np.unique(bright)) > 20 and bright.max() > flat.max() + 50
     assert (to_srgb8(color, after_ev) == 255).mean() < 0.001  # no longer clipped
