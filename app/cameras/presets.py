@@ -22,7 +22,6 @@ from lucida.renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side
 MARGIN = 1.1  # of the picture around the framed points
-FOV_Y_DEG = 35.0  # of the presets in perspective
 SMALLEST = 1e-9  # smallest extent, relative to the distance to the world's origin
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -30,16 +29,12 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 @dataclass(frozen=True)
 class Preset:
-    """A basis with a name.
-
-    oblique: w is not perpendicular to u and v, which is meant for parallel rays only.
-    """
+    """A basis with a name."""
 
     name: str
     u: Vector
     v: Vector
     w: Vector
-    oblique: bool = False
 
 
 def _looking_along(w: Vector) -> tuple[Vector, Vector, Vector]:
@@ -81,14 +76,12 @@ PRESETS = (
         AXES["x"],
         AXES["y"],
         _receding(1.0),
-        oblique=True,
     ),
     Preset(
         "Cabinet",
         AXES["x"],
         AXES["y"],
         _receding(0.5),
-        oblique=True,
     ),
 )
 
@@ -99,26 +92,16 @@ def preset_view(
     framed_points: ArrayLike,
     everything: ArrayLike,
     aspect: float,
-    perspective: bool = False,
 ) -> View:
-    """Return the preset's camera with the scene in the picture, in place of the view's.
+    """Return the preset's camera, in parallel projection, with the scene in the picture.
 
     framed_points, everything: (n, 3), world space, as in Focus.
     aspect: the image's, width over height.
-    perspective: not parallel, if the preset allows that. Then a lens stays.
 
     Raises LucidaError if the scene is too large for a camera.
     """
-    perspective = perspective and not preset.oblique
-    camera = Camera(
-        u=preset.u,
-        v=preset.v,
-        w=preset.w,
-        distance=0.5 / math.tan(math.radians(FOV_Y_DEG) / 2) if perspective else 1.0,
-        viewport=(-aspect / 2, aspect / 2, -0.5, 0.5),
-        projection="perspective" if perspective else "parallel",
-        lens=view.camera.lens if perspective else None,
-    )
+    viewport = (-aspect / 2, aspect / 2, -0.5, 0.5)
+    camera = Camera(u=preset.u, v=preset.v, w=preset.w, viewport=viewport, projection="parallel")
     return replace(view, camera=framed(camera, framed_points, everything))
 
 

@@ -130,7 +130,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCamera | None) -> str:
-    from lucida.app.cameras.described import Fact, as_data, as_text, facts
+    from lucida.app.cameras.described import as_data, as_text, facts
 
     if arguments.json:
         return json.dumps(as_data(found, chosen), indent=2, allow_nan=False)
@@ -138,7 +138,7 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
     if chosen is None:
         name = next((camera.name for camera in found.cameras if camera.name), "")
         by_name = f", or --image NAME, such as {name!r}" if name else ""
-        told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
+        told.append(("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
     return as_text(told)
 
 

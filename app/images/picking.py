@@ -65,14 +65,6 @@ def _by_object(scene: Scene, origin: Floats, directions: Floats) -> Iterator[tup
         yield k, meet(shape, origin, directions)  # type: ignore[arg-type]
 
 
-def is_quick(scene: Scene) -> bool:
-    """Return True if nearest_hit() takes only a small part of a frame."""
-    if len(scene.objects) > MOST_OBJECTS:
-        return False
-    meshes = (entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh))
-    return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
-
-
 def _sphere(sphere: Sphere, origin: Floats, directions: Floats) -> Floats:
     """Return the smallest t > 0 at which each ray hits the sphere; infinity if there is none."""
     offset = np.asarray(sphere.center) - origin
