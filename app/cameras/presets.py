@@ -17,7 +17,6 @@ from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side
@@ -111,12 +110,15 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
     The basis and the viewport's shape stay. In perspective the eye moves; in parallel projection
     the viewport is resized. Without points, the camera is unchanged.
     everything: points that must also be in front of a parallel camera.
-    A lens is taken as the pinhole that sees as much, up to WIDEST.
+    A lens is taken as the pinhole with its viewport, up to WIDEST.
 
     Raises LucidaError.
     """
     if camera.lens is not None:
-        return replace(camera, eye=framed(_ideal(camera, camera.lens), points).eye)
+        most = WIDEST * camera.distance
+        left, right, bottom, top = np.clip(camera.viewport, -most, most).tolist()
+        frame = replace(camera.pinhole, viewport=(left, right, bottom, top))
+        return replace(camera, eye=framed(frame, points).eye)
     world = np.asarray(points, float).reshape(-1, 3)
     if not len(world):
         return camera
@@ -143,22 +145,6 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
     z = max(float(needed.max()), float(high[2]) + 0.05 * float(high[2] - low[2]) + least)
     at = np.append(middle[:2] - center / camera.distance * (z - middle[2]), z)
     return replace(camera, eye=(camera.basis @ at).tolist())
-
-
-def _ideal(camera: Camera, lens: Lens) -> Camera:
-    """Return the pinhole whose viewport's edges are where the lens's are ideally, up to WIDEST."""
-    left, right, bottom, top = camera.viewport
-    middle = (left + right) / 2, (bottom + top) / 2
-    x = np.array([left, right, middle[0], middle[0]])
-    y = np.array([middle[1], middle[1], bottom, top])
-    to_right, down, ahead = lens.direction(x / camera.distance, -y / camera.distance)
-    across = np.append(to_right[:2], -down[2:])
-    seen = across / np.where(ahead > 0, ahead, 1e-9)
-    edges = np.where(np.isnan(seen), np.sign(camera.viewport) * WIDEST, seen)
-    edges = np.clip(edges, -WIDEST, WIDEST) * camera.distance
-    if not (edges[0] < edges[1] and edges[2] < edges[3]):  # far off-axis
-        return camera.pinhole
-    return replace(camera.pinhole, viewport=tuple(edges.tolist()))
 
 
 def look_at(view: View, eye: Iterable[float], target: Iterable[float], up: Iterable[float]) -> View:

@@ -18,7 +18,7 @@ from lucida.app.cameras.presets import PRESETS, Preset, framed, preset_view
 from lucida.app.cameras.reader import read_copied
 from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from lucida.app.state.app_state import AppState, is_orthonormal
-from lucida.app.ui.action import Action, changing
+from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -235,18 +235,7 @@ CAMERA = (
         is_on=lambda state: state.camera.lens is None,
         separated=True,
     ),
-    Action(
-        "Camera",
-        "Jump without transition",
-        changing(
-            lambda state: state.with_options(
-                replace(
-                    state.options.preferences, reduced_motion=not state.preferences.reduced_motion
-                )
-            )
-        ),
-        is_on=lambda state: state.preferences.reduced_motion,
-    ),
+    choosing("Camera", "Jump without transition", "preferences.reduced_motion", True, off=False),
 )
 
 EDIT = (

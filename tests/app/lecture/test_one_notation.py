@@ -24,7 +24,7 @@ from lucida.app.instruments.laboratory.sheet import Look
 from lucida.app.instruments.outside import figure
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Label, RayEnd
-from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python, as_text
+from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.stepper.loops import PROGRAMS
 from lucida.app.instruments.stepper.source import shown_lines, source_of
@@ -75,9 +75,9 @@ def probe(notation: Notation) -> Found:
         for line in all_lines(reading, Indexing.LECTURE, notation):
             yield "probe", "latex", f"{line.latex} {line.latex_numbers}"
             yield "probe", "plain", f"{line.name}: {line.text} {line.text_numbers}"
-        yield "copied", "plain", as_text(reading, Indexing.ARRAY, notation).partition("\n")[2]
         yield "copied", "latex", as_latex(reading, Indexing.ARRAY, notation).partition("\n")[2]
-        yield "copied", "program", as_python(reading, Indexing.LECTURE, notation)
+        if notation == "code":
+            yield "copied", "program", as_python(reading, Indexing.LECTURE)
 
 
 def mistakes(notation: Notation) -> Found:
