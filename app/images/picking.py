@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.scene.model import Mesh, Scene, Sphere
 
-MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds
-
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
     """Return the index of the nearest object on r(t) = origin + t direction, t > 0; None if there

@@ -129,14 +129,6 @@ def _digit_count(text: str) -> int:
     return len(text.partition("e")[0].lstrip("-0.").replace(".", ""))
 
 
-def short_number(value: float) -> str:
-    """Return seven characters for all but extreme values; the first one is a space or a sign."""
-    for limit, digits in ((10, 3), (100, 2), (1000, 1)):
-        if abs(value) < limit - 0.5 * 10**-digits:
-            return f"{value:7.{digits}f}"
-    return densest(value, 6 + (value < 0)).rjust(7)
-
-
 def number_field(
     label: str,
     value: float,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lucida.app.ui.explaining.notation import number, results
-from lucida.app.ui.fields import WIDTH, Scale, fitting_format, short_number
+from lucida.app.ui.fields import WIDTH, Scale, fitting_format
 
 SCALE = Scale(-1.0, 1.0)
 
@@ -15,7 +15,6 @@ def test_the_usual_width_is_always_the_same(value: float) -> None:
     form = fitting_format(value, SCALE, 20)
     text = form % value if "%" in form else form
     assert len(text) == WIDTH + (value < 0 and abs(value) >= 1000)
-    assert len(short_number(value)) == 7
 
 
 @pytest.mark.parametrize(
@@ -91,13 +90,6 @@ def test_small_numbers_on_a_logarithmic_scale(value, shown):
 @pytest.mark.parametrize("value", [float("inf"), float("-inf"), float("nan")])
 def test_what_is_no_number_is_survived(value):
     assert fitting_format(value, SCALE, 8)
-    assert len(short_number(value)) == 7
-
-
-def test_readouts_show_them_too():
-    assert short_number(5.4e6) == " 5.40e6"
-    assert short_number(-5.4e6) == "-5.40e6"
-    assert short_number(1234.5) == " 1234.5"
 
 
 @pytest.mark.parametrize(
