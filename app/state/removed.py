@@ -68,6 +68,9 @@ REMOVED: dict[str, Removed] = {
     ),
     "outside.see": Removed("a step says from where to look by outside.camera", []),
     "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
+    "photograph.distorted": Removed(
+        "the lens stays in the photograph; COLMAP's image_undistorter takes it out", None
+    ),
     "photograph.lay": Removed("a photograph is laid over the images", "over"),
     "images.tinted": Removed("a single component is shown as gray", False),
     "pair.value": Removed("the laboratory's page 'function' reads an image", False),

@@ -69,7 +69,7 @@ class CompareView(ImageView):
 
     @property
     def settled(self) -> bool:
-        return super().settled and not self._work.busy
+        return not self._work.busy
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._uploads = Uploads(context)
