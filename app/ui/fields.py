@@ -65,9 +65,7 @@ def shown_number(value: float, characters: int, decimals: int = DECIMALS) -> str
     complete, so that it matches calculations by hand. It ends at the last of the characters.
     """
     text, usual = notation.number(value), f"{value:z.{decimals}f}"
-    if decimals == 0 and value == round(value):
-        text = usual
-    elif len(text) < len(usual) <= WIDTH:
+    if len(text) < len(usual) <= WIDTH:
         text = usual
     for digits in range(6, 0, -1):
         if len(text) > characters:

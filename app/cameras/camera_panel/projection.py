@@ -240,7 +240,7 @@ def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppStat
 
 def _as_drawn(around: PanelContext) -> None:
     imgui.push_font(around.fonts.mono, 0.0)
-    edges = "".join(f" {shown_number(edge, 7)}" for edge in around.shown.viewport)
+    edges = "".join(f" {shown_number(edge, 6)}" for edge in around.shown.viewport)
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, f"drawn{edges}")
     imgui.pop_text_wrap_pos()

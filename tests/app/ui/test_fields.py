@@ -7,6 +7,7 @@ import pytest
 from lucida.app.ui.explaining.notation import number, results
 from lucida.app.ui.fields import shown_number
 
+
 @pytest.mark.parametrize(
     ("value", "characters", "shown"),
     [
