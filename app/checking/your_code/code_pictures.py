@@ -14,8 +14,8 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from lucida.app.checking.checked import WrongCase
-from lucida.app.checking.reports.picture import changed_pixels, difference_picture
 from lucida.app.checking.your_code.model import CodeRays, CodeReport, canvas_pixel
+from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
 from lucida.app.instruments.mistakes.model import told_difference
 from lucida.app.instruments.outside.paint import role_color

@@ -11,7 +11,7 @@ import numpy as np
 
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds.kind import text_of
-from lucida.app.checking.reports.told import told
+from lucida.app.checking.reports import told
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel

@@ -11,7 +11,7 @@ import pytest
 
 from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult, check
-from lucida.app.checking.reports.told import told
+from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
 
 Edits = Sequence[tuple[str, str]]
