@@ -84,9 +84,6 @@ def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
         yield ToldLine("dim", report.not_asked)
     if rays is not None:
         yield from _of_rays(report, rays)
-        if rays.task != chosen:
-            other = "parallel" if "parallel" in chosen.projections else "perspective"
-            yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
         if pixel is not None and bool(rays.came[pixel]):
             yield from _of_pixel(rays, pixel)
         if rays.result.failure is not None:
