@@ -157,7 +157,7 @@ def test_a_starter_is_never_written_over_another_file(check, tmp_path):
     assert (status, out) == (0, text)
     assert main(["check", "--starter", "all", "-o", "all.py"]) == 0
     compile((tmp_path / "all.py").read_text("utf-8"), "all.py", "exec")
-    assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 13  # and normalized()
+    assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 9
 
 
 def test_a_program(check, tmp_path):
