@@ -10,7 +10,7 @@ one has it on a sphere around the eye, whose radius is `distance`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -43,22 +43,24 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
     return eye + t * (across - camera.distance * w)
 
 
+def on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Floats:
+    """Return the points (n, 3) of a pixel's ray at parameters t."""
+    x, y = camera.image_point(*pixel, size)
+    return point_at(camera, [x] * len(t), [y] * len(t), t)
+
+
 def plane_parameter(camera: Camera) -> float:
     """Return the ray parameter on the image plane."""
     return 0.0 if camera.is_parallel else 1.0
 
 
-def rectangle(camera: Camera, t: float) -> Floats:
-    """Return the viewport's corners at parameter t, (4, 3): upper left, upper right, lower
-    right, lower left in the camera's image.
+def plane_corners(camera: Camera) -> Floats:
+    """Return the image plane's corners, (4, 3): upper left, upper right, lower right, lower left in
+    the camera's image.
     """
     left, right, bottom, top = camera.viewport
-    return point_at(camera, [left, right, right, left], [top, top, bottom, bottom], t)
-
-
-def plane_corners(camera: Camera) -> Floats:
-    """Return the image plane's corners, (4, 3), in the order of rectangle()."""
-    return rectangle(camera.pinhole, plane_parameter(camera))
+    corners = [left, right, right, left], [top, top, bottom, bottom]
+    return point_at(camera.pinhole, *corners, plane_parameter(camera))
 
 
 def has_plane(camera: Camera) -> bool:
@@ -227,7 +229,7 @@ def _curved_grid(camera: Camera, x: Floats, y: Floats) -> Floats:
 
 
 def pixel_corners(camera: Camera, pixel: Pixel, size: Size) -> Floats:
-    """Return a pixel's corners on the image, (4, 3), in the order of rectangle()."""
+    """Return a pixel's corners on the image, (4, 3), in the order of plane_corners()."""
     rows = np.array([-0.5, -0.5, 0.5, 0.5]) + pixel[0]
     columns = np.array([-0.5, 0.5, 0.5, -0.5]) + pixel[1]
     x, y = camera.image_point(rows, columns, size)

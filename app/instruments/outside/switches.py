@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from lucida.app.state.options.outside import LENS_STAGES, OutsideOptions
+from lucida.app.state.options.outside import STAGES, OutsideOptions
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 AXIS_NAMES = {
@@ -66,7 +66,7 @@ def toggled(options: OutsideOptions, field: str) -> OutsideOptions:
     if field == "bundle":
         value = BUNDLE if value else (0, 0)
     if field == "formula":
-        value = len(LENS_STAGES) if value else None
+        value = len(STAGES) if value else None
     return replace(options, **{field: value})
 
 

@@ -40,7 +40,7 @@ class TestDiagram:
         hit = RayEnd((3, 4), 2.5)
         assert self.names(camera, none, marked=hit) == {"eye"}
         for field, names in {
-            "volume": {"edges", "side 0", "end"},
+            "volume": {"edges", "side", "end"},
             "image": {"image plane"},
             "grid": {"grid", "image plane"},
             "basis": {"u", "v", "w"},

@@ -15,6 +15,7 @@ from looked_at import LOOKING, SIZE, cameras, vectors
 from lucida.app.instruments.outside.extent import end_parameter, framed, outside_camera
 from lucida.app.instruments.outside.frustum import (
     MOST_GRID_LINES,
+    border,
     bundle_pixels,
     grid,
     grid_step,
@@ -23,7 +24,6 @@ from lucida.app.instruments.outside.frustum import (
     plane_corners,
     plane_parameter,
     point_at,
-    rectangle,
 )
 from lucida.renderer.camera.camera import Camera
 
@@ -31,7 +31,8 @@ from lucida.renderer.camera.camera import Camera
 class TestSolid:
     @given(cameras(), st.floats(0.2, 20))
     def test_the_volumes_corners_are_the_images(self, camera: Camera, t: float) -> None:
-        row, column, parameter = camera.project(rectangle(camera, t), SIZE)
+        x, y = border(camera, 1).T
+        row, column, parameter = camera.project(point_at(camera, x, y, np.full(4, t)), SIZE)
         assert np.allclose(row, [-0.5, -0.5, 47.5, 47.5], atol=1e-5)
         assert np.allclose(column, [-0.5, 63.5, 63.5, -0.5], atol=1e-5)
         assert np.allclose(parameter, t, rtol=1e-7)
