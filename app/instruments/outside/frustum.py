@@ -10,7 +10,7 @@ one has it on a sphere around the eye, whose radius is `distance`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -250,28 +250,33 @@ def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
 
 
 def pixel_seen(
-    camera: Camera,
-    size: Size,
-    origin: Floats,
-    direction: Floats,
-    hidden_at: Callable[[], float] | None = None,
-) -> Pixel | None:
-    """Return the pixel of the image plane that a ray from elsewhere meets, or None.
-
-    hidden_at: returns the ray parameter from which the scene hides what is behind it. Called only
-    if the ray meets the image plane.
+    camera: Camera, size: Size, origin: Floats, direction: Floats
+) -> tuple[Pixel, float] | None:
+    """Return the pixel of the image plane that a ray from elsewhere meets, and the ray's t there;
+    None if it meets none.
     """
-    if not has_plane(camera):
+    found = on_plane(camera, origin, direction) if has_plane(camera) else None
+    if found is None:
         return None
-    corners = plane_corners(camera)
-    edges = np.column_stack([corners[1] - corners[0], corners[3] - corners[0], -direction])
+    x, y, t = found
+    left, right, bottom, top = camera.viewport
+    row = math.floor((top - y) / (top - bottom) * size[1])
+    column = math.floor((x - left) / (right - left) * size[0])
+    inside = 0 <= row < size[1] and 0 <= column < size[0]
+    return ((row, column), t) if inside else None
+
+
+def on_plane(
+    camera: Camera, origin: Floats, direction: Floats
+) -> tuple[float, float, float] | None:
+    """Return where a ray from elsewhere meets the image plane, (x, y) in units of u and v, and the
+    ray's t there; None if that is not in front of it.
+    """
+    columns = np.column_stack([camera.u, camera.v, -np.asarray(direction)])
+    middle = image_point(camera.pinhole, 0.0, 0.0)
     with np.errstate(all="ignore"):
-        scale = np.linalg.norm(edges, axis=0)
-        if not (scale > 0).all() or abs(np.linalg.det(edges / scale)) < 1e-9:
+        scale = np.linalg.norm(columns, axis=0)
+        if not (scale > 0).all() or abs(np.linalg.det(columns / scale)) < 1e-9:
             return None
-        x, y, t = np.linalg.solve(edges / scale, origin - corners[0]) / scale
-    if not (t > 0 and 0 <= x < 1 and 0 <= y < 1):
-        return None
-    if hidden_at is not None and t >= hidden_at():
-        return None
-    return min(math.floor(y * size[1]), size[1] - 1), min(math.floor(x * size[0]), size[0] - 1)
+        x, y, t = (np.linalg.solve(columns / scale, origin - middle) / scale).tolist()
+    return (x, y, t) if t > 0 else None

@@ -82,17 +82,16 @@ def drive_the_legend_switches(d: Driver) -> None:
     enter(d)
     window = d.window
     for name in ("basis", "image", "grid", "volume", "ray"):
-        press(d, name)
+        press(d, f"Show {name}")
         assert not getattr(window.state.options.outside, name)
         d.ctx.yield_(2)
         assert not strokes(d, {"basis": "u", "image": "none", "volume": "edges"}.get(name, name))
-        press(d, name)
+        press(d, f"Show {name}")
         assert getattr(window.state.options.outside, name)
-    press(d, "bundle")
+    press(d, "Show bundle")
     rows, columns = window.state.options.outside.bundle
     d.settle()
-    rays = {" ".join(p.name.split()[:3]) for p in view(d).primitives if "bundle" in p.name}
-    assert len(rays) == rows * columns
+    assert len(strokes(d, "bundle")) == rows * columns
     assert view(d).settled
     d.window.undo()
     assert window.state.options.outside.bundle == (0, 0)
@@ -145,7 +144,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     enter(d)
     window = d.window
     start = window.state.camera
-    press(d, "move eye")
+    press(d, "Handles: move eye")
     assert window.state.options.outside.gizmo == "move"
     d.ctx.yield_(2)
     at = scope(d)
@@ -191,7 +190,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     d.ctx.yield_(2)
     assert window.state.camera == start
     assert len(window.history.past) == steps
-    press(d, "turn basis")
+    press(d, "Handles: turn basis")
     d.ctx.yield_(2)
     x, y = place(d, np.asarray(start.eye))
     for angle in np.linspace(0.0, 2 * np.pi, 16, endpoint=False):
