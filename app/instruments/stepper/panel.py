@@ -23,7 +23,6 @@ from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining import symbols
 from lucida.app.ui.lettering import underline
 from lucida.app.ui.rows import button_width, follow, tip
-from lucida.app.ui.sliders import slider_float, slider_int
 from lucida.app.ui.theme import Fonts
 
 CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
@@ -76,7 +75,7 @@ def controls(state: AppState, playing: bool) -> tuple[AppState, Wish]:
     _next(SPEED_EM * imgui.get_font_size())
     flags = imgui.SliderFlags_.logarithmic
     limits = range_of(StepperOptions, "speed")
-    changed, speed = slider_float("##speed", options.speed, *limits, "%.0f steps/s", flags)
+    changed, speed = imgui.slider_float("##speed", options.speed, *limits, "%.0f steps/s", flags)
     if changed:
         options = replace(options, speed=speed)
     sizes = list(dict.fromkeys([*CANVASES, options.canvas]))  # a lecture may ask for any size
@@ -135,7 +134,7 @@ def run_panel(
     if recording.truncated:
         note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
     flags = imgui.SliderFlags_.always_clamp
-    changed, step = slider_int(f"##step {title}", moment.step, 0, most, note, flags)
+    changed, step = imgui.slider_int(f"##step {title}", moment.step, 0, most, note, flags)
     lines, lit = written(recording.source.lines, {moment.line: 1.0}, state)
     corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
     marks, base = Marks(moment.pixel, moment.box, corners), state.options.indexing.value
