@@ -6,13 +6,12 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats, listed
+from lucida.renderer.camera.checks import Floats, listed, three
 from lucida.renderer.files.cameras import opencv
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.rigid import rigid
@@ -117,8 +116,8 @@ def _product(rows: Floats, projection: str) -> View:
         u, v, ahead = (basis := np.linalg.inv(seen[:, :3])).T
         eye, w = -basis @ seen[:, 3], -ahead
     v = v * np.sign(np.linalg.det([u, v, w]))  # left-handed: y points down (Vulkan)
-    numbers: Any = [vector.tolist() for vector in (eye, u, v, w)]
-    camera = Camera(*numbers, 1.0, (-1, 1, -1, 1), projection)
+    basis = (three(vector) for vector in (eye, u, v, w))
+    camera = Camera(*basis, viewport=(-1, 1, -1, 1), projection=projection)
     return View(rigid(camera, "a camera"), fit=True)
 
 

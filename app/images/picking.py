@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.scene.model import Mesh, Scene, Sphere
 
+MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds
+
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
     """Return the index of the nearest object on r(t) = origin + t direction, t > 0; None if there
@@ -61,6 +63,14 @@ def _by_object(scene: Scene, origin: Floats, directions: Floats) -> Iterator[tup
         shape = entry.shape
         meet = _sphere if isinstance(shape, Sphere) else _mesh
         yield k, meet(shape, origin, directions)  # type: ignore[arg-type]
+
+
+def is_quick(scene: Scene) -> bool:
+    """Return True if nearest_hit() takes only a small part of a frame."""
+    if len(scene.objects) > MOST_OBJECTS:
+        return False
+    meshes = (entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh))
+    return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
 
 
 def _sphere(sphere: Sphere, origin: Floats, directions: Floats) -> Floats:

@@ -75,8 +75,8 @@ def lens_lines(reading: Reading) -> list[Line]:
     lines = [appears, *_distortion(lens)]
     way = [float(part) for part in lens.direction(*place)]
     if not np.isfinite(way).all():
-        text = r"\mathbf{d} = \mathrm{none}", "vec(d) = none"
-        return [*lines, Line("outside", "outside of the lens", text[0], "", text[1], "")]
+        latex, text = r"\mathbf{d} = \mathrm{none}", "vec(d) = none"
+        return [*lines, Line("outside", "outside of the lens", latex, "", text, "")]
     latex, text = DIRECTIONS[lens.model]
     values, values_text = results(tuple(way))
     ideal = Line(
