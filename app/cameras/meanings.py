@@ -116,8 +116,8 @@ def _product(rows: Floats, projection: str) -> View:
         u, v, ahead = (basis := np.linalg.inv(seen[:, :3])).T
         eye, w = -basis @ seen[:, 3], -ahead
     v = v * np.sign(np.linalg.det([u, v, w]))  # left-handed: y points down (Vulkan)
-    basis = (three(vector) for vector in (eye, u, v, w))
-    camera = Camera(*basis, viewport=(-1, 1, -1, 1), projection=projection)
+    viewport = (-1, 1, -1, 1)
+    camera = Camera(three(eye), three(u), three(v), three(w), 1.0, viewport, projection)
     return View(rigid(camera, "a camera"), fit=True)
 
 
