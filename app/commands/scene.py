@@ -19,9 +19,9 @@ NAME = "scene"
 
 DESCRIPTION = """\
 List what is in a scene: its objects with their types, triangles, bounds and materials, its lights
-and its camera; properties of its materials that are not shown; oddities, such as meshes that are
-open or turned inside out, faces without an area or there twice, and repairs of a model; the model
-files that it reads, marking those outside its folder; and its models' cameras."""
+and its camera; properties of its materials that are not shown; models that are open, turned inside
+out or in parts differently; the model files that it reads, marking those outside its folder; and
+its models' cameras."""
 
 EPILOG = """\
 exit status: 0 done (also if something is odd: all of it can be drawn), 2 a mistake or a failure
@@ -77,7 +77,7 @@ def contents(scene: Scene) -> dict[str, Any]:
     from lucida.renderer.editing.outline import outline
     from lucida.renderer.files.oddities import oddities
     from lucida.renderer.files.views import view_table
-    from lucida.renderer.scene.model import triangles_of
+    from lucida.renderer.scene.model import Mesh, triangles_of
 
     outlined = outline(scene)
     rows = [row for row in outlined if not row.is_light]
@@ -111,7 +111,12 @@ def contents(scene: Scene) -> dict[str, Any]:
         "camera": view_table(scene.view),
         "notes": list(scene.notes),
         "odd": [
-            {"kind": odd.kind, "object": odd.object, "text": odd.text} for odd in oddities(scene)
+            {"object": number, "text": text}
+            for row in rows
+            if row.kind in ("model", "mesh")
+            for number in row.ids
+            if isinstance(shape := scene.objects[number].shape, Mesh)
+            for text in oddities(shape)
         ],
     }
 
