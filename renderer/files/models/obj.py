@@ -54,7 +54,7 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
     normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
     if coordinates.shape[1] < 2:
-        corners[1] = None
+        coordinates = np.zeros((0, 2))
     if corners[1] is not None:
         has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
         named = list(_by_coordinates(named, has_uv, images))

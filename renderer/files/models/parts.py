@@ -150,11 +150,13 @@ def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
     cells whose side is a smaller power of two does not shift. Stray vertices, such as a marker at
     the origin of a map, change neither the size nor the point.
     """
-    corners = vertices[faces.reshape(-1)]
-    low, high = extent(corners)
+    used = np.zeros(len(vertices), bool)
+    used[faces] = True
+    points = vertices[used]
+    low, high = extent(points)
     if not np.abs(low + high).max() / 2 > (high - low).max() / 4:
         return np.zeros(3)  # about the file's origin
-    low, middle, high = np.percentile(corners, SPREAD, axis=0)
+    low, middle, high = np.percentile(points, SPREAD, axis=0)
     size = float((high - low).max())
     if not np.abs(middle).max() > FAR * size > 0:
         return np.zeros(3)

@@ -134,10 +134,10 @@ def test_a_gltf_textures_transform_moves_the_same_place(
 
 
 WRONG_GLTF = {
-    "no image": ({}, {}, "has no bufferView"),
+    "no image": ({}, {}, "bufferView: is missing"),
     "a damaged one": ({"bufferView": 0}, {}, "is none of PNG"),
     "no texture": ({"bufferView": 2}, {"textures": []}, "names entry 0"),
-    "another kind": ({"bufferView": 2}, {"textures": [{}]}, "has no image of a known kind"),
+    "another kind": ({"bufferView": 2}, {"textures": [{}]}, "have no image of a known kind"),
 }
 
 
