@@ -56,7 +56,7 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     ),
     (
         {"meshes.0.primitives.0.attributes.POSITION": None},
-        "meshes: have a primitive without POSITION",
+        "meshes: have a primitive without",
     ),
     ({"accessors.0.count": 10**11}, "accessors[0]: declares 100000000000 elements in a view of 36"),
     ({"accessors.1.count": 10**11}, "has 33333333333 triangles"),
@@ -97,7 +97,7 @@ IN_CHUNK = changed({"buffers.0.uri": None})
     [
         (
             glb(IN_CHUNK, declared=10**9),
-            "is no whole glTF 2.0: version 2, 1000000000 bytes of which",
+            "is no whole glTF 2.0: version 2, 1000000000 bytes",
         ),
         (glb(IN_CHUNK).replace(b"JSON", b"NOSJ"), "is no whole glTF 2.0"),
         (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is no whole glTF 2.0: version 1"),
