@@ -15,7 +15,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining.symbols import program, spoken
-from lucida.app.ui.fields import Scale, number_field, short_number
+from lucida.app.ui.fields import Scale, number_field, shown_number
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
@@ -240,7 +240,7 @@ def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppStat
 
 def _as_drawn(around: PanelContext) -> None:
     imgui.push_font(around.fonts.mono, 0.0)
-    edges = "".join(map(short_number, around.shown.viewport))
+    edges = "".join(f" {shown_number(edge, 6)}" for edge in around.shown.viewport)
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, f"drawn{edges}")
     imgui.pop_text_wrap_pos()

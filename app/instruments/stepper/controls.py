@@ -13,7 +13,6 @@ from lucida.app.state.options.shared import Language
 from lucida.app.state.options.stepper import StepperOptions
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.rows import button_width, follow, tip
-from lucida.app.ui.sliders import slider_float
 
 T = TypeVar("T")
 CANVASES: dict[tuple[int, int], str] = {
@@ -110,7 +109,7 @@ def _speed(options: StepperOptions) -> StepperOptions:
     width = SPEED_EM * imgui.get_font_size()
     follow(width)
     imgui.set_next_item_width(width)
-    changed, speed = slider_float(
+    changed, speed = imgui.slider_float(
         "##speed",
         options.speed,
         *range_of(StepperOptions, "speed"),

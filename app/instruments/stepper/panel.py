@@ -14,7 +14,6 @@ from lucida.app.instruments.stepper.recording import MOST_STEPS, Order, Recordin
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.canvas import Marks
 from lucida.app.ui.rows import follow
-from lucida.app.ui.sliders import slider_int
 from lucida.app.ui.theme import Fonts
 
 TITLES = {Order.RASTER: "Object order: rasterization", Order.IMAGE: "Image order: ray tracing"}
@@ -59,7 +58,7 @@ def _slider(recording: Recording, moment: Moment) -> int | None:
     note = f"step %d of {most}"
     if recording.truncated:
         note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
-    changed, step = slider_int(
+    changed, step = imgui.slider_int(
         f"##step {recording.order.name}", moment.step, 0, most, note,
         imgui.SliderFlags_.always_clamp,
     )  # fmt: skip
