@@ -5,7 +5,7 @@ Selecting is no undo step. Only visible rows are drawn.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -88,7 +88,7 @@ def _add_menu(host: Host) -> None:
         for kind in (*objects.SHAPES, *objects.LIGHTS):
             label = f"{kind} light" if kind in objects.LIGHTS else kind
             if imgui.menu_item(label.capitalize(), "", False)[0]:
-                edit(host, lambda state, kind=kind: editing.added(state, kind, host.focus))
+                edit(host, partial(editing.added, kind=kind, focus=host.focus))
         imgui.separator()
         if imgui.menu_item("Model...", "", False)[0]:
             host.files.add_model_dialog()
