@@ -17,19 +17,12 @@ from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
 from lucida.app.ui import theme
 from lucida.app.ui.explaining.breaking import breakable
+from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.theme import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
 MOST_EXTENTS = 500
 _extents: dict[tuple[str, float, float], ImVec2] = {}  # the room that formulas took last
-
-
-@dataclass(frozen=True)
-class Formula:
-    """A formula as LaTeX, without dollar signs, and as text."""
-
-    latex: str
-    text: str
 
 
 @dataclass(frozen=True)
@@ -62,9 +55,9 @@ def release() -> None:
 
 
 def formula(
-    parts: Iterable[Formula], size_px: float, key: str = "", color: ImVec4 | None = None
+    parts: Iterable[str], size_px: float, key: str = "", color: ImVec4 | None = None
 ) -> None:
-    """Draw formulas one after another, as many in a row as fit.
+    """Draw formulas, as LaTeX without dollar signs, one after another, as many in a row as fit.
 
     size_px: of the type.
     key: a name for the formulas that stays the same while their numbers change. When out of sight,
@@ -85,7 +78,7 @@ def formula(
         # A part that has room in a row of its own is not broken for the sake of the last one; one
         # that does not go on with an equals sign begins a row.
         full = _width(rows[-1], gap) + gap + whole > room >= whole
-        if rows[-1] and (full or not part.text.startswith("=")):
+        if rows[-1] and (full or not part.startswith("=")):
             rows.append([])
         for piece in pieces:
             if rows[-1] and _width(rows[-1], gap) + gap + piece.width > room:
@@ -125,11 +118,10 @@ def _tinted(latex: str, _look: theme.WindowLook) -> str:
     return latex
 
 
-def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_Piece]:
+def _pieces(whole: str, size_px: float, color: ImVec4, room: float) -> list[_Piece]:
     """Return a formula's pieces, none wider than the room: broken at sums, and at products if
     necessary.
     """
-    whole = part.latex if available() else part.text
     pieces: list[_Piece] = []
     for cut in breakable(whole):
         piece = _piece(cut, size_px, color)
@@ -142,14 +134,13 @@ def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_
 
 def _factors(product: str) -> list[str]:
     """Split a product of bracketed terms between them."""
-    space = r"\," if available() else " "
-    return product.replace(f"){space}", ")\n").split("\n")
+    return product.replace(r")\,", ")\n").split("\n")
 
 
 def _piece(text: str, size_px: float, color: ImVec4, room: float = math.inf) -> _Piece:
     """Return a piece, scaled down if it does not fit."""
     if not available():
-        return _text_piece(text, color)
+        return _text_piece(plain_math(text), color)
     scale = framebuffer_scale()
     if text[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
         text = rf"{text[0]}\;{text[2:]}"

@@ -12,7 +12,7 @@ SIGNS = {
     "cdot": "·", "times": "\u00d7", "to": "→", "infty": "∞", "leq": "<=", "geq": ">=", "neq": "!=",
     "quad": "  ", "qquad": "    ", "dots": "...", "pm": "±", "alpha": "alpha", "theta": "theta",
     "left": "", "right": "", "displaystyle": "", ",": " ", ";": " ", ":": " ", "!": "", " ": " ",
-    "{": "{", "}": "}", "|": "|", "\\": "; ",
+    "{": "{", "}": "}", "|": "|", "\\": "; ", "lfloor": "floor(", "rfloor": ")",
 }  # fmt: skip
 _TOKEN = re.compile(r"\\([A-Za-z]+|.)|([{}])|(\^|_)|([^\\{}^_]+)", re.DOTALL)
 _STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "hat", "vec")
@@ -59,9 +59,9 @@ class _LatexReader:
             return f"{_bracketed(self._argument())} / {_bracketed(self._argument())}"
         if command == "sqrt":
             return f"sqrt({self._argument()})"
-        if command in ("textcolor", "color"):
+        if command in ("textcolor", "bgcolor", "color"):
             self._argument()
-            return self._argument() if command == "textcolor" else ""
+            return "" if command == "color" else self._argument()
         if command == "mathbf":
             name = self._argument()
             return f"vec({name})" if len(name) == 1 else name
@@ -86,4 +86,4 @@ class _LatexReader:
 def _bracketed(text: str) -> str:
     """Return sums and products in brackets, single terms without."""
     text = text.strip()
-    return text if re.fullmatch(r"[\w.²³]*|\|.*\||\(.*\)", text) else f"({text})"
+    return text if re.fullmatch(r"[\w.²³]*|\|[^|]*\||(vec)?\([^()]*\)", text) else f"({text})"
