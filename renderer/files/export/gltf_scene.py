@@ -47,7 +47,7 @@ def glb_of(scene: Scene, camera: Camera, size: Size) -> tuple[bytes, tuple[str, 
     Raises LucidaError for a camera that glTF cannot hold.
     """
     left = ["ambient light and background: glTF has none"]
-    camera = rigid(camera, "gltf", size)
+    camera = rigid(camera, "gltf")
     made = GlbTree()
     nodes = [_object_node(made, number, entry, left) for number, entry in scene.visible]
     lights = []
