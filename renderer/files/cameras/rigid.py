@@ -40,8 +40,8 @@ def rigid(camera: Camera, target: str) -> Camera:
         problem = f"{listed(u)} is left-handed with v and w, a mirror that {target} has not"
         raise LucidaError("u", problem, "negate u, which mirrors the picture")
     if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() <= ROUNDED:
-        left, _, right = np.linalg.svd(camera.basis)
-        u, v, w = (left @ right).T
+        turn, _, back = np.linalg.svd(camera.basis)
+        u, v, w = (turn @ back).T
         turned = replace(camera, u=tuple(u.tolist()), v=tuple(v.tolist()), w=tuple(w.tolist()))
         return centred(turned) if camera.is_parallel else turned
     width, height = float(np.linalg.norm(u)), float(np.linalg.norm(v))
