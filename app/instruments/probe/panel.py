@@ -24,7 +24,7 @@ from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining.notation import Line, number
-from lucida.app.ui.formula import Formula, formula, lit
+from lucida.app.ui.formula import formula, lit
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import button_width, follow, tip
@@ -217,10 +217,7 @@ def _name(line: Line, swatches: Reading | None) -> None:
 
 
 def _formula(line: Line, size_px: float) -> None:
-    parts = [Formula(line.latex, line.text)]
-    if line.latex_numbers:
-        parts.append(Formula(line.latex_numbers, line.text_numbers))
-    formula(parts, size_px, line.key)
+    formula(filter(None, (line.latex, line.latex_numbers)), size_px, line.key)
 
 
 def _table(reading: Reading, fonts: Fonts) -> None:

@@ -6,7 +6,6 @@ Pure. Number fields and exercises accept the same.
 from __future__ import annotations
 
 import ast
-import contextlib
 import math
 from collections.abc import Callable
 
@@ -36,29 +35,36 @@ def number(text: str) -> float:
     tidy = text.strip()
     for sign, plain in _PLAIN.items():
         tidy = tidy.replace(sign, plain)
-    value = math.nan
-    with contextlib.suppress(SyntaxError, ValueError, ArithmeticError, RecursionError, MemoryError):
-        if len(tidy) <= LONGEST:
-            value = _value(ast.parse(tidy, mode="eval").body)
-    if not math.isfinite(value):
+    if not tidy:
+        raise LucidaError("", "is empty", "give a number such as 0.25 or 1/4")
+    if len(tidy) > LONGEST:
+        raise LucidaError("", "is too long", "give a number such as 0.25 or 1/4")
+    try:
+        value = _value(ast.parse(tidy, mode="eval").body)
+    except ZeroDivisionError:
+        raise LucidaError("", f"{text.strip()!r} divides by zero", "correct it") from None
+    except (SyntaxError, ValueError, OverflowError, RecursionError, MemoryError):
         raise LucidaError(
-            "", f"{tidy[:LONGEST]!r} is not a number", "give one such as 0.25, 1/4 or 1/sqrt(2)"
-        )
+            "", f"{text.strip()!r} is not a number", "give one such as 0.25, 1/4 or 1/sqrt(2)"
+        ) from None
+    if not math.isfinite(value):
+        raise LucidaError("", f"{text.strip()!r} is not finite", "give a finite number")
     return value
 
 
 def vector(text: str) -> NDArray[np.float64]:
     """Parse three numbers, separated by commas, semicolons or blanks, with or without brackets."""
     tidy = text.strip()
-    inner = tidy[1:-1] if tidy[:1] in ("(", "[") and tidy[-1:] in (")", "]") else tidy
-    for whole in (inner, tidy):  # (1+2)/3, 0, (1-2)/3 has no brackets around it
-        separator = next((sign for sign in (";", ",") if sign in whole), None)
-        parts = whole.split(separator)
-        with contextlib.suppress(LucidaError):
-            if len(parts) == 3:
-                return np.array([number(part) for part in parts])
-    problem = f"{tidy!r} is not three numbers" if tidy else "enter three numbers"
-    raise LucidaError("", problem, "give a vector such as (1/8, 0, -1)")
+    if tidy[:1] in ("(", "[") and tidy[-1:] in (")", "]") and _is_enclosed(tidy):
+        tidy = tidy[1:-1]
+    separator = next((sign for sign in (";", ",") if sign in tidy), None)
+    parts = tidy.split(separator)
+    if len(parts) != 3:
+        problem = f"{text.strip()!r} is not three numbers" if tidy else "enter three numbers"
+        raise LucidaError("", problem, "give a vector such as (1/8, 0, -1)")
+    if not all(part.strip() for part in parts):
+        raise LucidaError("", "one of the three numbers is missing", "give all three")
+    return np.array([number(part) for part in parts])
 
 
 def text_of(value: float) -> str:
@@ -75,6 +81,16 @@ def text_of(value: float) -> str:
 def vector_text(values: NDArray[np.float64]) -> str:
     """Return (1/8, 0, -1)."""
     return "(" + ", ".join(text_of(float(value)) for value in values) + ")"
+
+
+def _is_enclosed(text: str) -> bool:
+    """Return True if the last sign closes the first bracket, and nothing closes it before."""
+    depth = 0
+    for at, sign in enumerate(text):
+        depth += (sign in "([") - (sign in ")]")
+        if depth == 0:
+            return at == len(text) - 1
+    return False
 
 
 def _value(node: ast.expr) -> float:

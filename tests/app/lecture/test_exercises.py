@@ -50,11 +50,11 @@ class TestAnswers:
     @pytest.mark.parametrize(
         ("text", "told"),
         [
-            (" ", "'' is not a number; give one"),
-            ("9" * 81, "is not a number"),
-            (" 3 /0", "'3 /0' is not a number"),
-            ("1e999", "'1e999' is not a number"),
-            ("1e400 - 1e400", "'1e400 - 1e400' is not a number"),
+            (" ", "is empty; give a number"),
+            ("9" * 81, "is too long; give a number"),
+            (" 3 /0", "'3 /0' divides by zero"),
+            ("1e999", "'1e999' is not finite"),
+            ("1e400 - 1e400", "'1e400 - 1e400' is not finite"),
             ("2**3", "'2**3' is not a number; give one such as"),
         ],
     )
