@@ -1,14 +1,20 @@
-"""Reading a lecturer's task file. Every mistake is reported with its file, line and field."""
+"""The built-in tasks, and those of a lecturer's task file.
+
+builtin.toml has one task for each part of the lecture. A lecturer's task begins as the built-in one
+of its kind. Every mistake is reported with its file, line and field.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from lucida.app.checking.builtin import builtin_tasks
+import msgspec
+
 from lucida.app.checking.cases import camera_kinds, check_size, check_views
 from lucida.app.checking.conventions import (
     CAMERA_WORDS,
@@ -24,6 +30,7 @@ from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.task_schema import PROJECTIONS, ConventionsTable, TaskFile, TaskTable
 from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask, Limits
 from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import spoken
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
 from lucida.renderer.files.tables import parse_toml, to_struct
@@ -49,6 +56,20 @@ class TaskSet:
     limits: Limits
     notation: Notation = "book"
     removed: tuple[str, ...] = ()
+
+
+@lru_cache
+def builtin_tasks(notation: Notation) -> tuple[CheckTask, ...]:
+    """Return the built-in tasks in a notation."""
+    data = Path(__file__).with_name("builtin.toml").read_bytes()
+    found = []
+    for table in msgspec.toml.decode(data, type=TaskFile).tasks:
+        entry = to_struct(table, TaskTable)
+        kind = KINDS[entry.kind]
+        base = CheckTask(kind.name, kind.name, kind.function, "", "", notation=notation)
+        text = spoken(entry.text, notation)
+        found.append(_task(msgspec.structs.replace(entry, text=text), TaskFile(tasks=[]), base))
+    return tuple(found)
 
 
 def load_tasks(path: str | Path) -> TaskSet:
@@ -84,7 +105,9 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
         kept = {name: value for name, value in table.items() if name not in REMOVED}
         entry: TaskTable = to_struct(kept, TaskTable, field)
         with under(field):
-            task = _task(entry, file, folder)
+            check_known("kind", entry.kind, KINDS)
+            base = next(t for t in builtin_tasks(file.notation) if t.kind == entry.kind)
+            task = _task(entry, file, base, folder)
             if any(task.name == other.name for other in tasks):
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
@@ -95,10 +118,9 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     return TaskSet(file.title, tuple(tasks), limits, file.notation, removed)
 
 
-def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
-    check_known("kind", entry.kind, KINDS)
+def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path()) -> CheckTask:
+    """Return the task of a table. base: its values for what the table leaves out."""
     kind = KINDS[entry.kind]
-    base = next(task for task in builtin_tasks(file.notation) if task.kind == kind.name)
     own: dict[str, Any] = {
         "name": entry.name or kind.name,
         "function": entry.function or kind.function,
@@ -263,3 +285,6 @@ def check_known(field: str, name: str, names: Iterable[str]) -> None:
     """Raise LucidaError if a name is not among the known ones."""
     if name not in names:
         raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
+
+
+BUILTIN = builtin_tasks("book")

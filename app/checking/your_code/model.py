@@ -12,13 +12,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.builtin import BUILTIN, builtin_tasks
 from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import cases_of
 from lucida.app.checking.mistakes.diagnosis import Diagnosis, diagnosis
-from lucida.app.checking.task_file import TaskSet, load_tasks
+from lucida.app.checking.task_file import BUILTIN, TaskSet, builtin_tasks, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Limits, Run
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera

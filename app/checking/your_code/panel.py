@@ -12,8 +12,8 @@ from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.own_words import returned, signature
+from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns

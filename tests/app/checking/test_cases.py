@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.hits import MARGIN
 from lucida.app.checking.kinds.shapes import hits
+from lucida.app.checking.task_file import BUILTIN
 
 TASKS = {task.name: task for task in BUILTIN}
 

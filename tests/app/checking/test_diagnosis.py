@@ -12,13 +12,13 @@ from asked_rays import TASKS as RAY_TASKS
 from asked_rays import asked_cases, made_camera, made_case, made_cases, whole_image
 from numpy.typing import NDArray
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import MOST, diagnosis
 from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import known_values, program_of, programs
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
 from lucida.app.checking.mistakes.trials import LOOSE, RayTrial, candidates
+from lucida.app.checking.task_file import BUILTIN
 from lucida.renderer.camera.camera import Camera
 
 TASKS = {task.name: task for task in BUILTIN}

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.cases import shots
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.renderer.system.errors import LucidaError
 
 RAYS = '[[tasks]]\nkind = "viewing-ray"\n'

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.cases import shots
 from lucida.app.checking.conventions import Conventions
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import are_right
+from lucida.app.checking.task_file import BUILTIN
 
 KIND = KINDS["viewing-ray"]
 TASK = next(task for task in BUILTIN if task.name == "viewing-ray")

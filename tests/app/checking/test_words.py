@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.cases import shots
 from lucida.app.checking.checked import judged
 from lucida.app.checking.conventions import (
@@ -19,7 +18,7 @@ from lucida.app.checking.conventions import (
 )
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.app.checking.tasks import Run
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import View

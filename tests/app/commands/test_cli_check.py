@@ -8,7 +8,7 @@ import sys
 import pytest
 from both_lectures import both_lectures
 
-from lucida.app.checking.builtin import BUILTIN
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.cli import main
 
 RIGHT = """\

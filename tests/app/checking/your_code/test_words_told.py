@@ -7,10 +7,10 @@ from typing import Any
 
 from right_code import right_ray
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import Failure, Run
 from lucida.app.checking.your_code.model import (
     RAY,
