@@ -40,7 +40,13 @@ from lucida.renderer.system.errors import LucidaError, under
 from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
-REMOVED = ("vectorised",)  # fields of older files; a function is called for each pixel
+# Fields of older files, and their values that may be ignored because they still hold.
+REMOVED: dict[str, tuple[Any, ...]] = {
+    "vectorised": (True, False),
+    "vectors": ("column",),
+    "origin": ("exact",),
+    "at_threshold": (1,),
+}
 # Words that give the size of a parallel view.
 SIZED = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
 SIZED |= {"pixel00", "top_left", "bottom_left"}
@@ -88,7 +94,8 @@ def _read(path: Path, source: str) -> TaskSet:
             raise located(error, Places(text), source) from None
         raise error.at_its_line(source) from None
     try:
-        return _tasks(to_struct(tables, TaskFile), path.parent)
+        removed = _without_removed(tables)
+        return replace(_tasks(to_struct(tables, TaskFile), path.parent), removed=removed)
     except LucidaError as error:
         if error.source:  # the error is in a view's file
             raise
@@ -102,8 +109,7 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     tasks: list[CheckTask] = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"
-        kept = {name: value for name, value in table.items() if name not in REMOVED}
-        entry: TaskTable = to_struct(kept, TaskTable, field)
+        entry: TaskTable = to_struct(table, TaskTable, field)
         with under(field):
             check_known("kind", entry.kind, KINDS)
             base = next(t for t in builtin_tasks(file.notation) if t.kind == entry.kind)
@@ -114,8 +120,18 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
             tasks.append(task)
     limits = Limits()
     limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
-    removed = tuple(name for name in REMOVED if any(name in table for table in file.tasks))
-    return TaskSet(file.title, tuple(tasks), limits, file.notation, removed)
+    return TaskSet(file.title, tuple(tasks), limits, file.notation)
+
+
+def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
+    """Delete the fields that may be ignored. Return their names."""
+    names = []
+    for table in (tables.get("conventions"), *tables.get("tasks", ())):
+        for name, values in REMOVED.items():
+            if isinstance(table, dict) and table.get(name) in values:
+                del table[name]
+                names.append(name)
+    return tuple(dict.fromkeys(names))
 
 
 def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path()) -> CheckTask:
@@ -140,7 +156,6 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path
         points=entry.points,
         conventions=_conventions(entry, file.conventions, kind),
         views=tuple(_views(entry.views, folder)),
-        inclusive=entry.at_threshold != 0,
         column_major=entry.order == "column-major",
         **{name: value for name, value in own.items() if value is not None},
     )
@@ -155,7 +170,7 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path
 def _text(entry: TaskTable, kind: CheckKind) -> str | None:
     """Return a description where the built-in one would be wrong."""
     others = (entry.arguments, entry.returns, entry.stride, entry.order, entry.weights)
-    if all(other is None for other in (*others, entry.at_threshold)):
+    if all(other is None for other in others):
         return None
     answer = kind.answer if entry.returns is None else ", ".join(entry.returns)
     return f"See the course's own text. Give {answer}."
@@ -173,11 +188,8 @@ def _conventions(entry: TaskTable, shared: ConventionsTable, kind: CheckKind) ->
         returns=_returns(entry.returns, kind),
         base=said.get("pixels_from", 0),
         rows=said.get("rows", "top"),
-        row_vectors=said.get("vectors") == "row",
         space=said.get("space", "world"),
         unit=said.get("unit", False),
-        any_origin=said.get("origin") == "on-ray",
-        pixel_origin=said.get("pixel_origin", ""),
     )
     if "camera" in said:
         _check_words("camera", entry.camera or {}, CAMERA_WORDS)

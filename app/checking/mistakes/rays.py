@@ -97,7 +97,7 @@ def ray_task(task: CheckTask, projection: str = "perspective") -> RayTask:
     its = task.conventions
     words = {same for word in its.words for same in _SAME.get(word, {word})}
     pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
-    if {"rotation", "eye"} <= words or (words & _MATRICES and its.row_vectors):
+    if {"rotation", "eye"} <= words:
         words = words - _MATRICES | {"eye", "u", "v", "w"}
     seen = words >= _VIEWPORT or words >= set(SIZES) or any(w.startswith("fov") for w in words)
     placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)

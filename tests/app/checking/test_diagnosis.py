@@ -233,17 +233,6 @@ def test_each_projection_has_its_own_mistake():
     assert places == ["In perspective:", "In parallel projection:"]
 
 
-def test_any_point_of_the_ray():
-    """An origin further on is no mistake where any is allowed; another mistake is reported."""
-
-    def moved(o, d, case):
-        origin, direction = transposed(o, d, case)
-        return origin + 0.7 * direction, direction
-
-    found = diagnosed(moved, any_origin=True)
-    assert names(found)[0] == {"row and column exchanged"}
-
-
 def test_of_a_large_image_some_rays_are_looked_at():
     cases = whole_image(Camera.look_at((3, 2, 4), (0, 0, 0)), (64, 48))
     assert len(cases) > MOST
