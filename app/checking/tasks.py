@@ -21,7 +21,7 @@ from lucida.renderer.images.shared_numbers import LUMINANCE
 if TYPE_CHECKING:
     from lucida.renderer.scene.model import View
 
-Kind = Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
+Kind = Literal["missing", "exception", "time", "memory", "ended", "answer"]
 
 
 @dataclass(frozen=True)

@@ -198,20 +198,17 @@ class YourCodeView(Instrument):
     def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
         """Show the student's camera if it is wrong, and the marked pixel's rays."""
         rays = report.rays
-        if rays is None:
+        if rays is None or not rays.wrong.any():
             self._outside.show(YOUR_CODE, ())
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
         items = self._items(rays, marked, end, first, host.state.options.notation)
-        if not rays.wrong.any():
-            self._outside.show(YOUR_CODE, items)
-            return
+        self._outside.show(YOUR_CODE, items)
         place = report.question.content.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        self._outside.show(YOUR_CODE, items)
 
     # Requests of the user.
 
