@@ -30,6 +30,8 @@ class _File(msgspec.Struct):
 
 _FILE = msgspec.toml.decode(Path(__file__).with_suffix(".toml").read_bytes(), type=_File)
 GROUPS = _FILE.groups
+# The first cases of a kind, by its name; see kinds/first_cases.toml.
+FIRST_CASES = msgspec.toml.decode((Path(__file__).parent / "kinds/first_cases.toml").read_bytes())
 
 
 def described(name: str) -> dict[str, Any]:
