@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.words import GROUPS
+from lucida.app.checking.words import GROUPS, PARTS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
@@ -109,13 +109,7 @@ PIXEL_WORDS, VISION_WORDS = GROUPS["pixel"], GROUPS["vision"]
 CAMERA_WORDS = {**GROUPS["camera"], **VISION_WORDS}
 
 # Arguments that hold two numbers.
-PAIRS = {
-    "ij": ("i", "j"),
-    "ji": ("j", "i"),
-    "xy_pixel": ("x_pixel", "y_pixel"),
-    "xy01": ("x01", "y01"),
-    "xy11": ("x11", "y11"),
-}
+PAIRS = {word: tuple(PARTS[word]) for word in GROUPS["pairs"]}
 
 FOCAL_WORDS = frozenset({"K", "fx", "fy"})
 VISION_AXES = (1, -1, -1)

@@ -12,7 +12,7 @@ contract:
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Set
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,10 +21,11 @@ import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.app.checking.conventions import PAIRS, camera_words, pixel_words
+from lucida.app.checking.conventions import camera_words, pixel_words
 from lucida.app.checking.mistakes.catalogue import Part, part
 from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.words import PARTS, SAME
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
@@ -45,19 +46,10 @@ SIZES = ("viewport_width", "viewport_height")
 VALUES = msgspec.toml.decode(Path(__file__).with_name("ray_values.toml").read_bytes())
 UNITS, ANGLES = VALUES["units"], VALUES["angles"]
 
-# The translation of a task's words into those of the lines.
-LETTERS = {"row": "i", "column": "j"}
 _VIEWPORT = {"left", "right", "bottom", "top"}
 _MATRICES = {"camera_to_world", "world_to_camera"}
-_SAME: dict[str, set[str]] = {
-    **{word: {letter} for word, letter in LETTERS.items()},
-    "size": {"width", "height"},
-    "viewport": _VIEWPORT,
-    **{name: set(pair) for name, pair in PAIRS.items()},
-    **{word: {"distance", *_VIEWPORT} for word in ("K", "fx", "fy", "cx", "cy")},
-    **{word: {"world_to_camera"} for word in ("R", "t", "cam_from_world")},
-    "world_from_cam": {"camera_to_world"},
-}
+# The translation of a task's words into those of the lines.
+_SAME: Mapping[str, Iterable[str]] = {**PARTS, **SAME}
 _PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
 _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
 _KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
