@@ -265,11 +265,11 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from lucida.app.checking.reports import is_colored, terminal_lines
+    from lucida.app.checking.reports import terminal_lines
 
     if arguments.json == "-":
         return
-    print("\n".join(terminal_lines(result, is_colored(sys.stdout))), flush=True)
+    print("\n".join(terminal_lines(result)), flush=True)
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

@@ -18,7 +18,6 @@ import queue
 import sys
 import traceback
 import types
-from collections.abc import Mapping
 
 _LONGEST_LINE = 300
 _LAST_FRAMES = 12  # of a long traceback
@@ -182,26 +181,18 @@ class StudentFile:
         return text.replace(f"{before}{self._folder}{os.sep}", before)
 
 
-class Values(types.SimpleNamespace, Mapping):
+class Values(dict):
     """A camera, or an object of a scene: camera.eye, camera["eye"], and camera.e."""
 
     __hash__ = object.__hash__  # type: ignore[assignment]
+    __setattr__ = dict.__setitem__
 
     def __getattr__(self, name):
-        if _LETTERS.get(name) in self.__dict__:
-            return self.__dict__[_LETTERS[name]]
+        if (field := _LETTERS.get(name, name)) in self:
+            return self[field]
         letters = {word: letter for letter, word in _LETTERS.items()}
         has = ", ".join(f"{letters[one]} or {one}" if one in letters else one for one in self)
         raise AttributeError(f"{type(self).__name__} has no {name!r}; it has: {has}")
-
-    def __getitem__(self, name):
-        return self.__dict__[name]
-
-    def __iter__(self):
-        return iter(self.__dict__)
-
-    def __len__(self):
-        return len(self.__dict__)
 
 
 def _with(operation):

@@ -206,7 +206,7 @@ class CodeReport:
     results: of the tasks that have been tried, by name.
     failure: the reason why the file answers nothing at all.
     output: the text that it printed.
-    seconds, at: the duration of the newest run, and its end in seconds since 1970.
+    seconds: the duration of the newest run.
     asked: all tasks.
     not_asked: the reason why there are no rays, if it is the camera.
     """
@@ -219,7 +219,6 @@ class CodeReport:
     failure: Failure | None = None
     output: str = ""
     seconds: float = 0.0
-    at: float = 0.0
     asked: tuple[CheckTask, ...] = BUILTIN
     not_asked: str = ""
 

@@ -183,7 +183,7 @@ class CodeRuns:
         try:
             with self._running(question):
                 report = self._report(question, before)
-            self._publish(replace(report, seconds=time.monotonic() - begin, at=time.time()))
+            self._publish(replace(report, seconds=time.monotonic() - begin))
             self._check(question)
         except NotRunnableError as error:
             self._publish(CodeReport(question, failure=error.failure, output=error.output))

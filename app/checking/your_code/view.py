@@ -170,7 +170,7 @@ class YourCodeView(Instrument):
         report = runs.report
         if report is not None and not report.question.content.is_of_files(content):
             report = None
-        wish, canvas = panel.head(Path(path), options, runs, report, host.fonts)
+        wish, canvas = panel.head(Path(path), options, runs, host.fonts)
         if canvas != options.canvas:
             host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
@@ -215,7 +215,7 @@ class YourCodeView(Instrument):
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """Draw a file that a lecture has named, which the user may read and run."""
         options = host.state.options.your_code
-        wish, _ = panel.head(Path(path), options, None, None, host.fonts)
+        wish, _ = panel.head(Path(path), options, None, host.fonts)
         wrapped(panel.TRUST)
         if imgui.button("Run it"):
             self._agree(host, path)
