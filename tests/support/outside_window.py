@@ -49,7 +49,7 @@ def empty_place(d: Driver) -> tuple[float, float]:
 
 
 def press(d: Driver, name: str) -> None:
-    """Choose an entry of the view's menu."""
+    """Select an entry of the view's menu."""
     d.ctx.item_click(f"//###{OUTSIDE}/Show##outside")
     d.ctx.yield_(2)
     d.ctx.item_click(f"//$FOCUSED/{name}")

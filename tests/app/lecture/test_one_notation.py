@@ -23,8 +23,9 @@ from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.ruler import ruler
 from lucida.app.instruments.laboratory.sheet import Look
 from lucida.app.instruments.outside import figure
-from lucida.app.instruments.outside.camera_diagram import Content, diagram
+from lucida.app.instruments.outside.camera_diagram import Content
 from lucida.app.instruments.outside.diagram import Label, RayEnd
+from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python, as_text
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.stepper import loop_parts, raster_parts
@@ -107,7 +108,8 @@ def drawn(notation: Notation) -> Found:
     for step, options in itertools.product(STEPS, both):
         camera = step.view.for_size((64, 48))
         end = RayEnd((24, 32), 2.0)
-        for item in diagram(Content(camera, (64, 48), options, 9.0, (), end, notation=notation)):
+        content = Content(camera, (64, 48), options, 9.0, (), end, notation=notation)
+        for item in grown_diagram(content):
             if isinstance(item, Label):
                 yield "outside view", "label", item.text
 

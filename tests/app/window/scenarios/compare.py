@@ -1,4 +1,4 @@
-"""The compare view: false colours, wipe, flip, counts, steps. The ray image is tampered with."""
+"""The compare view: false colours, wipe, counts, steps. The ray image is tampered with."""
 
 from __future__ import annotations
 
@@ -123,22 +123,16 @@ def drive_a_wrong_block_is_shown_counted_marked_and_stepped_through(d):
 
 
 def check_false_colours(d):
-    for mode, gain in (("absolute", 1.0), ("absolute", 8.0), ("signed", 4.0)):
-        show(d, mode=mode, gain=gain)
+    for gain in (1.0, 8.0):
+        show(d, gain=gain)
         both = comparison(d)
         difference = signed_difference(both.raster, both.ray)
-        expected = false_color(difference, "color", gain, signed=mode == "signed")
         seen = shown(d)
-        assert close(seen, expected), f"{mode}, gain {gain}"
-        inside, outside = seen[45, 50].tolist(), seen[80, 150].tolist()
-        assert outside == ([0, 0, 0] if mode == "absolute" else [255, 255, 255])
-        assert inside != outside
-        if mode == "signed":
-            red, _, blue = seen[WORST].tolist()
-            assert red > blue, "the ray image has more: orange"
+        assert close(seen, false_color(difference, "color", gain)), f"gain {gain}"
+        assert seen[45, 50].any() and not seen[80, 150].any()
     d.window.change(with_options(d.window.state, images={"channel": "depth"}))
     d.settle()
-    assert shown(d)[45, 50].tolist() == [255] * 3, "signed: only the colour was changed"
+    assert not shown(d)[45, 50].any(), "only the colour was changed"
     d.window.change(with_options(d.window.state, images={"channel": "color"}))
 
 
@@ -147,25 +141,22 @@ def check_counts(d):
     counts = comparing.counts(both)
     assert counts[SHADING] >= 40 * 60 - 100
     assert counts[SHADING] == both.shading == (both.labels == SHADING).sum()
-    assert both.errors["color"].worst == WORST
     count = len(d.window.history.past)
-    d.ctx.item_click("//###Compare/###worst")
+    d.ctx.item_click("//###Compare/##shading")
+    d.ctx.yield_(2)
+    assert d.window.state.marked is not None
+    assert both.labels[d.window.state.marked] == SHADING
     d.settle()
-    assert d.window.state.marked == WORST
     assert d.window.state.images.magnification == comparing.MARKED_MAGNIFICATION
+    row, column = d.window.state.marked
     screen = d.window.views[NAME].screen
-    low, high = screen.point(*WORST), screen.point(WORST[0] + 1, WORST[1] + 1)
+    low, high = screen.point(row, column), screen.point(row + 1, column + 1)
     pane_low, pane_high = screen.pane
     assert pane_low.x < low.x < high.x < pane_high.x, "it is in sight"
     assert pane_low.y < low.y < high.y < pane_high.y
     assert len(d.window.history.past) == count + 1
     d.window.undo()
     assert d.window.state.marked is None
-    d.ctx.item_click("//###Compare/##shading")
-    d.ctx.yield_(2)
-    assert d.window.state.marked is not None
-    assert both.labels[d.window.state.marked] == SHADING
-    d.window.undo()
 
 
 def check_steps(d):
@@ -176,13 +167,10 @@ def check_steps(d):
         (int(Key.n), first),
         (int(Key.n), second),
         (SHIFT | int(Key.n), first),
-        (SHIFT | int(Key.m), WORST),
     ):
         d.ctx.key_press(keys)
         d.ctx.yield_(2)
         assert d.window.state.marked == expected
-    d.window.undo()
-    assert d.window.state.marked == first
     for _ in range(3):
         d.window.undo()
     assert d.window.state.marked is None
@@ -205,13 +193,12 @@ def check_causes(d):
     assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
 
 
-def drive_a_wipe_and_a_flip_have_the_raster_image_first_and_the_ray_image_second(d):
+def drive_a_wipe_has_the_raster_image_first_and_the_ray_image_second(d):
     show(d, mode="wipe", divider=0.5)
     with tampered(d, lambda color: np.multiply(color, 0.3, out=color)):
         raster, ray = (below_labels(picture) for picture in pictures(d))
         assert not close(raster, ray, 0.5)
         check_wipe(d, raster, ray)
-        check_flip(d, raster, ray)
 
 
 def check_wipe(d, raster, ray):
@@ -240,41 +227,17 @@ def check_wipe(d, raster, ray):
         assert close(seen[:, handle:-handle], expected[:, handle:-handle])
 
 
-def check_flip(d, raster, ray):
-    show(d, mode="flip")
-    for first, second in ((raster, ray), (ray, raster)):
-        assert close(below_labels(shown(d)), first)
-        d.ctx.key_down(int(Key.x))
-        d.ctx.yield_(2)
-        assert close(below_labels(shown(d)), second)
-        d.ctx.key_up(int(Key.x))
-        d.ctx.yield_(2)
-        if first is raster:
-            d.ctx.item_click("//###Compare/show ray")
-            d.ctx.yield_(2)
-            assert d.window.state.options.compare.flipped
-
-
-def drive_modes_and_gain_have_keys_and_can_be_undone(d):
+def drive_modes_have_keys_and_can_be_undone(d):
     show(d)
-    for key, mode in ((Key.f6, "signed"), (Key.f7, "wipe"), (Key.f8, "flip"), (Key.f5, "absolute")):
+    for key, mode in ((Key.f5, "wipe"), (Key.f6, "absolute")):
         d.ctx.key_press(int(key))
         d.ctx.yield_(2)
         assert d.window.state.options.compare.mode == mode
         d.window.undo()
         d.window.redo()
-    d.ctx.item_click("//###Compare/Signed")
-    assert d.window.state.options.compare.mode == "signed"
-    for _ in range(3):
-        d.ctx.key_press(int(Key.right_bracket))
-    d.ctx.key_press(int(Key.left_bracket))
-    d.ctx.yield_(2)
-    assert d.window.state.options.compare.gain == 4
+    d.ctx.item_click("//###Compare/Wipe")
+    assert d.window.state.options.compare.mode == "wipe"
     d.window.undo()
-    assert d.window.state.options.compare.gain == 8
-    d.ctx.key_press(SHIFT | int(Key.right_bracket))
-    d.ctx.yield_(2)
-    assert d.window.state.options.compare.divider == 0.5 + comparing.DIVIDER_STEP
     count = len(d.window.history.past)
     slider = d.ctx.item_info("//###Compare/##gain").rect_full
     at = slider.get_center()
@@ -303,10 +266,9 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
         d.ctx.yield_(3)
         d.until(lambda: both.ray_image is not None and both.ray_image.factor == 4)
         d.ctx.yield_(3)
-        assert "coarse (1/4)" in waiting(both, d.window.state)
+        assert "coarse" in waiting(both, d.window.state)
         seen = shown(d)
-        assert np.ptp(seen, axis=2).max() <= 2, "gray: the raster image, muted"
-        assert seen.std() > 3
+        assert seen.std() > 3 and seen.max() < 110, "the raster image, muted"
     finally:
         live.poll = take  # type: ignore[method-assign]
     trace_again(d)
