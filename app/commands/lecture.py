@@ -197,8 +197,7 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     """Write a page about a class's answers."""
-    from lucida.app.checking.results.model import class_results, read_answers
-    from lucida.app.checking.results.page import page
+    from lucida.app.checking.results import page, read_answers, summary
     from lucida.renderer.system.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
@@ -207,10 +206,10 @@ def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
         raise LucidaError("--results", "; ".join(problems) or "have no answers", remedy)
     for problem in problems:
         print(f"lucida: {problem}", file=sys.stderr)
-    results = class_results(answers, [step.title for step in lecture.steps], problems)
+    html = page(answers, [step.title for step in lecture.steps])
     with atomic_write(arguments.output) as file:
-        file.write(page(results).encode())
-    common.say(one_line(f"{arguments.output}: {results.summary}"))
+        file.write(html.encode())
+    common.say(one_line(f"{arguments.output}: {summary(answers)}"))
     return 0
 
 

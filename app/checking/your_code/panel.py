@@ -46,7 +46,7 @@ INVITATION = (
 SIGNATURE = "def {}:\n    ...\n    return {}"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
-    " on some systems with your rights. Read it first."
+    " with your rights. Read it first: Edit opens it."
 )
 
 
@@ -186,23 +186,6 @@ def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont 
     if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
         return fonts.bold, VERDICT
     return fonts.text, 1.0
-
-
-def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
-    """Draw the text of a file that the user has not opened. Return True if it should be run."""
-    wrapped(TRUST)
-    run = bool(imgui.button("Run it"))
-    left = imgui.get_content_region_avail()
-    if imgui.begin_child(
-        "source",
-        ImVec2(left.x, left.y),
-        imgui.ChildFlags_.borders,
-        imgui.WindowFlags_.horizontal_scrollbar,
-    ):
-        with lettering(fonts.mono):
-            imgui.text_unformatted(text)
-    imgui.end_child()
-    return run
 
 
 def _color(role: ToldRole) -> ImVec4:

@@ -15,7 +15,7 @@ from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.rays import WORDS, ray_program, ray_task
 from lucida.app.checking.mistakes.trials import RayTrial, candidates
-from lucida.app.checking.reports.told import told
+from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.task_file import load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask

@@ -151,10 +151,10 @@ def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].hanging)
     assert desk.runs.running_s > 0
-    desk.runs.tick()
+    desk.runs.poll()
     assert not desk.made[0].ended.is_set()  # it is still wanted
     desk.runs.follow(OTHER)
-    wait_for(lambda: desk.runs.tick() or desk.made[0].ended.is_set())
+    wait_for(lambda: desk.runs.poll() or desk.made[0].ended.is_set())
     report = desk.settled()
     assert report.question == OTHER
     assert report.rays.result.status == "right"
@@ -166,8 +166,7 @@ def test_what_was_stopped_is_not_run_again_by_itself(desk):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].hanging)
     desk.runs.stop()
-    assert not desk.made[0].ended.is_set()  # that takes long: not in the window's thread
-    desk.runs.tick()
+    desk.runs.poll()
     report = desk.settled()
     assert report.rays.result.failure.text == "rays.py: was stopped"
     assert report.halted
@@ -239,9 +238,9 @@ def test_forgetting_ends_the_process(desk):
     desk.told(QUESTION)
     desk.runs.forget()
     assert desk.runs.report is None
-    wait_for(lambda: desk.made[0].closed)
+    assert desk.made[0].ended.is_set()
     assert desk.told(QUESTION).rays.result.status == "right"
-    assert len(desk.made) == 2
+    assert desk.made[0].closed and len(desk.made) == 2
     assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
 
 
