@@ -112,7 +112,7 @@ def _axe(tab: Any, numbers: Sequence[str]) -> Iterator[str]:
 
 
 def _violations(tab: Any, where: str) -> Iterator[str]:
-    """Yield what axe finds in the step that is shown: the hidden ones would take most of the time."""
+    """Yield what axe finds in the step that is shown. Hidden steps would take most of the time."""
     context = "{exclude: ['.step:not(.current)']}"
     results = tab.evaluate(f"axe.run({context}, {{resultTypes: ['violations']}})")
     for one in results["violations"]:
