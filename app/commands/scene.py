@@ -15,9 +15,9 @@ NAME = "scene"
 
 DESCRIPTION = """\
 List what is in a scene: its objects with their types, triangles, bounds and colours, its lights
-and its camera; properties of its materials that are not shown; oddities, such as meshes that are
-open or turned inside out, faces without an area or there twice, and repairs of a model; the model
-files that it reads, marking those outside its folder; and its models' cameras."""
+and its camera; properties of its materials that are not shown; models that are open, turned inside
+out or in parts differently; the model files that it reads, marking those outside its folder; and
+its models' cameras."""
 
 EPILOG = """\
 exit status: 0 done (also if something is odd: all of it can be drawn), 2 a mistake or a failure
@@ -50,7 +50,7 @@ def _contents(scene: Scene) -> list[str]:
     from lucida.renderer.editing.outline import outline
     from lucida.renderer.files.oddities import oddities
     from lucida.renderer.files.saving import light_table
-    from lucida.renderer.scene.model import triangles_of
+    from lucida.renderer.scene.model import Mesh, triangles_of
     from lucida.renderer.system.errors import one_line, quoted
 
     rows = outline(scene)
@@ -77,7 +77,9 @@ def _contents(scene: Scene) -> list[str]:
     camera = scene.view.camera
     lines.append(f"  camera: {camera.projection} from {_vector(camera.eye)}")
     lines += [f"  note: {one_line(note)}" for note in scene.notes]
-    lines += [one_line(f"  odd: object {odd.object} {odd.text}") for odd in oddities(scene)]
+    for number, entry in enumerate(scene.objects):
+        if kinds[number].kind in ("model", "mesh") and isinstance(entry.shape, Mesh):
+            lines += [f"  odd: object {number} {text}" for text in oddities(entry.shape)]
     return lines
 
 

@@ -17,7 +17,7 @@ from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
-from lucida.app.instruments.stepper.controls import CANVASES
+from lucida.app.instruments.stepper.panel import CANVASES
 from lucida.app.state.options.shared import Notation
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
