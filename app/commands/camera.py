@@ -123,7 +123,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCamera | None) -> str:
-    from lucida.app.cameras.described import Fact, as_data, as_text, facts
+    from lucida.app.cameras.described import as_data, as_text, facts
 
     if arguments.json:
         return json.dumps(as_data(found, chosen), indent=2, allow_nan=False)
@@ -131,7 +131,7 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
     if chosen is None:
         name = next((camera.name for camera in found.cameras if camera.name), "")
         by_name = f", or INPUT#NAME, such as {name!r}" if name else ""
-        told.append(Fact("to choose", f"INPUT#N, 0 to {len(found.cameras) - 1}{by_name}"))
+        told.append(("to choose", f"INPUT#N, 0 to {len(found.cameras) - 1}{by_name}"))
     return as_text(told)
 
 

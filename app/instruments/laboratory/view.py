@@ -100,7 +100,7 @@ class LaboratoryView(Instrument):
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
         notation = host.state.options.notation
         self.page = self._page(size, look, options, color, exposure_ev, place, notation)
-        self.figure = self._figure(options.page, self.page)
+        self.figure = self._figure(self.page)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from held_clock import Clock
 from imgui_bundle import imgui
-from option_changes import with_options
 from window_driver import Driver, Key, changed
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS
@@ -96,22 +95,6 @@ def drive_fractions_and_roots_are_typed(d: Driver) -> None:
     d.ctx.key_chars_replace_enter("sqrt(4)")
     d.ctx.yield_(2)
     assert d.window.state.camera.eye[:2] == (0.25, 2.0)
-
-
-def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) -> None:
-    """Or it would depend on what was seen before."""
-    height, width = d.window.renderers.size[::-1]
-    mark = height // 2, width // 2
-    d.window.shell.stage.show("Ray", False)
-    d.settle()
-    d.window.change(with_options(d.window.state, marked=mark))
-    d.type("eye.x", "3.5")
-    d.settle()
-    ray = d.window.renderers.camera(d.window.state).ray(*mark, d.window.renderers.size)
-    away = np.cross(np.subtract(d.window.views["Camera"].dolly_point, ray.origin), ray.direction)
-    assert np.linalg.norm(away) < 1e-9
-    d.window.shell.stage.show("Ray")
-    d.settle()
 
 
 def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
