@@ -38,8 +38,16 @@ LIGHT = r"\mathbf{L}"
 def color_lines(reading: Reading) -> list[Line]:
     """Return the lines from the material's reflectance to the picture's bytes."""
     if reading.shading is None:
-        name, right = "nothing is hit: the background", r"\mathbf{L}_{\mathrm{background}}"
-        arrived = [_color_formula("background", name, LIGHT, right, {}, reading.background)]
+        arrived = [
+            _color_formula(
+                "background",
+                "nothing is hit: the background",
+                LIGHT,
+                r"\mathbf{L}_{\mathrm{background}}",
+                {},
+                reading.background,
+            )
+        ]
     else:
         arrived = _shading_lines(reading.shading)
         arrived += [
@@ -54,13 +62,19 @@ def color_lines(reading: Reading) -> list[Line]:
 
 
 def _shading_lines(shading: Shading) -> list[Line]:
-    k, light = _color("k_d", shading.albedo), _color("I_a", shading.ambient_light)
-    lines = [_given("reflectance", "diffuse reflectance of the surface", k, shading.albedo)]
+    lines = [
+        _given("reflectance", "diffuse reflectance of the surface", "k_d", shading.albedo),
+        _color_formula(
+            "ambient",
+            "ambient",
+            r"\mathbf{L}_a",
+            r"<k>\,<I>",
+            {"k": _color("k_d", shading.albedo), "I": _color("I_a", shading.ambient_light)},
+            shading.ambient,
+        ),
+    ]
     if any(shading.specular):
-        k_s = _color("k_s", shading.specular)
-        lines.append(_given("specular", "specular reflectance", k_s, shading.specular))
-    left, slots = rf"{LIGHT}_a", {"k": k, "I": light}
-    lines.append(_color_formula("ambient", "ambient", left, r"<k>\,<I>", slots, shading.ambient))
+        lines.insert(1, _given("specular", "specular reflectance", "k_s", shading.specular))
     for lamp in shading.lamps:
         lines += _lamp_lines(shading, lamp)
     return lines
@@ -68,32 +82,42 @@ def _shading_lines(shading: Shading) -> list[Line]:
 
 def _lamp_lines(shading: Shading, lamp: Lamp) -> list[Line]:
     k = lamp.number + 1
-    lines = [_to_light(lamp, k)]
+    kind = "point light" if lamp.is_point else "directional light"
+    lines = [_to_light(lamp, k, kind)]
     if not lamp.is_lit:
-        name = f"light {k} is shadowed: something is between, or the surface faces away"
-        zero = rf"{LIGHT}_{{{k}}} = (0, 0, 0)"
-        return [*lines, Line(f"shadow {k}", name, zero, "", (0.0, 0.0, 0.0))]
+        zero = "(0, 0, 0)"
+        return [
+            *lines,
+            Line(
+                f"shadow {k}",
+                f"light {k} is shadowed: something is between, or the surface faces away",
+                rf"\mathbf{{L}}_{{{k}}} = {zero}",
+                "",
+                (0.0, 0.0, 0.0),
+            ),
+        ]
     color = _color(f"I_{k}", lamp.color)
     lines.append(
         _color_formula(
             f"diffuse {k}",
             f"light {k}, diffuse" + (": it is behind the surface" if lamp.n_dot_l <= 0 else ""),
-            rf"{LIGHT}_{{d{k}}}",
+            rf"\mathbf{{L}}_{{d{k}}}",
             r"<k>\,<I>\,\max(0,\ <dot>)",
-            {"k": _color("k_d", shading.albedo), "I": color, "dot": _dot(f"l_{k}", lamp.n_dot_l)},
+            {
+                "k": _color("k_d", shading.albedo),
+                "I": color,
+                "dot": _dot(f"l_{k}", lamp.n_dot_l),
+            },
             lamp.diffuse,
         )
     )
     if any(shading.specular):
-        light, view = bold(f"l_{k}"), r"\hat{\mathbf{d}}"
-        right = rf"\frac{{{light} - {view}}}{{|{light} - {view}|}}"
-        name = f"halfway between light {k} and the viewer"
-        lines.append(formula(f"halfway {k}", name, bold(f"h_{k}"), right, {}, lamp.half))
+        lines.append(_halfway(lamp, k))
         lines.append(
             _color_formula(
                 f"specular {k}",
                 f"light {k}, specular",
-                rf"{LIGHT}_{{s{k}}}",
+                rf"\mathbf{{L}}_{{s{k}}}",
                 r"<k>\,<I>\,\max(0,\ <dot>)^{<s>}",
                 {
                     "k": _color("k_s", shading.specular),
@@ -107,12 +131,24 @@ def _lamp_lines(shading: Shading, lamp: Lamp) -> list[Line]:
     return lines
 
 
-def _to_light(lamp: Lamp, k: int) -> Line:
-    kind = "point light" if lamp.is_point else "directional light"
-    q, x = bold(f"q_{k}"), r"\mathbf{x}"
-    right = rf"\frac{{{q} - {x}}}{{|{q} - {x}|}}" if lamp.is_point else bold(f"c_{k}")
+def _to_light(lamp: Lamp, k: int, kind: str) -> Line:
     name = f"towards light {k}, a {kind}"
+    right, q, x = bold(f"c_{k}"), bold(f"q_{k}"), r"\mathbf{x}"
+    if lamp.is_point:
+        right = rf"\frac{{{q} - {x}}}{{|{q} - {x}|}}"
     return formula(f"light {k}", name, bold(f"l_{k}"), right, {}, lamp.to_light)
+
+
+def _halfway(lamp: Lamp, k: int) -> Line:
+    light, view = bold(f"l_{k}"), r"\hat{\mathbf{d}}"
+    return formula(
+        f"halfway {k}",
+        f"halfway between light {k} and the viewer",
+        bold(f"h_{k}"),
+        rf"\frac{{{light} - {view}}}{{|{light} - {view}|}}",
+        {},
+        lamp.half,
+    )
 
 
 def _dot(other: str, value: float) -> Slot:
@@ -126,39 +162,40 @@ def _bounce_line(reading: Reading, number_: int, bounce: Bounce) -> Line:
     else:
         entry = next(m for m in reading.meetings if m.object == bounce.hit.object)
         seen = f"{entry.name}, t = {number(bounce.hit.t)}"
-    # Of a later ray, the product of the reflectances on its way.
-    weight = _color("k_s" if number_ == 1 else f"w_{number_}", bounce.weight)
-    arriving = Slot(rf"{LIGHT}(\mathbf{{r}}_{{{number_}}})", _color_text(bounce.color))
     return _color_formula(
         f"mirror {number_}",
         f"mirrored ray {number_} sees {seen}",
-        rf"{LIGHT}_{{m{number_}}}",
+        rf"\mathbf{{L}}_{{m{number_}}}",
         r"<k>\,<L>",
-        {"k": weight, "L": arriving},
+        {
+            # Of a later ray, the product of the reflectances on its way.
+            "k": _color("k_s" if number_ == 1 else f"w_{number_}", bounce.weight),
+            "L": Slot(rf"\mathbf{{L}}(\mathbf{{r}}_{{{number_}}})", _color_text(bounce.color)),
+        },
         _added(bounce),
     )
 
 
 def _added(bounce: Bounce) -> Color:
-    """Return what a mirrored ray adds to the pixel."""
+    """Return the lines for what a mirrored ray adds to the pixel."""
     r, g, b = (w * c for w, c in zip(bounce.weight, bounce.color, strict=True))
     return r, g, b
 
 
 def _sum_line(reading: Reading, shading: Shading) -> Line:
-    terms = {"a": shading.ambient}
+    terms = [(r"\mathbf{L}_a", shading.ambient)]
     for lamp in shading.lamps:
+        k = lamp.number + 1
         if lamp.is_lit:
-            terms[f"{{d{lamp.number + 1}}}"] = lamp.diffuse
+            terms.append((rf"\mathbf{{L}}_{{d{k}}}", lamp.diffuse))
             if any(shading.specular):
-                terms[f"{{s{lamp.number + 1}}}"] = lamp.specular
+                terms.append((rf"\mathbf{{L}}_{{s{k}}}", lamp.specular))
     for k, bounce in enumerate(reading.bounces, start=1):
-        terms[f"{{m{k}}}"] = _added(bounce)
+        terms.append((rf"\mathbf{{L}}_{{m{k}}}", _added(bounce)))
     slots = {
-        str(place): Slot(f"{LIGHT}_{index}", _color_text(value))
-        for place, (index, value) in enumerate(terms.items())
+        f"{index}": Slot(latex, _color_text(value)) for index, (latex, value) in enumerate(terms)
     }
-    total = " + ".join(f"<{place}>" for place in slots)
+    total = " + ".join(f"<{index}>" for index in slots)
     return _color_formula("sum", "the sum", LIGHT, total, slots, reading.color)
 
 
@@ -166,37 +203,59 @@ def _sum_line(reading: Reading, shading: Shading) -> Line:
 
 
 def _display_lines(reading: Reading) -> list[Line]:
-    lines, prime = [], "'" if reading.exposure_ev else ""
+    lines = []
     if reading.exposure_ev:
-        slots = {
-            "e": scalar_slot(r"\mathrm{EV}", reading.exposure_ev),
-            "L": _color("L", reading.color),
-        }
-        right = r"2^{<e>}\,<L>"
-        left, exposed = LIGHT + prime, reading.exposed
-        lines.append(_color_formula("exposure", "exposure", left, right, slots, exposed))
-    light = Slot(LIGHT + prime, _color_text(reading.exposed))
-    cut, shown = "", "<L>"
+        stops = scalar_slot(r"\mathrm{EV}", reading.exposure_ev)
+        lines.append(
+            _color_formula(
+                "exposure",
+                "exposure",
+                r"\mathbf{L}'",
+                r"2^{<e>}\,<L>",
+                {"e": stops, "L": _color("L", reading.color)},
+                reading.exposed,
+            )
+        )
+    light = _color("L", reading.exposed)
+    if reading.exposure_ev:
+        light = Slot(r"\mathbf{L}'", light.latex_value)
+    cut, latex = "", "<L>"
     if max(reading.exposed) > 1:
-        cut, shown = "; what is above 1 is cut off", r"\min(1,\ <L>)"
-    right = rf"{SRGB_SCALE}\,{shown}^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}"
+        cut, latex = "; what is above 1 is cut off", r"\min(1,\ <L>)"
+    right = rf"{SRGB_SCALE}\,{latex}^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}"
     name = f"sRGB's curve (up to {SRGB_LINEAR}: {SRGB_SLOPE} L)"
     if reading.transfer == "linear":
-        right, name = shown, "display value, linear"
-    color = r"\mathbf{C}"
-    lines.append(_color_formula("display", name + cut, color, right, {"L": light}, reading.display))
-    right, slots = r"\lfloor 255\,<C> + 0.5 \rfloor", {"C": _color("C", reading.display)}
-    values = tuple(float(value) for value in reading.bytes)
-    return [*lines, formula("bytes", "8 bits", r"\mathbf{B}", right, slots, values)]
+        right, name = latex, "display value, linear"
+    lines.append(
+        _color_formula("display", name + cut, r"\mathbf{C}", right, {"L": light}, reading.display)
+    )
+    bytes_ = tuple(float(value) for value in reading.bytes)
+    lines.append(
+        formula(
+            "bytes",
+            "8 bits",
+            r"\mathbf{B}",
+            r"\lfloor 255\,<C> + 0.5 \rfloor",
+            {"C": _color("C", reading.display)},
+            bytes_,
+        )
+    )
+    return lines
 
 
-def _given(key: str, name: str, slot: Slot, value: Color) -> Line:
+def _given(key: str, name: str, symbol: str, value: Color) -> Line:
     """Return the line of a quantity that is read from the scene."""
-    return Line(key, name, slot.symbol, f"= {slot.value}", value)
+    slot = _color(symbol, value)
+    return Line(key, name, slot.latex, f"= {slot.latex_value}", value)
 
 
 def _color_formula(
-    key: str, name: str, left: str, right: str, slots: Mapping[str, Slot], value: Color
+    key: str,
+    name: str,
+    left: str,
+    right: str,
+    slots: Mapping[str, Slot],
+    value: Color,
 ) -> Line:
     return formula(key, name, left, right, slots, value, _color_text(value))
 

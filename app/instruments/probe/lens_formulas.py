@@ -24,21 +24,23 @@ from lucida.renderer.camera.lenses import Lens
 
 def _around(a: str, b: str, r: str, theta: str) -> str:
     """Return the direction at an angle theta to the axis, towards (a, b) of length r."""
-    across = rf"\sin\theta\,\frac{{{a}}}{{{r}}},\ \sin\theta\,\frac{{{b}}}{{{r}}}"
-    return rf"\left({across},\ \cos\theta\right),\ \theta = {theta}"
+    return (
+        rf"\left(\sin\theta\,\frac{{{a}}}{{{r}}},\ \sin\theta\,\frac{{{b}}}{{{r}}},\ "
+        rf"\cos\theta\right),\ \theta = {theta}"
+    )
 
 
-_IDEAL = "a'", "b'", "r'"
 _FISHEYE = _around("U", "V", r"\theta", r"\sqrt{U^2 + V^2}")
+_FOV = r"\arctan \frac{\tan(r' \omega)}{2 \tan(\omega / 2)}"
 DIRECTIONS = {  # (X, Y, Z) by the lens's model
     "brown": "(a, b, 1)",
     "fisheye": _FISHEYE,
     "thin_prism_fisheye": _FISHEYE,
-    "equidistant": _around(*_IDEAL, "r'"),
-    "stereographic": _around(*_IDEAL, r"2 \arctan \frac{r'}{2}"),
-    "equisolid": _around(*_IDEAL, r"2 \arcsin \frac{r'}{2}"),
-    "orthographic": _around(*_IDEAL, r"\arcsin r'"),
-    "fov": _around(*_IDEAL, r"\arctan \frac{\tan(r' \omega)}{2 \tan(\omega / 2)}"),
+    "equidistant": _around("a'", "b'", "r'", "r'"),
+    "stereographic": _around("a'", "b'", "r'", r"2 \arctan \frac{r'}{2}"),
+    "equisolid": _around("a'", "b'", "r'", r"2 \arcsin \frac{r'}{2}"),
+    "orthographic": _around("a'", "b'", "r'", r"\arcsin r'"),
+    "fov": _around("a'", "b'", "r'", _FOV),
     "equirectangular": r"(\sin a' \cos b',\ \sin b',\ \cos a' \cos b')",
     "cylindrical": r"(\sin a',\ b',\ \cos a')",
 }
@@ -62,15 +64,10 @@ def lens_lines(reading: Reading) -> list[Line]:
     lines = [appears, *_distortion(lens)]
     way = [float(part) for part in lens.direction(*place)]
     if not np.isfinite(way).all():
-        nothing = r"\mathbf{d} = \mathrm{none}"
-        return [*lines, Line("outside", "outside of the lens", nothing, "")]
-    ideal = Line(
-        "ideal",
-        "the direction, Z forwards",
-        f"(X, Y, Z) = {DIRECTIONS[lens.model]}",
-        f"= {results(way)}",
-        tuple(way),
-    )
+        none = r"\mathbf{d} = \mathrm{none}"
+        return [*lines, Line("outside", "outside of the lens", none, "")]
+    latex = f"(X, Y, Z) = {DIRECTIONS[lens.model]}"
+    ideal = Line("ideal", "the direction, Z forwards", latex, f"= {results(way)}", tuple(way))
     slots = {name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")}
     slots |= {
         name: scalar_slot(name, value, factor=True) for name, value in zip("XYZ", way, strict=True)
@@ -91,6 +88,6 @@ def _distortion(lens: Lens) -> list[Line]:
     given = {name: value for name, value in lens.coefficients.items() if value}
     if not given or lens.model == "fov":
         return []
+    latex = KINDS[lens.model].latex.split(r",\quad ")[0]
     numbers = r",\ ".join(f"{name[:-1]}_{name[-1]} = {number(v)}" for name, v in given.items())
-    name = "distortion, undone by Newton's method"
-    return [Line("distortion", name, KINDS[lens.model].latex.split(r",\quad ")[0], numbers)]
+    return [Line("distortion", "distortion, undone by Newton's method", latex, numbers)]

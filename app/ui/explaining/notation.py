@@ -1,11 +1,10 @@
-"""Numbers and vectors as formulas write them."""
+"""Numbers and vectors as formulas write them, in LaTeX; and numbers as plain text."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 DECIMALS = 4
 FRACTION = 1600  # parts of 1 that have at most six decimals: those of 32 or 160 pixels, say
@@ -13,11 +12,12 @@ FRACTION = 1600  # parts of 1 that have at most six decimals: those of 32 or 160
 
 @dataclass(frozen=True)
 class Line:
-    """One step: in symbols, followed by a pixel's numbers, as LaTeX.
+    """One step as LaTeX: in symbols, followed by a pixel's numbers.
 
     key: the step's id, the same for every pixel.
     name: in words.
-    latex: `u = ...`. latex_numbers: `= ... = 0.125`.
+    latex: `u = ...`.
+    latex_numbers: `= ... = 0.125`.
     value: the result, as numbers.
     """
 
@@ -28,21 +28,23 @@ class Line:
     value: tuple[float, ...] = ()
 
 
-class Slot(NamedTuple):
-    """A quantity of a formula: its symbol and its value, as LaTeX."""
+@dataclass(frozen=True)
+class Slot:
+    """A quantity of a formula: its symbol and its value as LaTeX."""
 
-    symbol: str
-    value: str
+    latex: str
+    latex_value: str
 
 
-def scalar_slot(symbol: str, value: float, factor: bool = False) -> Slot:
+def scalar_slot(latex: str, value: float, factor: bool = False) -> Slot:
     """Return a number for a formula. factor: part of a product, so negative ones get brackets."""
     shown = latex_number(value)
-    return Slot(symbol, f"({shown})" if factor and (value < 0 or "^" in shown) else shown)
+    bracketed = factor and (value < 0 or "cdot" in shown)
+    return Slot(latex, f"({shown})" if bracketed else shown)
 
 
 def vector_slot(name: str, value: Iterable[float]) -> Slot:
-    r"""Return a bold vector: `\mathbf{name}`."""
+    r"""Return a bold vector, `\mathbf{name}`."""
     return Slot(bold(name), latex_tuple(value))
 
 
@@ -57,21 +59,21 @@ def formula(
 ) -> Line:
     """Return a line `left = right`.
 
-    left, right: as LaTeX; on the right side, `<name>` is a slot. result: how the value is written,
-    if not as a number or a tuple.
+    right: `<name>` is a slot. result: how the value is written, if not as a number or a tuple.
     """
     values = (value,) if isinstance(value, int | float) else tuple(value)
     result = results(values) if result is None else result
     symbols = numbers = right
-    for place, slot in slots.items():
-        symbols = symbols.replace(f"<{place}>", slot.symbol)
-        numbers = numbers.replace(f"<{place}>", slot.value)
-    shown = f"= {numbers} = {result}" if slots and numbers != result else f"= {result}"
+    for slot_name, slot in slots.items():
+        symbols = symbols.replace(f"<{slot_name}>", slot.latex)
+        numbers = numbers.replace(f"<{slot_name}>", slot.latex_value)
+    is_plain = not slots or numbers in ("", result)
+    shown = f"= {result}" if is_plain else f"= {numbers} = {result}"
     return Line(key, name, f"{left} = {symbols}", shown, values)
 
 
 def results(values: Iterable[float]) -> str:
-    """Return a computed number, or a tuple, as LaTeX.
+    """Return a computed number, or a tuple.
 
     It always has four decimals, so that nothing jumps while it changes. Exact numbers are shorter,
     and a pixel's fractions are complete, so that they match calculations by hand.

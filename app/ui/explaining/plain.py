@@ -10,12 +10,12 @@ import re
 
 SIGNS = {
     "cdot": "·", "times": "\u00d7", "to": "→", "infty": "∞", "leq": "<=", "geq": ">=", "neq": "!=",
-    "quad": "  ", "qquad": "    ", "dots": "...", "pm": "±", "alpha": "alpha", "theta": "theta",
-    "left": "", "right": "", "displaystyle": "", ",": " ", ";": " ", ":": " ", "!": "", " ": " ",
-    "{": "{", "}": "}", "|": "|", "\\": "; ", "lfloor": "floor(", "rfloor": ")",
+    "quad": "  ", "qquad": "    ", "dots": "...", "ldots": "...", "pm": "±",
+    "left": "", "right": "", "lfloor": "floor(", "rfloor": ")", "displaystyle": "",
+    ",": " ", ";": " ", ":": " ", "!": "", " ": " ", "{": "{", "}": "}", "|": "|", "\\": "; ",
 }  # fmt: skip
 _TOKEN = re.compile(r"\\([A-Za-z]+|.)|([{}])|(\^|_)|([^\\{}^_]+)", re.DOTALL)
-_STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "hat", "vec")
+_STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "vec")
 
 
 def plain_math(latex: str) -> str:
@@ -59,12 +59,15 @@ class _LatexReader:
             return f"{_bracketed(self._argument())} / {_bracketed(self._argument())}"
         if command == "sqrt":
             return f"sqrt({self._argument()})"
-        if command in ("textcolor", "bgcolor", "color"):
+        if command in ("textcolor", "color"):
             self._argument()
-            return "" if command == "color" else self._argument()
+            return self._argument() if command == "textcolor" else ""
         if command == "mathbf":
             name = self._argument()
             return f"vec({name})" if len(name) == 1 else name
+        if command == "hat":  # a unit vector
+            name = self._argument()
+            return f"{name}/|{name}|"
         if command in _STYLES:
             return self._argument()
         return SIGNS.get(command, command)
@@ -86,4 +89,4 @@ class _LatexReader:
 def _bracketed(text: str) -> str:
     """Return sums and products in brackets, single terms without."""
     text = text.strip()
-    return text if re.fullmatch(r"[\w.²³]*|\|[^|]*\||(vec)?\([^()]*\)", text) else f"({text})"
+    return text if re.fullmatch(r"[\w.²³]*|\|[^|]*\||\([^()]*\)", text) else f"({text})"

@@ -25,7 +25,6 @@ from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.lecture.typesetting import mistake
 from lucida.app.ui import formula
-from lucida.app.ui.explaining.notation import Line
 from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.explaining.symbols import TABLE
 from lucida.renderer.camera.camera import Camera
@@ -66,12 +65,12 @@ the plane of triangle 0:
       = ((0, 1, 0) · ((-9, 0, -9) - (0, 2, 0))) / ((0, 1, 0) · (0, -2, -2)) = 1
 inside: no weight of a corner is negative:
     vec(x) = b_0 vec(a) + b_1 vec(b) + b_2 vec(c)
-      = 0.5 (-9, 0, -9) + 0.3889 (9, 0, 9) + 0.1111 (9, 0, -9) = (0, 0, -2)
+      = 0.5 (-9, 0, -9) + 0.3889 (9, 0, 9) + 0.1111 (9, 0, -9)
 hit point:
     vec(x) = vec(r)(t) = vec(p) + t vec(d)
       = (0, 2, 0) + 1 (0, -2, -2) = (0, 0, -2)
 normal of the triangle, towards the viewer:
-    vec(n) = ((vec(b) - vec(a)) x (vec(c) - vec(a))) / |...|
+    vec(n) = ((vec(b) - vec(a)) \u00d7 (vec(c) - vec(a))) / |...|
       = (0, 1, 0)
 diffuse reflectance of the surface:
     vec(k)_d
@@ -87,10 +86,9 @@ towards light 1, a point light:
       = (0.0000, 0.9701, 0.2425)
 light 1, diffuse:
     vec(L)_d1 = vec(k)_d vec(I)_1 max(0, vec(n) · vec(l)_1)
-      = (0.5000, 0.2500, 0.5000) (1.0000, 1.0000, 1.0000) max(0, 0.9701) = (0.4851, 0.2425,\
- 0.4851)
+      = (0.5000, 0.2500, 0.5000) (1.0000, 1.0000, 1.0000) max(0, 0.9701) = (0.4851, 0.2425, 0.4851)
 halfway between light 1 and the viewer:
-    vec(h)_1 = (vec(l)_1 - vec(d)) / |vec(l)_1 - vec(d)|
+    vec(h)_1 = (vec(l)_1 - vec(d)/|vec(d)|) / (|vec(l)_1 - vec(d)/|vec(d)||)
       = (0.0000, 0.8702, 0.4927)
 light 1, specular:
     vec(L)_s1 = vec(k)_s vec(I)_1 max(0, vec(n) · vec(h)_1)^s
@@ -109,8 +107,8 @@ mirrored ray 2 sees floor, t = 0.6466:
       = (0.1250, 0.2500, 0.2500) (0.6137, 0.3461, 0.6137) = (0.0767, 0.0865, 0.1534)
 the sum:
     vec(L) = vec(L)_a + vec(L)_d1 + vec(L)_s1 + vec(L)_m1 + vec(L)_m2
-      = (0.0500, 0.0250, 0.0500) + (0.4851, 0.2425, 0.4851) + (0.0005, 0.0005, 0.0005) +\
- (0.0500, 0.0250, 0.0125) + (0.0767, 0.0865, 0.1534) = (0.6623, 0.3795, 0.7015)
+      = (0.0500, 0.0250, 0.0500) + (0.4851, 0.2425, 0.4851) + (0.0005, 0.0005, 0.0005) + (0.0500,\
+ 0.0250, 0.0125) + (0.0767, 0.0865, 0.1534) = (0.6623, 0.3795, 0.7015)
 sRGB's curve (up to 0.0031308: 12.92 L):
     vec(C) = 1.055 vec(L)^(1/2.4) - 0.055
       = 1.055 (0.6623, 0.3795, 0.7015)^(1/2.4) - 0.055 = (0.8335, 0.6496, 0.8551)
@@ -121,23 +119,21 @@ sRGB's curve (up to 0.0031308: 12.92 L):
 
 
 def by_key(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> dict[str, list[str]]:
-    """Return each line's text, and the same with numbers."""
-    return {one.key: texts(one) for one in all_lines(reading, indexing)}
-
-
-def texts(line: Line) -> list[str]:
-    """Return a line as plain text, and the same with numbers."""
-    return [plain_math(one).replace("\u00d7", "x") for one in (line.latex, line.latex_numbers)]
+    """Return each line as plain text, and the same with numbers."""
+    return {
+        one.key: [plain_math(one.latex), plain_math(one.latex_numbers)]
+        for one in all_lines(reading, indexing)
+    }
 
 
 def test_a_mirror_that_sees_a_mirror_word_for_word():
     reading = on_the_floor()
     lines = all_lines(reading, Indexing.ARRAY)
-    written = [(f"{one.name}:", *texts(one)) for one in lines]
-    rows = (
-        " " * (4 * k - 2 * (k > 1)) + row for rows in written for k, row in enumerate(rows) if row
-    )
-    text = "\n".join(rows)
+    written = [
+        (f"{one.name}:", f"    {plain_math(one.latex)}", f"      {plain_math(one.latex_numbers)}")
+        for one in lines
+    ]
+    text = "\n".join(row for rows in written for row in rows if row.strip())
     assert text + "\n" == ON_THE_FLOOR
     (shadowed,) = (one for one in color_lines(reading) if one.key == "shadow 2")
     assert shadowed.value == (0, 0, 0)
@@ -197,13 +193,13 @@ def test_a_sphere_from_without_and_its_inside_where_near_cuts_it_open():
         {one.key: one for one in hit_lines(ball.at((0, 0), Camera(near=near), (1, 1)))}
         for near in (None, 3.0)
     )
-    assert texts(whole["t"])[1] == "= (-(-3) - sqrt((-3)² - 1 · 8.75)) / 1 = 2.5"
-    assert texts(whole["geometric"])[0] == "vec(n) = (vec(x) - vec(c)) / |vec(x) - vec(c)|"
-    assert texts(cut["t"])[1] == "= (-(-3) + sqrt((-3)² - 1 · 8.75)) / 1 = 3.5"
-    assert texts(cut["geometric"])[0] == "vec(n) = (vec(c) - vec(x)) / |vec(c) - vec(x)|"
+    assert plain_math(whole["t"].latex_numbers) == "= (-(-3) - sqrt((-3)² - 1 · 8.75)) / 1 = 2.5"
+    assert plain_math(whole["geometric"].latex) == "vec(n) = (vec(x) - vec(c)) / |vec(x) - vec(c)|"
+    assert plain_math(cut["t"].latex_numbers) == "= (-(-3) + sqrt((-3)² - 1 · 8.75)) / 1 = 3.5"
+    assert plain_math(cut["geometric"].latex) == "vec(n) = (vec(c) - vec(x)) / |vec(c) - vec(x)|"
     assert whole["geometric"].value == cut["geometric"].value == (0, 0, 1)
     far = Probe(Scene((SceneObject(Sphere((0, 0, -1e9), 1e-9)),))).at((0, 0), Camera(), (1, 1))
-    assert texts(hit_lines(far)[4])[0].startswith("vec(n) = (vec(x) - vec(c))")
+    assert plain_math(hit_lines(far)[4].latex).startswith("vec(n) = (vec(x) - vec(c))")
 
 
 def test_a_light_behind_the_surface_and_one_that_is_too_bright():
@@ -244,7 +240,7 @@ def test_normals_of_a_smooth_triangle_are_turned_to_the_viewer(behind, sign):
     lines, towards = by_key(reading), -1 if behind else 1
     assert lines["t"][0] == "t = (vec(g) · (vec(a) - vec(p))) / (vec(g) · vec(d))"
     assert lines["geometric"] == [
-        f"vec(g) = {sign}((vec(b) - vec(a)) x (vec(c) - vec(a))) / |...|",
+        f"vec(g) = {sign}((vec(b) - vec(a)) \u00d7 (vec(c) - vec(a))) / |...|",
         f"= (0, 0, {towards})",
     ]
     text, numbers = lines["normal"]
@@ -264,7 +260,10 @@ def test_a_normal_that_hardly_faces_the_viewer_is_bent_to_it(name):
     bent = g - (g @ d + 0.001) * d
     assert reading.hit.normal == pytest.approx(tuple(bent / np.linalg.norm(bent)), abs=1e-12)
     line = next(one for one in hit_lines(reading) if one.key == "normal")
-    assert texts(line)[0] == "vec(n) = (vec(g) - (vec(g) · vec(d) + 0.001) vec(d)) / |...|"
+    assert (
+        plain_math(line.latex)
+        == "vec(n) = (vec(g) - (vec(g) · vec(d)/|vec(d)| + 0.001) vec(d)/|vec(d)|) / |...|"
+    )
     assert by_key(reading)["geometric"][0].startswith("vec(g) = ")
     assert "interpolated" not in as_python(reading)
 
