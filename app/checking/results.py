@@ -40,8 +40,7 @@ td.count { text-align: right; font-variant-numeric: tabular-nums; }
 COLUMNS = ("step", "correct at once", "correct later", "not correct yet", "mistakes")
 
 
-@dataclass(frozen=True)
-class NamedMistake:
+class NamedMistake(msgspec.Struct, frozen=True, rename={"name": "mistake"}):
     """name: unique. reply: its explanation, as a lecture's text. read: the step to read again."""
 
     name: str
@@ -148,14 +147,9 @@ def _counted(number: int, noun: str) -> str:
     return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
-class _Made(msgspec.Struct):
-    mistake: str
-    reply: str = ""
-    read: str = ""
-
-
 class _Extra(msgspec.Struct):
-    mistakes: list[_Made] = []
+    mistakes: tuple[NamedMistake, ...] = ()
+    time: datetime | None = None
 
 
 class _Test(msgspec.Struct):
@@ -164,15 +158,11 @@ class _Test(msgspec.Struct):
     extra_data: _Extra = msgspec.field(default_factory=_Extra)
 
 
-class _Check(msgspec.Struct):
-    time: datetime | None = None
-
-
 class _Results(msgspec.Struct):
     """The file of a check, as Gradescope reads it."""
 
     tests: list[_Test]
-    extra_data: _Check = msgspec.field(default_factory=_Check)
+    extra_data: _Extra = msgspec.field(default_factory=_Extra)
 
 
 def read_answers(paths: Sequence[str | Path]) -> tuple[list[ClassAnswer], list[str]]:
@@ -202,7 +192,7 @@ def _of_check(path: Path, results: _Results) -> list[ClassAnswer]:
             f"Your code: {test.name.partition(':')[0]}",
             test.status == "passed",
             time.isoformat() if time else "",
-            tuple(NamedMistake(m.mistake, m.reply, m.read) for m in test.extra_data.mistakes),
+            test.extra_data.mistakes,
         )
         for test in results.tests
     ]
