@@ -30,7 +30,8 @@ HEAD = """\
 <style>
 :root { color-scheme: light dark; }
 body { margin: 0 auto; max-width: 64rem; padding: 1rem; font: 1rem/1.5 system-ui, sans-serif; }
-table { border-collapse: collapse; width: 100%; } p, ul { margin: 0; }
+table { border-collapse: collapse; width: 100%; } ul { margin: 0; padding-left: 1.2rem; }
+li p { display: inline; margin-right: .3rem; } li p:first-of-type, .bold { font-weight: 600; }
 th, td { border-bottom: 1px solid gray; padding: .4rem .6rem; text-align: left;
   vertical-align: top; }
 td.count { text-align: right; font-variant-numeric: tabular-nums; }
