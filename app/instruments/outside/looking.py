@@ -31,6 +31,7 @@ from lucida.renderer.system.memo import Memo, same
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
+MOST_MARGIN = 1.6  # the most of a view's side, in sides of what is framed
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
@@ -57,7 +58,7 @@ class Scopes:
         self._changed_s = 0.0
         self._scope: Scope | None = None
         self._is_in_picture = Memo(is_in_picture)
-        self.moves = self.waits = self._is_dragged = False
+        self.moves = self.waits = False
 
     def of(
         self,
@@ -80,11 +81,10 @@ class Scopes:
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
-        self._is_dragged = held and (self.moves or self._is_dragged)
         scope = self._scope if same(fixed, self._fixed) else None
         stays = (
             scope is not None
-            and (self.moves or self._is_dragged)
+            and (self.moves or held)
             and looking is None
             and self._is_in_picture(inner, scope.shown)
         )
@@ -121,7 +121,7 @@ def scope_of(
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
     options = host.state.options.outside
-    camera = options.camera or _for_all(points, host, size, extent)
+    camera = options.camera or camera_for_all(host, size, extent, more)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     if options.turned:
@@ -130,14 +130,11 @@ def scope_of(
 
 
 def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
-    """Return the outside camera that sees everything."""
-    return _for_all(_points(host, more), host, size, extent)
-
-
-def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
-    home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
-    margin = margin_for(extent.x, room), margin_for(extent.y, room)
-    return outside_camera(points, home, size[0] / size[1], margin)
+    """Return the outside camera that sees everything, with room for letters around it."""
+    room = 2 * theme.px(LETTER_PX)
+    across, down = (side / max(side - room, side / MOST_MARGIN, 1.0) for side in extent)
+    home = host.state.scene.view.camera
+    return outside_camera(_points(host, more), home, size[0] / size[1], (across, down))
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
@@ -164,11 +161,6 @@ def widest_px(screen: OutsideScreen, corners: Floats) -> float:
     """Return the longest visible side of a polygon (n, 3) on the screen."""
     points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
     return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
-
-
-def margin_for(side: float, room: float) -> float:
-    """Return a side of the view in sides of its contents, with room at both ends."""
-    return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
 
 
 def ray_ends(

@@ -58,10 +58,6 @@ DARKER: dict[Role, ImVec4] = {
 
 Rgba = tuple[float, float, float, float]
 
-# Of lines' edges. Dark in every theme: what is behind is the scene's picture, not the theme's
-# ground, and the lines themselves are pale.
-CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
-
 
 def role_color(role: Role, ground: Rgb | None = None) -> ImVec4:
     """Return the colour of a role in the current theme. ground: the colour under it; None: a

@@ -22,7 +22,6 @@ from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.screen import available_px
 from lucida.app.instruments.outside.camera_diagram import Content
-from lucida.app.instruments.outside.cloud import Cloud
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extensions import Extension, Extensions
 from lucida.app.instruments.outside.extent import end_parameter
@@ -40,7 +39,7 @@ from lucida.app.instruments.outside.looking import (
     widest_px,
 )
 from lucida.app.instruments.outside.mouse import Mouse, Scope
-from lucida.app.instruments.outside.paint import CASING, ground_of, layers
+from lucida.app.instruments.outside.paint import ground_of, layers
 from lucida.app.instruments.outside.parts import MadePicture, Tools
 from lucida.app.instruments.outside.pixel_plane import PixelPlane
 from lucida.app.instruments.outside.placing import Edges, LabelPlacer
@@ -103,14 +102,6 @@ class OutsideView(Instrument):
     def primitives(self) -> Sequence[Primitive]:
         """Return the diagram as it was last drawn, in pixels of the view."""
         return self._made.primitives if self._made is not None else ()
-
-    @property
-    def cloud(self) -> Cloud | None:
-        return self.extensions.cloud
-
-    @property
-    def extra(self) -> tuple[Item, ...]:
-        return self.extensions.lines
 
     @property
     def size_px(self) -> Size | None:
@@ -338,7 +329,7 @@ class OutsideView(Instrument):
             picture = both.textures.whole_raster(request, look_of(state.images))
         texture = overlay.draw(
             ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
-            exposure_ev, options.image_opacity, screen.unit_px, ground.mean, CASING, ground,
+            exposure_ev, options.image_opacity, screen.unit_px, ground.mean, ground,
             self.tools.layer.picture(extensions.cloud, screen, _ground(state)), moves=moves,
         )  # fmt: skip
         return MadePicture(key, texture, primitives, labels)
