@@ -12,7 +12,6 @@ from lucida.app.instruments.outside import answers
 from lucida.app.instruments.outside.diagram import Item, Segments, in_notation
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
-    SecondCamera,
     corner_rays,
     second_camera,
 )
@@ -38,7 +37,7 @@ def outside_items(
             items.append(Segments("right ray", "ray", line, 2.5, layer=3))
         return in_notation(items, notation)
     corners = corner_rays(rays.given[..., 0, :], rays.given[..., 1, :])
-    items += second_camera(SecondCamera(*corners, None, "yours", first), reach)
+    items += second_camera(*corners, reach, "yours", first)
     pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
     if rays.came[pixel]:
         items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)

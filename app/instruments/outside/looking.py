@@ -17,7 +17,7 @@ from lucida.app.images.ray_pictures import RayPainter, RayPictures
 from lucida.app.instruments.outside.diagram import RayEnd
 from lucida.app.instruments.outside.extent import around, framed, outside_camera, way_of
 from lucida.app.instruments.outside.frustum import bundle_pixels
-from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.mouse import Area, Scope
 from lucida.app.instruments.outside.screen import NEAREST, OutsideScreen
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
@@ -63,9 +63,7 @@ class Scopes:
     def of(
         self,
         host: Host,
-        size: Size,
-        origin: ImVec2,
-        extent: ImVec2,
+        area: Area,
         more: Floats,
         now_s: float,
         held: bool = False,
@@ -74,10 +72,10 @@ class Scopes:
         not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
         """
         both, state = host.renderers, host.state
-        place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
+        place = (area.size, *area.origin, *area.extent, theme.px(LETTER_PX))
         options, inner = state.options.outside, both.camera(state)
         looking = options.camera
-        fixed = state.scene, more, looking, options.turned, both.size, size, place, state.step
+        fixed = state.scene, more, looking, options.turned, both.size, place, state.step
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
@@ -90,7 +88,7 @@ class Scopes:
         )
         self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
-            self._scope = scope = scope_of(host, size, origin, extent, more)
+            self._scope = scope = scope_of(host, area, more)
             self._fixed, self._inner = fixed, inner
         return scope
 
@@ -106,14 +104,8 @@ def is_in_picture(camera: Camera, looking: Camera) -> bool:
     return bool((np.maximum(abs(x), abs(y)) <= edge).all())
 
 
-def scope_of(
-    host: Host,
-    size: Size,
-    origin: ImVec2,
-    extent: ImVec2,
-    more: Floats = NOTHING,
-) -> Scope:
-    """Return the outside camera for a picture of `size` that takes `extent` of the window.
+def scope_of(host: Host, area: Area, more: Floats = NOTHING) -> Scope:
+    """Return the view in an area.
 
     more: points (n, 3) that must be in sight with the scene.
     """
@@ -121,20 +113,20 @@ def scope_of(
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
     options = host.state.options.outside
-    camera = options.camera or camera_for_all(host, size, extent, more)
+    camera = options.camera or camera_for_all(host, area, more)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     if options.turned:
         camera = orbited(camera, middle, math.radians(options.turned), 0.0)
-    return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
+    return Scope(camera, camera.fitted(area.size), area, middle, reach)
 
 
-def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
+def camera_for_all(host: Host, area: Area, more: Floats = NOTHING) -> Camera:
     """Return the outside camera that sees everything, with room for letters around it."""
     room = 2 * theme.px(LETTER_PX)
-    across, down = (side / max(side - room, side / MOST_MARGIN, 1.0) for side in extent)
+    across, down = (side / max(side - room, side / MOST_MARGIN, 1.0) for side in area.extent)
     home = host.state.scene.view.camera
-    return outside_camera(_points(host, more), home, size[0] / size[1], (across, down))
+    return outside_camera(_points(host, more), home, area.size[0] / area.size[1], (across, down))
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
