@@ -1,7 +1,7 @@
 """A camera as a solid thing in the world: its image plane, its view volume, its pixels.
 
-Pure; knows nothing of drawing. In the image, (x, y) are coordinates on the image plane in units of
-u and v; t is the ray parameter. Shapes of points end in 3.
+Pure. In the image, (x, y) are coordinates on the image plane in units of u and v; t is the ray
+parameter. Shapes of points end in 3.
 
 A camera with a lens has its image on the plane as long as all of its rays meet that plane; another
 one has it on a sphere around the eye, whose radius is `distance`.

@@ -47,9 +47,11 @@ LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 
 class Scopes:
-    """The view as it was last asked for: a frame asks before the mouse, and after it if that has
-    changed something. moves: whether the other camera has just moved. waits: whether the camera
-    that looks does not see everything of now yet."""
+    """The view of the present frame, computed again only if it must change.
+
+    moves: True if the other camera has just moved. waits: True if the outside camera stays where
+    it is although it does not see everything yet.
+    """
 
     def __init__(self) -> None:
         self._fixed: tuple[object, ...] | None = None

@@ -1,6 +1,6 @@
 """A projected diagram as the rasterizer's overlay takes it, in the theme's colours.
 
-Owns which colour a role has. Knows nothing of cameras.
+This module defines the colour of each role.
 """
 
 from __future__ import annotations
