@@ -306,7 +306,7 @@ def drive_a_mistake_is_reported_and_a_set_follows_its_file(d: Driver) -> None:
     away, broken = d.folder / "away.json", d.folder / "broken.json"
     d.window.change(with_options(d.window.state, poses={"file": str(away), "pose": -1}))
     d.until(lambda: view(d).poses is None and str(away) in view(d).problem)
-    assert outside_view(d).cloud is None
+    assert outside_view(d).extensions.cloud is None
     d.window.undo()
     d.until(lambda: view(d).poses is poses)
     broken.write_text("{")
