@@ -24,7 +24,7 @@ def ask_resolution(host: Host) -> None:
 
     fields = {"width x height": size_text(host.state.images.resolution or host.renderers.size)}
     rule = "16 x 9 to 4096 x 2160 and beyond; 4 x 3 as on the blackboard"
-    host.box = EntryBox("Resolution of both images", fields, "Draw", rule, enter)
+    host.box = EntryBox("Resolution of both images", fields, "Draw", rule, enter, 10.0)
 
 
 def ask_pixel(host: Host) -> None:

@@ -304,7 +304,7 @@ class OutsideView(Instrument):
         return self._drawn(
             tools, ground, content, near, units, extensions.items, extensions.cloud, picture,
             state.images.exposure_ev, (live and live.number, state.images, theme.used()),
-            moves or ground.factor > 1,
+            moves or ground.factor > 1 or both.unfinished(state),
         )  # fmt: skip
 
     def content(self, host: Host, screen: OutsideScreen) -> Content:

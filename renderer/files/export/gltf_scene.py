@@ -26,7 +26,7 @@ from lucida.renderer.files.export.materials import (
     reflectance,
 )
 from lucida.renderer.files.export.meshes import Triangles, arrays_of, unit_sphere, wound
-from lucida.renderer.files.models.gltf_textures import WRAP_NAMES
+from lucida.renderer.files.models.gltf_materials import WRAP_NAMES
 from lucida.renderer.images.png import png_of
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (

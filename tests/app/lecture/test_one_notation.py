@@ -6,7 +6,6 @@ the mistakes, the stepper, the labels of the outside view, the laboratory, tasks
 
 from __future__ import annotations
 
-import inspect
 import itertools
 import re
 from collections.abc import Iterator
@@ -16,9 +15,9 @@ import pytest
 from both_lectures import both_lectures
 
 from lucida.app.cameras.camera_panel import panel, projection
-from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
 from lucida.app.checking.own_words import starter
+from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.ruler import ruler
 from lucida.app.instruments.laboratory.sheet import Look
@@ -26,11 +25,10 @@ from lucida.app.instruments.outside import figure
 from lucida.app.instruments.outside.camera_diagram import Content
 from lucida.app.instruments.outside.diagram import Label, RayEnd
 from lucida.app.instruments.outside.growing import grown_diagram
-from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python, as_text
+from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python
 from lucida.app.instruments.probe.model import Probe
-from lucida.app.instruments.stepper import loop_parts, raster_parts
-from lucida.app.instruments.stepper.recording import Order
-from lucida.app.instruments.stepper.source import shown_code, shown_lines, source_of
+from lucida.app.instruments.stepper.loops import PROGRAMS
+from lucida.app.instruments.stepper.source import shown_lines, source_of
 from lucida.app.lecture import text as texts
 from lucida.app.lecture.notation import in_notation
 from lucida.app.state.options.laboratory import LaboratoryOptions
@@ -78,9 +76,9 @@ def probe(notation: Notation) -> Found:
         for line in all_lines(reading, Indexing.LECTURE, notation):
             yield "probe", "latex", f"{line.latex} {line.latex_numbers}"
             yield "probe", "plain", f"{line.name}: {line.text} {line.text_numbers}"
-        yield "copied", "plain", as_text(reading, Indexing.ARRAY, notation).partition("\n")[2]
         yield "copied", "latex", as_latex(reading, Indexing.ARRAY, notation).partition("\n")[2]
-        yield "copied", "program", as_python(reading, Indexing.LECTURE, notation)
+        if notation == "code":
+            yield "copied", "program", as_python(reading, Indexing.LECTURE)
 
 
 def mistakes(notation: Notation) -> Found:
@@ -94,13 +92,10 @@ def mistakes(notation: Notation) -> Found:
 
 
 def stepper(notation: Notation) -> Found:
-    for order in Order:
+    for program in PROGRAMS:
         for indexing in Indexing:
-            for line in shown_lines(source_of(order.renderer).lines, notation, indexing):
+            for line in shown_lines(source_of(program).lines, notation, indexing):
                 yield "stepper", "program", line
-    for part in (loop_parts.viewing_ray, loop_parts.color_at, raster_parts.prepared):
-        code = shown_code(inspect.getsource(part), notation)
-        yield part.__name__, "program", "".join(code.split('"""')[::2])
 
 
 def drawn(notation: Notation) -> Found:
