@@ -132,7 +132,7 @@ def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
     leave(d)
 
 
-def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> None:
+def drive_cameras_are_taken_by_click_key_and_double_click(d: Driver) -> None:
     poses = opened(d, transforms(d))
     d.window.change(with_options(d.window.state, outside={"image": False, "grid": False}))
     d.settle()
@@ -169,7 +169,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> N
     assert d.window.state.marked == (6, 5) and chosen(d) == 11
     frames = frusta(poses, poses.length).reshape(COUNT, -1, 2, 3)
     for number in (2, 7):
-        spot = frames[number, 9].mean(axis=0)  # of the mark for up
+        spot = frames[number, 1].mean(axis=0)  # of an edge
         d.ctx.mouse_teleport_to_pos(place(d, spot))
         d.ctx.yield_(3)
         assert view(d).hovered == number
@@ -182,16 +182,6 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> N
     d.ctx.mouse_teleport_to_pos((3, 700))
     d.ctx.yield_(3)
     assert view(d).hovered is None and not strokes(d, "mark pose")
-    d.ctx.item_click(f"{WINDOW}/##search")
-    d.ctx.key_chars("01")
-    d.ctx.yield_(3)
-    d.ctx.item_click(f"{WINDOW}/**/###10")
-    d.ctx.yield_(2)
-    assert chosen(d) == 10
-    d.press(HOME)
-    assert chosen(d) == 1
-    d.press(DOWN)
-    assert chosen(d) == 10  # 001, 010, 011
     leave(d)
 
 
