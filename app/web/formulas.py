@@ -23,7 +23,7 @@ RAY = {
 
 LENS = {
     "lens-plane": r"(a', b') = \left(\frac{u}{d},\ -\frac{v}{d}\right)",
-    **{f"lens-{model}": f"(X, Y, Z) = {latex}" for model, (latex, _) in DIRECTIONS.items()},
+    **{f"lens-{model}": f"(X, Y, Z) = {latex}" for model, latex in DIRECTIONS.items()},
 }
 
 

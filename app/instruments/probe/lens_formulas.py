@@ -22,38 +22,27 @@ from lucida.app.ui.explaining.notation import (
 from lucida.renderer.camera.lenses import Lens
 
 
-def _around(a: str, b: str, r: str, theta: str, theta_text: str) -> tuple[str, str]:
+def _around(a: str, b: str, r: str, theta: str) -> str:
     """Return the direction at an angle theta to the axis, towards (a, b) of length r."""
-    r_text = r.removeprefix("\\")
     return (
         rf"\left(\sin\theta\,\frac{{{a}}}{{{r}}},\ \sin\theta\,\frac{{{b}}}{{{r}}},\ "
-        rf"\cos\theta\right),\ \theta = {theta}",
-        f"(sin(theta) {a} / {r_text}, sin(theta) {b} / {r_text}, cos(theta)), theta = {theta_text}",
+        rf"\cos\theta\right),\ \theta = {theta}"
     )
 
 
-_FISHEYE = _around("U", "V", r"\theta", r"\sqrt{U^2 + V^2}", "sqrt(U^2 + V^2)")
-# (X, Y, Z) by the lens's model: as LaTeX and as text.
-DIRECTIONS = {
-    "brown": ("(a, b, 1)", "(a, b, 1)"),
+_FISHEYE = _around("U", "V", r"\theta", r"\sqrt{U^2 + V^2}")
+_FOV = r"\arctan \frac{\tan(r' \omega)}{2 \tan(\omega / 2)}"
+DIRECTIONS = {  # (X, Y, Z) by the lens's model
+    "brown": "(a, b, 1)",
     "fisheye": _FISHEYE,
     "thin_prism_fisheye": _FISHEYE,
-    "equidistant": _around("a'", "b'", "r'", "r'", "r'"),
-    "stereographic": _around("a'", "b'", "r'", r"2 \arctan \frac{r'}{2}", "2 atan(r' / 2)"),
-    "equisolid": _around("a'", "b'", "r'", r"2 \arcsin \frac{r'}{2}", "2 asin(r' / 2)"),
-    "orthographic": _around("a'", "b'", "r'", r"\arcsin r'", "asin(r')"),
-    "fov": _around(
-        "a'",
-        "b'",
-        "r'",
-        r"\arctan \frac{\tan(r' \omega)}{2 \tan(\omega / 2)}",
-        "atan(tan(r' omega) / (2 tan(omega / 2)))",
-    ),
-    "equirectangular": (
-        r"(\sin a' \cos b',\ \sin b',\ \cos a' \cos b')",
-        "(sin a' cos b', sin b', cos a' cos b')",
-    ),
-    "cylindrical": (r"(\sin a',\ b',\ \cos a')", "(sin a', b', cos a')"),
+    "equidistant": _around("a'", "b'", "r'", "r'"),
+    "stereographic": _around("a'", "b'", "r'", r"2 \arctan \frac{r'}{2}"),
+    "equisolid": _around("a'", "b'", "r'", r"2 \arcsin \frac{r'}{2}"),
+    "orthographic": _around("a'", "b'", "r'", r"\arcsin r'"),
+    "fov": _around("a'", "b'", "r'", _FOV),
+    "equirectangular": r"(\sin a' \cos b',\ \sin b',\ \cos a' \cos b')",
+    "cylindrical": r"(\sin a',\ b',\ \cos a')",
 }
 
 
@@ -67,23 +56,18 @@ def lens_lines(reading: Reading) -> list[Line]:
     appears = formula(
         "distorted",
         "on the image plane at distance 1, downwards",
-        ("(a', b')", "(a', b')"),
-        (r"\left(\frac{<x>}{<d>},\ -\frac{<y>}{<d>}\right)", "(<x> / <d>, -<y> / <d>)"),
+        "(a', b')",
+        r"\left(\frac{<x>}{<d>},\ -\frac{<y>}{<d>}\right)",
         {**slots, "d": d},
         place,
     )
     lines = [appears, *_distortion(lens)]
     way = [float(part) for part in lens.direction(*place)]
     if not np.isfinite(way).all():
-        latex, text = r"\mathbf{d} = \mathrm{none}", "vec(d) = none"
-        return [*lines, Line("outside", "outside of the lens", latex, "", text, "")]
-    latex, text = DIRECTIONS[lens.model]
-    values, values_text = results(tuple(way))
-    ideal = Line(
-        "ideal", "the direction, Z forwards",
-        f"(X, Y, Z) = {latex}", f"= {values}", f"(X, Y, Z) = {text}", f"= {values_text}",
-        tuple(way),
-    )  # fmt: skip
+        none = r"\mathbf{d} = \mathrm{none}"
+        return [*lines, Line("outside", "outside of the lens", none, "")]
+    latex = f"(X, Y, Z) = {DIRECTIONS[lens.model]}"
+    ideal = Line("ideal", "the direction, Z forwards", latex, f"= {results(way)}", tuple(way))
     slots = {name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")}
     slots |= {
         name: scalar_slot(name, value, factor=True) for name, value in zip("XYZ", way, strict=True)
@@ -91,11 +75,8 @@ def lens_lines(reading: Reading) -> list[Line]:
     direction = formula(
         "direction",
         "direction, world",
-        (r"\mathbf{d}", "vec(d)"),
-        (
-            r"<d>\,(<X>\,<u> - <Y>\,<v> - <Z>\,<w>)",
-            "<d> (<X> <u> - <Y> <v> - <Z> <w>)",
-        ),
+        r"\mathbf{d}",
+        r"<d>\,(<X>\,<u> - <Y>\,<v> - <Z>\,<w>)",
         {**slots, "d": d},
         reading.direction,
     )
@@ -107,9 +88,6 @@ def _distortion(lens: Lens) -> list[Line]:
     given = {name: value for name, value in lens.coefficients.items() if value}
     if not given or lens.model == "fov":
         return []
-    kind = KINDS[lens.model]
-    latex, text = kind.latex.split(r",\quad ")[0], kind.text.split(", ")[0]
-    in_latex = r",\ ".join(f"{name[:-1]}_{name[-1]} = {number(v)}" for name, v in given.items())
-    in_text = ", ".join(f"{name} = {number(value)}" for name, value in given.items())
-    name = "distortion, undone by Newton's method"
-    return [Line("distortion", name, latex, in_latex, text, in_text)]
+    latex = KINDS[lens.model].latex.split(r",\quad ")[0]
+    numbers = r",\ ".join(f"{name[:-1]}_{name[-1]} = {number(v)}" for name, v in given.items())
+    return [Line("distortion", "distortion, undone by Newton's method", latex, numbers)]

@@ -75,7 +75,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lenses, nodes = [], []
     for number, posed in enumerate(cameras):
         camera, size = sized(posed, options)
-        camera = rigid(camera, "gltf", size)
+        camera = rigid(camera, "gltf")
         lenses.append(camera_table(camera, size))
         nodes.append({"name": posed.name, "camera": number, "matrix": node_matrix(camera)})
         if not posed.name:

@@ -75,7 +75,7 @@ def probe(notation: Notation) -> Found:
         reading = Probe(scene).at((24, 32), scene.view.for_size((64, 48)), (64, 48))
         for line in all_lines(reading, Indexing.LECTURE, notation):
             yield "probe", "latex", f"{line.latex} {line.latex_numbers}"
-            yield "probe", "plain", f"{line.name}: {line.text} {line.text_numbers}"
+            yield "probe", "plain", line.name
         yield "copied", "latex", as_latex(reading, Indexing.ARRAY, notation).partition("\n")[2]
         if notation == "code":
             yield "copied", "program", as_python(reading, Indexing.LECTURE)
