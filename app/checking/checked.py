@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lucida.app.checking.mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
-LONGEST_VALUE = 400  # characters of an argument: the case can be tried by hand
+LONGEST_VALUE = 400  # characters of an argument, enough to try the case by hand
 CHANGES = (
     "Asked again, the first wrong case has another answer: is there a random number in it, or does "
     "it keep something from one call to the next?"
