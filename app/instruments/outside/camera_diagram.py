@@ -53,12 +53,17 @@ FLAT_PARTS, LENS_PARTS = (1, 1, 1), (6, 2, CURVE)
 class Content:
     """The content of a diagram: a camera and its rays.
 
-    camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
-    of the bundle's rays. marked: the marked pixel's ray. grid_parts: the most parts of a side of
-    the grid. notation: of the labels. base: the number of the first row and column. number_step:
-    see pixel_numbers(); None: rows and columns are not numbered. meetings: the t
-    of all meetings of the marked pixel's line with objects. pointed: the t under the mouse.
-    names_t: write the t of the marked pixel's hit.
+    camera: fitted to its image of `size` pixels.
+    end: the ray parameter at which the scene ends.
+    hits: the bundle's rays.
+    marked: the marked pixel's ray.
+    grid_parts: the maximum number of parts of a side of the grid.
+    notation: the labels' notation.
+    base: the number of the first row and column.
+    number_step: see pixel_numbers(); None if rows and columns are not numbered.
+    meetings: the t of all points where the marked pixel's line meets objects.
+    pointed: the t under the mouse.
+    names_t: True to write the t of the marked pixel's hit.
     """
 
     camera: Camera
