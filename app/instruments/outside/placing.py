@@ -11,11 +11,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.renderer.camera.checks import Floats
 
 Spot = tuple[float, float]
+Sums = NDArray[np.float32]
 Label = tuple[str, str, int]  # name, role, how many before it have both
 Edges = tuple[float, float, float, float]  # left, top, right, bottom
 
@@ -25,7 +27,7 @@ FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
 # on another label, on a mark, for a height of a line in the text.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED = 1.2, 0.8, 60.0, 40.0, 18.0, 3.0
-CELL = 0.22  # of the grid, in heights of a text
+CELL = 0.15  # of the grid, in heights of a text
 DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # of its radius
 # Places along a line, as many as turns: shares of its length, on both sides of it; and what it
 # costs to be on the other side, and away from the middle.
@@ -140,7 +142,7 @@ def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
     return places.reshape(-1, 2), np.add.outer(np.multiply(OUT, FARTHER), costs).ravel()
 
 
-def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, float]) -> Floats:
+def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, float]) -> Sums:
     """Return what labels should not cover, summed over all cells of a grid above and left of each
     cell's corner (Crow 1984): lines, by their lengths in heights of a text, dots, and heads.
     """
@@ -165,17 +167,19 @@ def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, flo
     column, row = np.floor(np.concatenate(spots) / cell_px).astype(int).T
     inside = (column >= 0) & (row >= 0) & (column < columns) & (row < rows)
     cells, values = (row * columns + column)[inside], np.concatenate(weights)[inside]
-    sums = np.zeros((rows + 1, columns + 1))
+    sums = np.zeros((rows + 1, columns + 1), np.float32)
     sums[1:, 1:] = np.bincount(cells, values, rows * columns).reshape(rows, columns)
-    return sums.cumsum(axis=0).cumsum(axis=1)
+    for axis in (0, 1):
+        sums.cumsum(axis=axis, out=sums)
+    return sums
 
 
-def _covered(boxes: Floats, sums: Floats) -> Floats:
-    """Return the sum of what is in boxes (..., 4), in cells."""
+def _covered(boxes: Floats, sums: Sums) -> Sums:
+    """Return the sum of what is in boxes (..., 4), in cells, and in the cells that they touch."""
     most = np.array(sums.shape[::-1] * 2) - 1
-    cells = np.clip(np.round(boxes), 0, most).astype(int)
-    left, top, right, bottom = np.moveaxis(cells, -1, 0)
-    found: Floats = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
+    edges = np.concatenate([np.floor(boxes[..., :2]), np.ceil(boxes[..., 2:])], axis=-1)
+    left, top, right, bottom = np.moveaxis(np.clip(edges, 0, most).astype(int), -1, 0)
+    found: Sums = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
     return found
 
 
