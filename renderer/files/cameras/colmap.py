@@ -53,10 +53,6 @@ def read(given: Given, options: Options) -> CameraSet:
         problem = "has no cameras and images of COLMAP, .bin or .txt"
         raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
     folder, kind = model
-    for name in ("cameras", "images"):
-        if not isfile(folder / f"{name}{kind}"):
-            problem = f"has no {name}{kind}, which a model of COLMAP needs"
-            raise LucidaError("", problem, "copy it there", str(folder))
     read_lenses, read_images, read_points = _READERS[kind]
     lenses = _read(folder / f"cameras{kind}", read_lenses)
     images = _read(folder / f"images{kind}", read_images)
@@ -158,12 +154,10 @@ def _model(given: Given) -> tuple[Path, str] | None:
         known = given.path.stem in FILES + MORE_FILES and kind in _READERS
         folder = given.path.parent
         return (folder, kind) if known and isfile(folder / f"cameras{kind}") else None
-    for wanted in (all, any):  # if none is complete, one that lacks a file
-        for below in BELOW:
-            folder = given.path / below
-            for kind in _READERS:
-                if wanted(isfile(folder / f"{name}{kind}") for name in ("cameras", "images")):
-                    return folder, kind
+    for below in BELOW:
+        for kind in _READERS:
+            if isfile(given.path / below / f"cameras{kind}"):
+                return given.path / below, kind
     return None
 
 
