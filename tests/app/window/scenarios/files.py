@@ -8,7 +8,6 @@ import threading
 from typing import Any
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
-from option_changes import with_options
 from window_driver import PATIENT_S, Driver, Key, changed
 
 from lucida.app.ui import messages
@@ -18,7 +17,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene, save_view
 from lucida.renderer.files.export import export_scene
 
-CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+CTRL, SHIFT = Key.mod_ctrl, Key.mod_shift
 
 
 def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
@@ -27,19 +26,17 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     d.until(lambda: bool(window.files.message))
     assert "missing.toml" in window.files.message
     assert window.state == d.start
-    d.ctx.yield_(3)
-    d.ctx.item_click("//##message/Close")
+    d.frames(3)
+    d.click("//##message/Close")
     assert window.files.message == ""
     os.environ["PATH"], path = "", os.environ["PATH"]  # no program that draws dialogs
     window.files.native = True
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.o))
-    d.ctx.yield_(2)
+    d.press(Key.mod_ctrl | Key.o)
     os.environ["PATH"] = path
     window.files.native = False
     if sys.platform.startswith("linux"):
         assert window.files.dialog.is_open  # the window's own
-        d.ctx.key_press(int(Key.escape))
-        d.ctx.yield_(2)
+        d.press(Key.escape)
     assert not window.files.dialog.is_open
     broken = d.folder / "broken.obj"
     broken.write_bytes(b"\x00\xff nothing of use")
@@ -55,13 +52,13 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     window.open(str(view))
     d.until(lambda: window.state.view == d.start.view)
     assert window.state.scene.name == "spheres"
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z), 2)
+    d.ctx.key_press(Key.mod_ctrl | Key.z, 2)
     d.settle()
     assert window.state == d.start
 
 
 def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
-    window, start = d.window, d.window.state
+    window, start = d.window, d.state
     scene = load_scene("spheres")
     camera = Camera.look_at((0, 2, 12), (0, 1, 0), fov_y_deg=20)
     export_scene(d.folder / "seen.glb", scene, camera, (64, 64))
@@ -70,7 +67,7 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
     opened = window.state
     assert opened.view == opened.scene.view  # framed, whatever cameras there are
     (named,) = opened.scene.views
-    d.ctx.menu_click("//##MainMenuBar/Camera/From the file/###view0")
+    d.menu("Camera/From the file/###view0")
     d.until(lambda: window.state.view == named.view)
     assert window.state.camera.eye == (0, 2, 12)
     window.undo()
@@ -92,7 +89,7 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
 
 def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     """The tracer's thread is held up: the window goes on, with the raster image of now."""
-    live, gate = d.window.renderers.live, threading.Event()
+    live, gate = d.renderers.live, threading.Event()
     good = live.make_tracer
 
     def slow(scene: object) -> Any:
@@ -101,20 +98,20 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
 
     live.make_tracer = slow
     d.window.open("columns")
-    d.until(lambda: d.window.state.scene.name == "columns")
-    d.window.change(with_options(d.window.state, mirrors=True))  # that needs a new one
-    d.until(lambda: "preparing" in d.window.renderers.preparing())
-    told = d.window.renderers.preparing()
-    d.until(lambda: d.window.renderers.preparing() != told)  # the seconds, which are seen at rest
+    d.until(lambda: d.state.scene.name == "columns")
+    d.change(mirrors=True)  # that needs a new one
+    d.until(lambda: "preparing" in d.renderers.preparing())
+    told = d.renderers.preparing()
+    d.until(lambda: d.renderers.preparing() != told)  # the seconds, which are seen at rest
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == WAITING_FPS
     before = d.images()[0]
     d.drag_field("eye.x", 30)
-    d.until(lambda: not d.window.renderers.textures.unfinished)
+    d.until(lambda: not d.renderers.textures.unfinished)
     assert changed(before, d.images()[0]) > 0.05
-    assert d.window.renderers.live.busy
+    assert d.renderers.live.busy
     live.make_tracer = good
     gate.set()
-    d.window.change(with_options(d.window.state, mirrors=False))
+    d.change(mirrors=False)
     d.agreeing_images()
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
 
@@ -124,32 +121,32 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     folder = d.folder / "scenes"
     folder.mkdir()
     (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
-    d.press(CTRL | int(Key.o))
+    d.press(CTRL | Key.o)
     assert files.dialog.is_open
     # A folder that is typed is gone into; then a name.
     d.ctx.key_chars_replace_enter(str(folder))
     d.until(lambda: files.dialog.listing.files == ("mine.toml",))
     assert files.dialog.folder == folder
-    d.ctx.yield_(2)
+    d.frames(2)
     d.ctx.item_double_click("//###file dialog/**/mine.toml")
-    d.until(lambda: d.window.state.scene.name == "mine")
+    d.until(lambda: d.state.scene.name == "mine")
     assert not files.dialog.is_open
-    d.press(CTRL | SHIFT | int(Key.s))
+    d.press(CTRL | SHIFT | Key.s)
     d.ctx.key_chars_replace_enter("copy")
     d.until(lambda: (folder / "copy.toml").exists())
-    assert load_scene(folder / "copy.toml").view == d.window.state.view
+    assert load_scene(folder / "copy.toml").view == d.state.view
     d.until(lambda: any("copy.toml" in text for text in d.window.shell.toasts.texts))
     # What is there already is not replaced unasked.
-    d.press(CTRL | SHIFT | int(Key.s))
+    d.press(CTRL | SHIFT | Key.s)
     d.ctx.key_chars_replace_enter("copy.toml")
     assert files.dialog.is_open
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert not files.dialog.is_open
     assert "objects" in (folder / "copy.toml").read_text()
     d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["copy.toml"])
-    d.ctx.menu_click("//##MainMenuBar/File/Recent files/###recent1")
-    d.until(lambda: d.window.files.loading == "" and d.window.state.scene.origin is not None)
-    d.ctx.menu_click("//##MainMenuBar/File/Recent files/Clear the list")
+    d.menu("File/Recent files/###recent1")
+    d.until(lambda: d.window.files.loading == "" and d.state.scene.origin is not None)
+    d.menu("File/Recent files/Clear the list")
     assert files.recent.entries == ()
 
 
@@ -158,9 +155,8 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
         gate = threading.Event()
         d.window.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))  # type: ignore[misc]
         d.until(lambda: loading_box() is not None)
-        d.ctx.yield_(2)
+        d.frames(2)
         box, pad = loading_box(), imgui.get_style().window_padding
-        assert box is not None
         low_right = box.pos.x + box.size.x - 2 * pad.x, box.pos.y + box.size.y - 2 * pad.y
         d.ctx.mouse_move_to_pos(ImVec2(*low_right))  # the button
         d.ctx.mouse_click()
@@ -168,7 +164,33 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
         assert "cancelled" in d.window.shell.toasts.texts[-1]
         gate.set()
     d.window.open("spheres")  # a new thread does it
-    d.until(lambda: d.window.state.scene.name == "spheres")
+    d.until(lambda: d.state.scene.name == "spheres")
+
+
+def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d: Driver) -> None:
+    window, path = d.window, d.folder / "twice.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    window.open(str(path))
+    d.until(lambda: window.state.scene.name == "twice")
+    d.settle()
+    opened = window.state.scene
+    window.undo()
+    d.settle()
+    textures = window.renderers.textures
+    rasterizer = textures.rasterizer.of(window.state.scene)
+    taken: list[bool] = []
+    good = rasterizer.set_scene
+
+    def set_scene(scene: object, prepared: object = None) -> None:
+        taken.append(scene is opened and prepared is not None)
+        good(scene, prepared)  # type: ignore[arg-type]
+
+    rasterizer.set_scene = set_scene  # type: ignore[method-assign]
+    window.redo()
+    d.settle()
+    del rasterizer.set_scene
+    assert taken == [True]
+    d.agreeing_images()
 
 
 def loading_box() -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from option_changes import with_options
 from window_driver import Driver, Key
 
-OPEN = int(Key.mod_ctrl) | int(Key.g)
+OPEN = Key.mod_ctrl | Key.g
 
 
 def typed(d: Driver, row: str, column: str) -> None:
@@ -15,8 +15,8 @@ def typed(d: Driver, row: str, column: str) -> None:
         if key is not None:
             d.press(int(key))
         d.ctx.key_chars(text)
-        d.ctx.yield_(2)
-    d.press(int(Key.enter))
+        d.frames(2)
+    d.press(Key.enter)
 
 
 def drive_a_pixel_is_typed(d: Driver) -> None:
@@ -24,22 +24,22 @@ def drive_a_pixel_is_typed(d: Driver) -> None:
     typed(d, "31", "41")
     assert window.state.marked == (30, 40)
     assert window.box is None
-    window.change(with_options(window.state, one_based=False))
+    d.change(one_based=False)
     typed(d, "31", "41")
     assert window.state.marked == (31, 41)
-    assert len(window.history.past) == 3
+    assert d.steps == 3
 
 
 def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
     window = d.window
     before = with_options(window.state, marked=(5, 6))
     window.change(before)
-    d.ctx.yield_(2)
+    d.frames(2)
     typed(d, "99999", "1")
     assert window.box is not None
     assert "'99999' is no row of this image; give 1 to" in window.box.problem
     assert with_options(window.state, marked_size=None) == before
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert window.box is None
     assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
 
@@ -47,18 +47,18 @@ def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
 def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
     """Escape leaves nothing else, and digits are no bookmarks, where no field has them yet."""
     window = d.window
-    window.change(with_options(window.state, preferences={"presentation": True}))
+    d.change(preferences={"presentation": True})
     d.settle()
     before = window.state
     d.press(OPEN)
-    d.press(int(Key.tab))
-    d.press(int(Key.tab))  # on to the button
-    d.press(int(Key._2))
+    d.press(Key.tab)
+    d.press(Key.tab)  # on to the button
+    d.press(Key._2)
     assert not window.shell.toasts.texts
-    d.press(int(Key.p))  # would switch the projection
+    d.press(Key.p)  # would switch the projection
     assert window.box is not None
     assert window.state == before
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert window.box is None
     assert window.state == before, "presentation goes on"
     window.undo()
@@ -66,12 +66,11 @@ def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
 
 
 def drive_a_pixel_out_of_sight_is_brought_into_it(d: Driver) -> None:
-    d.window.change(with_options(d.window.state, images={"magnification": 16.0}))
+    d.change(images={"magnification": 16.0})
     d.settle()
     typed(d, "2", "3")
     d.settle()
-    placement = d.window.renderers.placement(d.window.state)
-    assert placement is not None
+    placement = d.renderers.placement(d.state)
     top, left, bottom, right = placement.visible_pixels
     assert top <= 1 < bottom
     assert left <= 2 < right

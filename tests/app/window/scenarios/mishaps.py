@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import Any
 
 import moderngl
-from option_changes import with_options
 from window_driver import Driver
 
 from lucida.renderer.system.errors import LucidaError
@@ -18,7 +17,7 @@ def is_told(d: Driver) -> bool:
 
 def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
     """The tracer fails; the window tells it, goes on, and tries again when asked."""
-    renderers = d.window.renderers
+    renderers = d.renderers
     live = renderers.live
     good = live.make_tracer
 
@@ -26,13 +25,13 @@ def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
         raise error
 
     live.make_tracer = bad
-    d.window.change(with_options(d.window.state, shadows=not d.window.state.options.shadows))
+    d.change(shadows=not d.state.options.shadows)
     # The full image of a camera at rest is a request of its own, which fails once more.
-    d.until(lambda: live.error is not None and not renderers.unfinished(d.window.state))
+    d.until(lambda: live.error is not None and not renderers.unfinished(d.state))
     d.until(lambda: live.error is not None and is_told(d))
     assert told in str(live.error) or told in type(live.error).__name__
     live.make_tracer = good
-    d.ctx.item_click("//##message/Try again")
+    d.click("//##message/Try again")
     d.until(lambda: live.error is None and d.window.settled)
 
 
@@ -45,9 +44,8 @@ def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
 
 
 def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
-    textures = d.window.renderers.textures
-    assert textures is not None
-    rasterizer = textures.rasterizer.of(d.window.state.scene)
+    textures = d.renderers.textures
+    rasterizer = textures.rasterizer.of(d.state.scene)
     for error in (
         moderngl.Error("GLSL: 0:1: syntax error"),
         LucidaError("OpenGL", "GL_OUT_OF_MEMORY at a texture of 1x1", "close other programs"),
@@ -59,8 +57,8 @@ def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
 
         rasterizer.draw = fail  # type: ignore[method-assign]
         d.drag_field("eye.x", 10)
-        d.until(lambda: d.window.renderers.raster_error is not None)
+        d.until(lambda: d.renderers.raster_error is not None)
         d.until(lambda: is_told(d))
         del rasterizer.draw
-        d.until(lambda: d.window.renderers.raster_error is None)
+        d.until(lambda: d.renderers.raster_error is None)
     d.agreeing_images()

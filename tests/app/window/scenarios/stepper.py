@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from imgui_bundle import hello_imgui
-from option_changes import with_options
 from window_driver import Driver, Key
 
 from lucida.app.instruments.outside.projected import Strokes
@@ -12,7 +10,6 @@ from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
 from lucida.app.instruments.stepper.model import Moment
 from lucida.app.instruments.stepper.recording import Order
 from lucida.app.instruments.stepper.view import STEPPER, StepperView
-from lucida.app.ui import layout
 from lucida.app.window.palette_entries import entries
 from lucida.app.window.shortcut_sheet import sections
 
@@ -20,27 +17,18 @@ WINDOW = f"//###{STEPPER}"
 
 
 def view(d: Driver) -> StepperView:
-    found = d.window.views[STEPPER]
-    assert isinstance(found, StepperView)
-    return found
+    return d.window.views[STEPPER]
 
 
 def enter(d: Driver, **options: object) -> None:
-    layout.switch("Loops")
-    d.ctx.yield_(5)
-    d.window.change(with_options(d.window.state, stepper=options))
+    d.layout("Loops")
+    d.change(stepper=options)
     d.settle()
     d.until(lambda: len(view(d).moments) > 0)
 
 
-def leave(d: Driver) -> None:
-    hello_imgui.switch_layout("Side by side")
-    d.ctx.yield_(5)
-
-
 def press(d: Driver, name: str) -> None:
-    d.ctx.item_click(f"{WINDOW}/###{name}")
-    d.ctx.yield_(2)
+    d.click(f"{WINDOW}/###{name}")
 
 
 def moments(d: Driver) -> tuple[Moment, Moment]:
@@ -57,7 +45,7 @@ def strokes(d: Driver, name: str) -> int:
 
 def drive_buttons_go_through_both_runs(d: Driver) -> None:
     enter(d, steps=(0, 0), canvas=(16, 12), order="both")
-    steps = len(d.window.history.past)
+    steps = d.steps
     assert [moment.step for moment in moments(d)] == [0, 0]
     for count in (1, 2, 3):
         press(d, "step")
@@ -77,7 +65,7 @@ def drive_buttons_go_through_both_runs(d: Driver) -> None:
     assert np.allclose(by_object.canvas, by_image.canvas, atol=1e-9)
     press(d, "first")
     assert [moment.step for moment in moments(d)] == [0, 0]
-    assert len(d.window.history.past) == steps  # steps are nothing to undo
+    assert d.steps == steps  # steps are nothing to undo
 
 
 def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
@@ -89,11 +77,10 @@ def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
     press(d, "play")  # from the beginning again
     d.until(lambda: moments(d)[1].step > 0)
     d.ctx.window_focus(WINDOW)
-    d.ctx.key_press(int(Key.space))
-    d.ctx.yield_(2)
+    d.press(Key.space)
     assert not view(d).playing
     stopped = [moment.step for moment in moments(d)]
-    d.ctx.yield_(10)
+    d.frames(10)
     assert [moment.step for moment in moments(d)] == stopped
 
 
@@ -105,17 +92,17 @@ def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
     d.settle()
     assert strokes(d, "ray") > 0
     assert strokes(d, "triangle") > 0 and strokes(d, "bounding box") > 0
-    d.window.shell.stage.show(STEPPER, False)
-    d.ctx.yield_(4)
+    d.stage.show(STEPPER, False)
+    d.frames(4)
     assert strokes(d, "ray") == strokes(d, "triangle") == 0
-    d.window.shell.stage.show(STEPPER)
-    d.ctx.yield_(4)
+    d.stage.show(STEPPER)
+    d.frames(4)
 
 
 def drive_the_palette_and_the_keys_step(d: Driver) -> None:
     enter(d, steps=(5, 5), canvas=(16, 12), order="both")
-    assert not d.window.renderers.is_tracing  # so that no verdict on both images is announced
-    offered = {entry.name: entry for entry in entries(d.window, d.window.shell.stage)}
+    assert not d.renderers.is_tracing  # so that no verdict on both images is announced
+    offered = {entry.name: entry for entry in entries(d.window, d.stage)}
     rows = dict(sections())["Loop stepper, once it is clicked"]
     for name, keys, key, steps in (
         ("Stepper: one line on", "Right", "right_arrow", (6, 6)),
@@ -125,37 +112,30 @@ def drive_the_palette_and_the_keys_step(d: Driver) -> None:
         entry = offered[name]
         assert entry.enabled and entry.keys == keys
         assert (keys, name.removeprefix("Stepper: ")) in rows
-        before = d.window.state.options.stepper.steps
+        before = d.state.options.stepper.steps
         entry.run()
-        d.ctx.yield_(3)
-        assert d.window.state.options.stepper.steps == steps
-        d.window.change(with_options(d.window.state, stepper={"steps": before}))
+        d.frames(3)
+        assert d.state.options.stepper.steps == steps
+        d.change(stepper={"steps": before})
         d.ctx.window_focus(WINDOW)
-        d.ctx.yield_(2)
-        d.ctx.key_press(int(getattr(Key, key)))
-        d.ctx.yield_(2)
-        assert d.window.state.options.stepper.steps == steps
-    d.ctx.key_press(int(Key.down_arrow))
-    d.ctx.yield_(2)
+        d.frames(2)
+        d.press(int(getattr(Key, key)))
+        assert d.state.options.stepper.steps == steps
+    d.press(Key.down_arrow)
     assert moments(d)[1].pixel == (0, 0)
-    d.ctx.key_press(int(Key.end))
-    d.ctx.yield_(2)
+    d.press(Key.end)
     assert all(moment.finished for moment in moments(d))
-    leave(d)
 
 
 def drive_the_same_lines_in_julia_and_the_depth_buffer(d: Driver) -> None:
     enter(d, steps=(0, 0), canvas=(16, 12), order="both")
-    d.ctx.item_click(f"{WINDOW}/Julia")
-    d.ctx.item_click(f"{WINDOW}/depth")
-    d.ctx.yield_(2)
-    options = d.window.state.options
+    d.click(f"{WINDOW}/Julia")
+    d.click(f"{WINDOW}/depth")
+    options = d.state.options
     assert options.language == "julia" and options.stepper.depth
     for _ in range(3):
         press(d, "step")
     assert view(d).moments[Order.IMAGE].step == 3
-    d.ctx.item_click(f"{WINDOW}/Julia")
-    d.ctx.item_click(f"{WINDOW}/depth")
-    d.ctx.yield_(2)
-    assert d.window.state.options.language == "python"
-    leave(d)
+    d.click(f"{WINDOW}/Julia")
+    d.click(f"{WINDOW}/depth")
+    assert d.state.options.language == "python"

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from itertools import chain
 
 from cut_texts import cut_texts
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
 from window_driver import Driver, Key
@@ -27,21 +27,21 @@ def boxes(d: Driver) -> Iterator[str]:
     opened: dict[str, Callable[[], object]] = {
         "palette": shell.toggle_palette,
         "shortcut sheet": shell.toggle_help,
-        "go to pixel": lambda: d.press(CTRL | int(Key.g)),
+        "go to pixel": lambda: d.press(CTRL | Key.g),
         "resolution": lambda: ask_resolution(d.window),
-        "open": lambda: d.press(CTRL | int(Key.o)),
-        "save": lambda: d.press(CTRL | SHIFT | int(Key.s)),
+        "open": lambda: d.press(CTRL | Key.o),
+        "save": lambda: d.press(CTRL | SHIFT | Key.s),
         "question": lambda: files.ask("house.obj: add the model to the scene?", answers),
     }
     for menu in MENUS:
-        opened[menu] = lambda menu=menu: d.ctx.item_click(f"//##MainMenuBar/##MenuBar/{menu}")
+        opened[menu] = lambda menu=menu: d.click(f"//##MainMenuBar/##MenuBar/{menu}")
     for name, open_it in opened.items():
         open_it()
-        d.ctx.yield_(4)
+        d.frames(4)
         yield name
         d.press(ESCAPE)
     files.message = "lecture.toml:34: steps[3].options.images.channel: 'depht' is unknown; " * 2
-    d.ctx.yield_(4)
+    d.frames(4)
     yield "message"
     files.message = ""
 
@@ -73,10 +73,9 @@ def layouts(d: Driver) -> Iterator[str]:
     """Show every layout of views in turn."""
     for one in layout.LAYOUTS:
         if one.name != layout.LECTURE:
-            layout.switch(one.name)
-            d.ctx.yield_(6)
-            d.until(lambda: all(view.settled for view in d.window.shell.stage.shown))
-            d.ctx.yield_(2)
+            d.layout(one.name)
+            d.until(lambda: all(view.settled for view in d.stage.shown))
+            d.frames(2)
             yield one.name
 
 
@@ -86,11 +85,10 @@ def drive_nothing_is_cut_off(d: Driver) -> None:
     d.settle()
     with looking(d, cut) as look:
         for size in SIZES:  # boxes and single views in the last one alone, which is the lowest
-            hello_imgui.change_window_size(size)
+            d.resize(size)
             for name in layouts(d):
                 look(f"{size}: layout {name}")
-        layout.switch(layout.LAYOUTS[0].name)
-        d.ctx.yield_(8)
+        d.layout(layout.LAYOUTS[0].name)
         for name in chain(boxes(d), views_in_turn(d)):
             look(name)
     assert not cut, cut
