@@ -1,7 +1,5 @@
 """Conformance: what surrounds the real programs, without any of them."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 

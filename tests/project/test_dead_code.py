@@ -55,7 +55,7 @@ def uses(module: str, tree: ast.Module) -> Iterator[tuple[str, str]]:
     imported modules."""
     package = MODULES[module].name == "__init__.py"
     above = module.split(".") if package else module.split(".")[:-1]
-    named: dict[str, str] = {}
+    named = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             start = above[: len(above) - node.level + 1] if node.level else []
@@ -92,7 +92,7 @@ def used() -> frozenset[tuple[str, str]]:
     )
 
 
-def test_what_a_module_defines_is_used() -> None:
+def test_what_a_module_defines_is_used():
     unused = {
         (module, name)
         for module in MODULES.keys() - LOADED
@@ -102,7 +102,7 @@ def test_what_a_module_defines_is_used() -> None:
     assert not unused, "only tests use these, or nobody"
 
 
-def test_vultures_exceptions_are_needed() -> None:
+def test_vultures_exceptions_are_needed():
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["vulture"]
     texts = (path.read_text("utf-8") for path in MODULES.values())
     words = set().union(*(re.findall(r"\w+", text) for text in texts))

@@ -79,7 +79,7 @@ def outcomes(script: str, folder: Path) -> dict[str, str]:
     return {name: outcome for name, _, outcome in lines}
 
 
-def test_a_tracer(tmp_path: Path) -> None:
+def test_a_tracer(tmp_path):
     came = outcomes(TRACER, tmp_path)
     for name in ("used", "result", "wait", "beside"):
         text = came.pop(name)
@@ -90,7 +90,7 @@ def test_a_tracer(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
-def test_a_rasterizer(tmp_path: Path, gl_backend: str) -> None:
+def test_a_rasterizer(tmp_path, gl_backend):
     came = outcomes(RASTERIZER.format(backend=gl_backend), tmp_path)
     for name in ("inherited", "new"):
         text = came.pop(name)

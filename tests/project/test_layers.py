@@ -127,9 +127,9 @@ def test_imports_point_down():
 
 
 def test_no_files_import_each_other_in_a_circle():
-    done: set[str] = set()
+    done = set()
 
-    def walk(module: str, way: tuple[str, ...]) -> None:
+    def walk(module, way):
         assert module not in way, " -> ".join((*way[way.index(module) :], module))
         if module not in done:
             for name in sorted(imported(module)):
@@ -155,7 +155,7 @@ def test_what_a_place_must_not_know(place):
 
 def test_cores_draw_nothing():
     """Nor does anything of the window that they import. The rasterizer's OpenGL does not count."""
-    seen: set[str] = set()
+    seen = set()
     todo = [name_of(path) for pattern in PURE for path in ROOT.glob(pattern)]
     assert todo
     while todo:

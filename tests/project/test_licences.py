@@ -38,7 +38,7 @@ def licence(distribution: metadata.Distribution) -> str:
 
 
 def packages() -> dict[str, metadata.Distribution]:
-    found: dict[str, metadata.Distribution] = {}
+    found = {}
     required("camera-lucida", found, ("film", "notebook"))
     return found
 

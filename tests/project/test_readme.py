@@ -68,7 +68,7 @@ def test_python(tmp_path, monkeypatch, capsys, gl_backend):
     if gl_backend != "egl":
         pytest.skip("once is enough")
     monkeypatch.chdir(tmp_path)
-    names: dict = {}
+    names = {}
     exec(blocks("python.md")[0], names)
     assert float(capsys.readouterr().out) == pytest.approx(float(names["t"]), rel=1e-6)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["corner.toml", "depth.png"]

@@ -34,7 +34,7 @@ def run(*command: object, **options) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory) -> Path:
+def built(tmp_path_factory):
     """The folder of the sdist, and of the wheel that was built from it; without the network:
     hatchling is among the development packages."""
     folder = tmp_path_factory.mktemp("built")
@@ -44,13 +44,13 @@ def built(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def wheel(built) -> Path:
+def wheel(built):
     (path,) = built.glob("*.whl")
     return path
 
 
 @pytest.fixture(scope="module")
-def installed(wheel, tmp_path_factory) -> Path:
+def installed(wheel, tmp_path_factory):
     """The scripts' folder of an environment that has the wheel, and sees the dependencies here.
 
     They come in by a .pth file, whose folder is searched without reading the .pth files in it: so
@@ -69,7 +69,7 @@ def installed(wheel, tmp_path_factory) -> Path:
 
 
 @pytest.fixture
-def environment() -> dict[str, str]:
+def environment():
     return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
 
 

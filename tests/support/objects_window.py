@@ -122,7 +122,7 @@ def arrow(d: Driver, view: str, name: str, axis: int) -> tuple[np.ndarray, np.nd
     spot = frame[:3, 3]
     step = np.eye(3)[axis] * 0.05 * focus.reach
 
-    def on_screen(point: np.ndarray) -> np.ndarray:
+    def on_screen(point):
         at = place(d, point) if view == OUTSIDE else in_image(d, view, point)
         return np.asarray(at)
 

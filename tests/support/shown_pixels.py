@@ -53,7 +53,7 @@ def counting(owner: object, name: str) -> Callable[[], int]:
     """Counts the calls of a method from now on."""
     method, calls = getattr(owner, name), []
 
-    def counted(*arguments: object, **named: object) -> object:
+    def counted(*arguments, **named):
         calls.append(arguments)
         return method(*arguments, **named)
 

@@ -50,7 +50,7 @@ def views_in_turn(d: Driver) -> Iterator[str]:
             if field:
                 d.change(**{options: {field: choice}})
             d.frames(6)
-            d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
+            d.until(lambda name=name: stage.views[name].settled)
             yield f"{name} {choice}"
         stage.maximise()
         stage.show(name, name in before)

@@ -85,11 +85,11 @@ class Driver:
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
         Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
-        viewer.WindowCanvas = Glimpses  # type: ignore[misc]
+        viewer.WindowCanvas = Glimpses
         self.window.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop
 
-        def listen(dropped: Callable[[list[str]], None]) -> None:
+        def listen(dropped):
             self.drop = dropped
             on_drop(dropped)
 
@@ -168,9 +168,9 @@ class Driver:
 
     def picture(self) -> np.ndarray:
         """Return what the window shows, uint8 (height, width, 3)."""
-        seen: list[np.ndarray] = []
+        seen = []
 
-        def look(target: Target) -> None:
+        def look(target):
             if not self.window.is_rearranging:
                 seen.append(target.read())
 
@@ -184,11 +184,11 @@ class Driver:
 
     def in_draw_lists(self, read: Callable[[], Found]) -> Found:
         """Return what `read` finds in the draw lists of a frame, of which no pixel is drawn."""
-        found: list[Found] = []
+        found = []
         callbacks = self.run.params.callbacks
         before_swap = callbacks.before_swap
 
-        def drawn() -> None:
+        def drawn():
             if not self.window.is_rearranging:
                 found.append(read())
             before_swap()
@@ -304,7 +304,7 @@ def close_at_work(report: Path, folder: Path) -> None:
     driver.window.renderers.live.make_tracer = lambda scene: threading.Event().wait()
     frames = iter(range(20))
 
-    def count() -> None:
+    def count():
         driver.run.params.app_shall_exit = next(frames, None) is None
 
     driver.run.params.callbacks.post_new_frame = count
@@ -336,8 +336,8 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
     driver = Driver(folder)
     params = driver.run.params
 
-    def wrapped(name: str, test: Callable[[Driver], None]) -> Callable[[Any], None]:
-        def call(ctx: Any) -> None:
+    def wrapped(name, test):
+        def call(ctx):
             driver.ctx = ctx
             try:
                 driver.reset()
@@ -350,7 +350,7 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
 
         return call
 
-    def register() -> None:
+    def register():
         ignore_broken_pipes()
         engine = hello_imgui.get_imgui_test_engine()
         io = imgui.test_engine.get_io(engine)

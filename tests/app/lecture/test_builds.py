@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from plain_text import plain_text
@@ -149,7 +148,7 @@ def test_walking_back_is_walking_on_backwards():
         assert session.place[1:] == found
 
 
-def test_a_session_keeps_the_build(tmp_path: Path):
+def test_a_session_keeps_the_build(tmp_path):
     path = tmp_path / "x.toml"
     path.write_text(f"title = 'L'\n{STEP}{BUILD}{BUILD}")
     session = LectureSession(load_lecture(path), path)

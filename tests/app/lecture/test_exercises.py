@@ -159,7 +159,7 @@ class TestRays:
     def test_hints_count_as_the_lecture_does(self):
         exercise = replace(CANONICAL, indexing=Indexing.ARRAY)
 
-        def hint(direction: str) -> str:
+        def hint(direction):
             return exercise.check({"origin": "0, 0, 0", "direction": direction}).text
 
         # Row 1, column 5 of 8 x 8, from 0: u = (5 + 0.5) / 8 - 1/2.

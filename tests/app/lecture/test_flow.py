@@ -23,7 +23,7 @@ def laid(text: str, width: float = 100.0, size: float = 10.0) -> Laid:
 
 def rows(result: Laid) -> list[list[str]]:
     """The pieces by their baselines."""
-    found: dict[float, list[str]] = {}
+    found = {}
     for placed in result.pieces:
         found.setdefault(placed.baseline, []).append(placed.piece.text)
     return [found[baseline] for baseline in sorted(found)]

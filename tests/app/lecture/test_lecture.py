@@ -1,7 +1,5 @@
 """Lecture files: what they hold, and mistakes with file, line and field."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 
 import pytest

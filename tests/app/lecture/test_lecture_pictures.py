@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -25,7 +24,7 @@ def text_of(title: str) -> str:
 
 
 def options_of(title: str) -> OutsideOptions:
-    given: dict[str, Any] = dict(STEPS[title].changes.get("outside", {}))
+    given = dict(STEPS[title].changes.get("outside", {}))
     return OutsideOptions(**given)
 
 
@@ -39,7 +38,7 @@ def labels_of(title: str) -> set[str]:
     return {item.text for item in items_of(title) if isinstance(item, Label)}
 
 
-def test_where_there_is_no_eye_none_is_drawn() -> None:
+def test_where_there_is_no_eye_none_is_drawn():
     assert "parallel" in text_of("Parallel projection")
     for title, step in STEPS.items():
         if "outside" in step.views:
@@ -52,7 +51,7 @@ def test_where_there_is_no_eye_none_is_drawn() -> None:
 
 
 @pytest.mark.parametrize("title", ["The basis from a target", "Exercise: find the basis"])
-def test_target_and_up_are_drawn_where_they_are_named(title: str) -> None:
+def test_target_and_up_are_drawn_where_they_are_named(title):
     step = STEPS[title]
     assert {"target", "up"} <= labels_of(title)
     camera, (dot,) = (
@@ -63,7 +62,7 @@ def test_target_and_up_are_drawn_where_they_are_named(title: str) -> None:
     assert np.allclose(np.cross(back, camera.w), 0) and back @ np.asarray(camera.w) > 0
 
 
-def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> None:
+def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named():
     title = "A ray is half a line"
     step = STEPS[title]
     assert step.pixel is not None
@@ -77,14 +76,14 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
     assert np.allclose(at["t = 1"], ray.origin + ray.direction)
 
 
-def test_words_are_of_one_kind() -> None:
+def test_words_are_of_one_kind():
     for path in BUILTINS.values():
         everything = path.read_text(encoding="utf-8")
         assert not re.search(r"\bgrey", everything, re.IGNORECASE)
         assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
 
 
-def test_the_windows_words_are_of_one_kind() -> None:
+def test_the_windows_words_are_of_one_kind():
     """And those of its code, which nobody tells apart."""
     for path in (Path(__file__).parents[3] / "app").glob("**/*.py"):
         text = path.read_text(encoding="utf-8")

@@ -116,7 +116,7 @@ def test_nested_arrays_of_any_depth(frames):
     """One of them may just be read as TOML, and its lines just not be found any more: that
     depends on how deep the calls are already."""
 
-    def answer(text: str, deeper: int) -> str:
+    def answer(text, deeper):
         return answer(text, deeper - 1) if deeper else told(text)
 
     depths = (1, *range(400, 500), 100_000)
@@ -221,7 +221,7 @@ def test_files_elsewhere_are_named_whatever_names_them(tmp_path):
     inside.mkdir()
     path = inside / "x.toml"
 
-    def outside(text: str) -> list[str]:
+    def outside(text):
         path.write_text(f"title = 'L'\n{text}")
         try:
             load_lecture(path)

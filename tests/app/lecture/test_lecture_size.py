@@ -71,12 +71,12 @@ def lines_of(text: str) -> int:
     ],
     ids=range(9),
 )
-def test_work_grows_with_the_size_not_with_its_square(line: str) -> None:
+def test_work_grows_with_the_size_not_with_its_square(line):
     one, two, four = (lines_of(steps_of(SMALL * factor, line, 200)) for factor in (1, 2, 4))
     assert four - two < 2.2 * (two - one)  # 4 times, were it the square
 
 
-def test_a_lecture_of_the_largest_size_is_read() -> None:
+def test_a_lecture_of_the_largest_size_is_read():
     """Prose, with as many formulas as a lecture may have."""
     formulas = "Here is $x_1$ and **bold**.\n\n" * (PIECES // 1000 // 8)
     prose = "Words, and more words, and a word to end the line of words.\n" * 67
@@ -89,7 +89,7 @@ def test_a_lecture_of_the_largest_size_is_read() -> None:
     assert text.split("\n")[formula.line - 1].startswith("Here is")
 
 
-def test_signs_that_are_never_closed_stand_as_they_are() -> None:
+def test_signs_that_are_never_closed_stand_as_they_are():
     assert parse("a *b *c d") == (Paragraph((Words("a *b *c d"),)),)
     assert parse("*a* *b $x$ *c") == (
         Paragraph((Words("a", italic=True), Words(" *b "), Math("x"), Words(" *c"))),

@@ -1,7 +1,5 @@
 """A step's text: its blocks and words, and mistakes with their line."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

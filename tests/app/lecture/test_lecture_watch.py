@@ -1,7 +1,5 @@
 """A lecture's file that is written while the lecture is open."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 from lucida.app.lecture import reading
@@ -81,7 +79,7 @@ class TestWatching:
 def test_a_reply_is_kept_as_long_as_its_question_counts_pixels_in_the_same_way(tmp_path):
     path = tmp_path / "l.toml"
 
-    def saved(start: int, title: str = "L") -> Lecture:
+    def saved(start, title="L"):
         pixel = [2 + start, 6 + start]
         path.write_text(
             f"title = '{title}'\npixels_from = {start}\n[[steps]]\ntitle = 'A'\n"

@@ -27,12 +27,12 @@ def movement(start: AppState, end: AppState) -> Movement:
 
 
 @pytest.fixture(scope="module")
-def state() -> AppState:
+def state():
     return AppState.for_scene(load_scene("canonical"))
 
 
 @pytest.fixture(scope="module")
-def changed(state: AppState) -> AppState:
+def changed(state):
     camera = replace(state.camera, eye=(1.0, 0.5, 1.0), projection="parallel")
     end = replace(state, view=View(camera, state.view.fit))
     options = {"camera": EYE, "grid": False, "target": (1.0, 2.0, 3.0), "up": (0.0, 0.0, 1.0)}

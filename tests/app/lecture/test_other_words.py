@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from lucida.app.lecture.exercises import VectorExercise
-from lucida.app.lecture.model import Step
 from lucida.app.lecture.reading import BUILTINS, load_lecture
 from lucida.app.ui.explaining.arithmetic import vector_text
 from lucida.renderer.camera.camera import Camera
@@ -19,7 +18,7 @@ T = np.array([0, 1, 4])
 
 
 @pytest.fixture(scope="module")
-def step() -> Step:
+def step():
     steps = load_lecture(BUILTINS["Cameras beyond the formula"]).steps
     return next(step for step in steps if step.title == "Exercise: K, R and t")
 

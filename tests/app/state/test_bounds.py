@@ -146,7 +146,7 @@ def test_what_steps_through_a_range_ends_at_its_bounds():
     assert (NUMBERS[0], NUMBERS[-1]) == whole_range_of(Bookmark, "number")
 
 
-def test_a_camera_among_a_lectures_options_is_a_table() -> None:
+def test_a_camera_among_a_lectures_options_is_a_table():
     table = {"outside": {"camera": {"eye": [0, 0, 9]}, "grid": False}}
     assert options_from_table(table)["outside"] == {"camera": Camera((0, 0, 9)), "grid": False}
     for options, told in (

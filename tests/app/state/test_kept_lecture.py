@@ -42,14 +42,14 @@ options = [{ text = "a", feedback = "no" }, { text = "b", feedback = "yes", righ
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> Path:
+def file(tmp_path):
     path = tmp_path / "two.toml"
     path.write_text(LECTURE)
     return path
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     return tmp_path / "sessions"
 
 

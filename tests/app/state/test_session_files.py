@@ -131,7 +131,7 @@ def test_a_save_that_is_stuck_does_not_replace_the_last_one(tmp_path, state, mon
     keeper = Keeper(place, lambda: None)
     stuck, go_on, sync = threading.Event(), threading.Event(), os.fsync
 
-    def slow(descriptor: int) -> None:
+    def slow(descriptor):
         if not stuck.is_set():
             stuck.set()
             assert go_on.wait(PATIENT_S)
@@ -169,7 +169,7 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     assert saved.acquire(timeout=PATIENT_S)
     assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)
 
-    def full(data: bytes) -> None:
+    def full(data):
         raise LucidaError("", "cannot be written: no space left on device", source="session")
 
     monkeypatch.setattr(place, "save", full)

@@ -55,12 +55,12 @@ def _painted() -> Scene:
 
 
 @pytest.fixture(scope="module")
-def scenes() -> dict[str, Scene]:
+def scenes():
     return {"still-life": load_scene("still-life"), "painted": _painted()}
 
 
 @pytest.fixture(scope="module")
-def pages(browser, scenes, tmp_path_factory) -> dict[str, Page]:
+def pages(browser, scenes, tmp_path_factory):
     made = {}
     for name, scene in scenes.items():
         file = tmp_path_factory.mktemp("pages") / f"{name}.html"
@@ -71,7 +71,7 @@ def pages(browser, scenes, tmp_path_factory) -> dict[str, Page]:
 
 
 @pytest.fixture
-def page(pages) -> Page:
+def page(pages):
     return pages["still-life"]
 
 
@@ -172,7 +172,7 @@ def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
     )
     shown = dict(zip(names, lines, strict=True))
 
-    def last(name: str) -> list[float]:
+    def last(name):
         found = re.findall(r"\(([^()]*)\)", shown[name].replace("\u2212", "-"))[-1]
         return [float(number) for number in found.split(",")]
 

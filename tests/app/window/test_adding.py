@@ -58,7 +58,7 @@ def added(path: Path, after: str, line: str, name: str, module: str) -> None:
     path.write_text(text.replace(first, f"{first}\nfrom {module} import {name}\n", 1))
 
 
-def test_the_documents_instrument_opens_in_the_window(tmp_path: Path) -> None:
+def test_the_documents_instrument_opens_in_the_window(tmp_path):
     text = (ROOT / "docs" / "architecture.md").read_text()
     text = text[text.index("## Adding an instrument") :]
     files = re.findall(FILE, text, re.DOTALL)

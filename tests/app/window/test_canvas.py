@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import moderngl
 import numpy as np
 import pytest
 
@@ -12,7 +11,7 @@ SIZE = (30, 20)
 
 
 @pytest.fixture
-def canvas(gl: moderngl.Context) -> WindowCanvas:
+def canvas(gl):
     return WindowCanvas(gl)
 
 

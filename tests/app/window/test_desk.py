@@ -30,7 +30,7 @@ def session(home: Path) -> dict[str, object]:
     return json.loads((home / "CONFIG" / "lucida" / "session-1.json").read_bytes())
 
 
-def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk: Desk, tmp_path: Path):
+def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk, tmp_path):
     sizes, style = ["ctrl+plus", "ctrl+plus", "ctrl+0"], "F9"
     changes = [*sizes, style, "ctrl+plus", style, "ctrl+minus", style, "ctrl+0", style]
     with Program(desk, tmp_path) as program:
@@ -44,7 +44,7 @@ def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk: Desk, tmp
         program.quit()
 
 
-def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk: Desk, tmp_path: Path):
+def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk, tmp_path):
     lectured, other = tmp_path / "one", tmp_path / "other"
     for home in (lectured, other):
         home.mkdir()
@@ -76,7 +76,7 @@ def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk: Desk, tmp_p
         program.quit()
 
 
-def test_a_named_model_comes_back_with_its_camera(desk: Desk, tmp_path: Path):
+def test_a_named_model_comes_back_with_its_camera(desk, tmp_path):
     model = tmp_path / "roof.obj"
     model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\nf 1 2 3\nf 1 3 4\n")
     with Program(desk, tmp_path) as program:
@@ -101,7 +101,7 @@ def test_a_named_model_comes_back_with_its_camera(desk: Desk, tmp_path: Path):
     assert session(tmp_path)["scene"] == "still-life"
 
 
-def test_what_is_typed_right_after_tab_is_in_the_next_field(desk: Desk, tmp_path: Path):
+def test_what_is_typed_right_after_tab_is_in_the_next_field(desk, tmp_path):
     with Program(desk, tmp_path) as program:
         desk.key("ctrl+g")
         desk.still()

@@ -108,7 +108,7 @@ class Framebuffer:
 
 
 PIXELS = np.arange(5 * 7 * 3, dtype=np.uint8).reshape(5, 7, 3)
-TARGET = Target(Framebuffer(PIXELS), (7, 5))  # type: ignore[arg-type]
+TARGET = Target(Framebuffer(PIXELS), (7, 5))
 
 
 def test_a_name_that_is_taken_gets_a_number(tmp_path):

@@ -66,7 +66,7 @@ VIEWS = [
     Entry(f"Go to {title}", "View > Views", lambda: None, also=SYNONYMS.get(title, ""))
     for title in TITLES
 ]
-PAGES = pages(None)  # type: ignore[arg-type]  # which only running them needs
+PAGES = pages(None)  # which only running them needs
 
 
 @pytest.mark.parametrize(
@@ -151,5 +151,5 @@ def test_a_plus_is_a_plus_with_or_without_shift():
         assert {*unshifted, *shifted} <= set(action.chords), action.name
 
 
-def test_every_view_that_lectures_can_show_is_in_the_window() -> None:
+def test_every_view_that_lectures_can_show_is_in_the_window():
     assert set(schema.VIEWS) <= {view.name.lower() for view in make_views()}

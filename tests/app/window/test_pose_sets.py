@@ -55,7 +55,7 @@ def transforms(folder: Path) -> Path:
 
 
 @drives_take_long
-def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path: Path) -> None:
+def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path):
     transforms(tmp_path)
     for mode in ("named", "again"):
         done = run(["-c", SCRIPT, str(tmp_path), mode], tmp_path)
@@ -63,7 +63,7 @@ def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path: Path) 
         assert done.stdout.split() == ["4", "2", "True"]
 
 
-def test_the_command_line_opens_a_set_and_draws_it(tmp_path: Path) -> None:
+def test_the_command_line_opens_a_set_and_draws_it(tmp_path):
     transforms(tmp_path)
     pictures = []
     for source in ("transforms.json", "still-life"):

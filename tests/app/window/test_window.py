@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -62,7 +61,7 @@ def drive(folder: Path, *names: str) -> dict[str, str]:
 
 
 @pytest.fixture(scope="module")
-def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str, str]]:
+def driven(tmp_path_factory):
     """Return the results of a topic, whose drives share one window."""
     return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
@@ -72,7 +71,7 @@ def _of_topic(topic: str) -> type:
 
     @drives_take_long
     @pytest.mark.parametrize("name", [name for of, name in DRIVES if of == topic])
-    def test(self: object, driven: Callable[[str], dict[str, str]], name: str) -> None:
+    def test(self, driven, name):
         assert driven(topic)[name] == ""
 
     return type(f"Test_{topic}", (), {"test": test})
@@ -82,7 +81,7 @@ globals().update((f"Test_{topic}", _of_topic(topic)) for topic, _ in DRIVES)
 
 
 @drives_take_long
-def test_closing_while_the_tracer_works(tmp_path: Path) -> None:
+def test_closing_while_the_tracer_works(tmp_path):
     assert drive(tmp_path, "close_at_work") == {"close_at_work": ""}
 
 
@@ -104,7 +103,7 @@ def check_picture(path: Path, size: tuple[int, int]) -> None:
     assert best < 3
 
 
-def test_no_display(tmp_path: Path) -> None:
+def test_no_display(tmp_path):
     mine = tmp_path / "lucida.png"
     mine.write_text("a user's own picture")
     done = run(["-m", "lucida"], tmp_path)
@@ -118,7 +117,7 @@ def test_no_display(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["lucida-2.png", "lucida.png"]
 
 
-def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
+def test_screenshot_of_any_size_and_scene(tmp_path):
     picture = tmp_path / "out.png"
     done = run(
         ["-m", "lucida", "spheres", "--screenshot", str(picture), "--size", "2000x1300"], tmp_path
@@ -128,7 +127,7 @@ def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
     check_picture(picture, (2000, 1300))  # larger than the null platform's own window
 
 
-def test_mistakes_are_one_line(tmp_path: Path) -> None:
+def test_mistakes_are_one_line(tmp_path):
     done = run(["-m", "lucida", "nowhere.obj"], tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
@@ -138,7 +137,7 @@ def test_mistakes_are_one_line(tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
-def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_opengl_is_one_clear_error(monkeypatch):
     from lucida.app.window import platform
     from lucida.renderer.system.errors import LucidaError
 
@@ -151,7 +150,7 @@ def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def xvfb() -> Iterator[str]:
+def xvfb():
     """A display that nobody looks at."""
     program = shutil.which("Xvfb")
     if program is None:
@@ -171,7 +170,7 @@ def xvfb() -> Iterator[str]:
         server.wait()
 
 
-def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
+def test_on_a_display(tmp_path, xvfb):
     """The window is not to be seen before there is a picture to see in it."""
     script = """
 import glfw
@@ -199,7 +198,7 @@ assert visible[0] == 0 and set(visible[1:]) == {1}, visible
     check_picture(tmp_path / "out.png", (1280, 720))
 
 
-def test_a_window_that_is_resized(tmp_path: Path, xvfb: str) -> None:
+def test_a_window_that_is_resized(tmp_path, xvfb):
     """At every size the two images stand where their views are; pictures of it are as large."""
     script = """
 import glfw
@@ -248,7 +247,7 @@ assert not sizes
     assert done.returncode == 0, done.stderr
 
 
-def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -> None:
+def test_idle_means_idle_and_settings_are_the_users(tmp_path, xvfb):
     """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
     script = """
 import sys, threading, time
@@ -283,9 +282,7 @@ run.run()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
-def test_signals_close_the_window_and_the_next_start_finds_its_layout(
-    tmp_path: Path, xvfb: str
-) -> None:
+def test_signals_close_the_window_and_the_next_start_finds_its_layout(tmp_path, xvfb):
     script = """
 import os, signal, sys, threading, time
 from lucida.app.window.platform import start_platform

@@ -67,7 +67,7 @@ DOCKS = "[Docking][Data]\nDockSpace ID=0x1 Window=0x2 Pos=1,1 Size=-1,-1 Split=X
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
 @pytest.mark.parametrize("mode", ["kill", "close"])
-def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
+def test_the_window_comes_back_as_it_was(tmp_path, mode):
     """Layout, hidden views, theme and scene: after a crash, and after an ordinary end. Places that
     mean nothing leave the layout's own."""
     path = tmp_path / "session-1.json"
@@ -92,7 +92,7 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
             assert "DockId=" in section, name
 
 
-def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None:
+def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path):
     (tmp_path / "session-1.json").write_bytes(b"\x00 nothing of use")
     done = window(tmp_path, "go on")
     assert done.returncode == 0, done.stderr
@@ -118,6 +118,6 @@ for size in (None, (640, 400)):
 """
 
 
-def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path: Path) -> None:
+def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path):
     done = run(["-c", SIZES, str(tmp_path)], tmp_path)
     assert done.stdout.split("\n")[:2] == ["True 1280 720", "False 640 400"], done.stderr

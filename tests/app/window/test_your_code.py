@@ -65,8 +65,8 @@ def opened(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
 @drives_take_long
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes are looked up in /proc")
 def test_closing_while_it_runs_leaves_no_process_and_the_next_start_runs_it_again(
-    tmp_path: Path,
-) -> None:
+    tmp_path,
+):
     (tmp_path / "rays.py").write_text(ENDLESS)
     for mode in ("named", "again"):
         (process,) = opened(tmp_path, mode).stdout.split()

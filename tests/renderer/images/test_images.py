@@ -1,7 +1,5 @@
 """The display transform, and image files read back by other readers."""
 
-from __future__ import annotations
-
 import os
 import stat
 import struct
@@ -28,7 +26,7 @@ WIDTH, HEIGHT = 11, 5  # neither even nor square, and no whole number of bytes o
 
 
 @pytest.fixture
-def frame() -> Frame:
+def frame():
     random = np.random.default_rng(1)
     index = random.integers(-1, 12, (HEIGHT, WIDTH)).astype(np.int32)
     index[0, 0], index[-1, -1] = 3, -1

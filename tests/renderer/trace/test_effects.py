@@ -43,7 +43,7 @@ def floor_points(depth: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize(
     "light", [PointLight((2, 5, 1)), PointLight((0.2, 1.6, -0.3)), DirectionalLight((1, -2, 0.5))]
 )
-def test_a_ball_throws_its_shadow(light: PointLight | DirectionalLight) -> None:
+def test_a_ball_throws_its_shadow(light):
     """The second light is inside the ball: all the floor is in the dark."""
     diffuse = Material((0.5, 0.6, 0.7))
     ball = SceneObject(Sphere(tuple(CENTER), RADIUS), diffuse)
@@ -66,7 +66,7 @@ def test_a_ball_throws_its_shadow(light: PointLight | DirectionalLight) -> None:
     assert np.array_equal(frame.color[lit], without.color[lit])
 
 
-def test_what_lies_behind_a_light_throws_no_shadow() -> None:
+def test_what_lies_behind_a_light_throws_no_shadow():
     roof = Mesh(FLOOR.vertices + np.float32([0, 5, 0]), FLOOR.faces)
     scene = Scene((SceneObject(FLOOR), SceneObject(roof)), (PointLight((0, 4, 0)),))
     camera = Camera.look_at((1, 4.5, 6), (0, 0, 0), fov_y_deg=40)
@@ -75,7 +75,7 @@ def test_what_lies_behind_a_light_throws_no_shadow() -> None:
 
 
 @pytest.mark.parametrize("smooth", [False, True])
-def test_no_surface_shadows_itself(smooth: bool) -> None:
+def test_no_surface_shadows_itself(smooth):
     """Seen from the light, everything is lit."""
     random = np.random.default_rng(3)
     corners = random.uniform(-1, 1, (60, 1, 3)) + random.normal(scale=0.3, size=(60, 3, 3))
@@ -99,7 +99,7 @@ def test_no_surface_shadows_itself(smooth: bool) -> None:
 
 @pytest.mark.parametrize("at", [(0, 0, 0), (1e4, -3e3, 1e5)])
 @pytest.mark.parametrize("distance", [8.0, 1e5])
-def test_far_away_nothing_that_the_light_sees_is_in_the_dark(at, distance) -> None:
+def test_far_away_nothing_that_the_light_sees_is_in_the_dark(at, distance):
     """Seen from the light; the scene's place in the world does not matter, nor how far that is."""
     eye = np.array([0.6, 0.5, 0.62]) * distance + at
     move = np.eye(4)
@@ -116,7 +116,7 @@ def test_far_away_nothing_that_the_light_sees_is_in_the_dark(at, distance) -> No
     assert lit.mean() > 0.1
 
 
-def test_a_mirror_shows_what_the_reflected_ray_hits() -> None:
+def test_a_mirror_shows_what_the_reflected_ray_hits():
     mirror = Material((0, 0, 0), (1, 1, 1))
     ball = Material((0.9, 0.4, 0.2))
     scene = Scene(
@@ -137,7 +137,7 @@ def test_a_mirror_shows_what_the_reflected_ray_hits() -> None:
     assert np.allclose(frame.color[frame.id == 1], (0.9, 0.4, 0.2), atol=1e-6)
 
 
-def test_a_mirrored_scene_looks_like_its_mirror_image() -> None:
+def test_a_mirrored_scene_looks_like_its_mirror_image():
     """Smooth, coloured, checkered, transformed: seen in a mirror as from behind it."""
     from trace_reference import ball
 
@@ -174,7 +174,7 @@ def test_a_mirrored_scene_looks_like_its_mirror_image() -> None:
     assert np.quantile(difference, 0.9) < 1e-3
 
 
-def test_bounces_end() -> None:
+def test_bounces_end():
     mirror = Material((0.2, 0.2, 0.2), (0.5, 0.5, 0.5))
     roof = Mesh(FLOOR.vertices + np.float32([0, 5, 0]), FLOOR.faces)
     scene = Scene((SceneObject(FLOOR, mirror), SceneObject(roof, mirror)), ambient=(1, 1, 1))
@@ -188,7 +188,7 @@ def test_bounces_end() -> None:
     assert (means[3] <= 0.4 + 1e-4).all()
 
 
-def test_wrong_settings_are_named() -> None:
+def test_wrong_settings_are_named():
     scene = Scene(())
     for depth in (-1, 17, 1.5, True):
         with pytest.raises(LucidaError, match="mirror_depth"):

@@ -60,7 +60,7 @@ def differing(a: np.ndarray, b: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_camera_s_rays_give_its_image(name) -> None:
+def test_a_camera_s_rays_give_its_image(name):
     scene, view = SCENES[name]()
     camera = view.for_size(SIZE)
     with Tracer(scene) as tracer:
@@ -70,14 +70,14 @@ def test_a_camera_s_rays_give_its_image(name) -> None:
     assert differing(made, image) <= EDGES
 
 
-def test_rays_of_any_length_see_the_same() -> None:
+def test_rays_of_any_length_see_the_same():
     scene, view = near_crowd()
     camera, lengths = view.for_size(SIZE), np.random.default_rng(1).uniform(0.01, 100, (19200, 1))
     with Tracer(scene) as tracer:
         assert differing(picture(tracer, camera, lengths), picture(tracer, camera)) <= EDGES
 
 
-def test_rays_that_are_none_see_the_background() -> None:
+def test_rays_that_are_none_see_the_background():
     scene, _ = near_crowd()
     bad = ((math.nan, 0, -1), (0, 0, 0), (0, math.inf, -1), (1e300, 0, 0))
     ways = np.array((*bad, (0.0, 0.0, -1.0)))

@@ -75,7 +75,7 @@ def soup(count: int, seed: int = 0, spread: float = 1.0) -> Scene:
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
 @pytest.mark.parametrize("leaf_size", [1, 4, 16])
-def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
+def test_every_primitive_is_in_one_leaf(threads, leaf_size):
     team = Team(threads)
     for scene in (
         Scene(()),
@@ -92,7 +92,7 @@ def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
 
 
 @pytest.mark.parametrize("count", [5, 20_000])
-def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
+def test_triangles_that_cannot_be_told_apart_are_halved(count):
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     flat = flatten(scene_of(Mesh(vertices, np.tile([0, 1, 2], (count, 1)))))
     bvh = binary(flat, Team(1))
@@ -104,7 +104,7 @@ def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
     assert (t[0], primitive[0]) == (1.0, 0)
 
 
-def test_the_depth_is_bounded_where_sizes_explode() -> None:
+def test_the_depth_is_bounded_where_sizes_explode():
     # Each triangle is twice the size of the one before: splits take off one at a time.
     sizes = 2.0 ** np.arange(-60, 36, 0.25)
     corners = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -122,7 +122,7 @@ def nodes_of(bvh: Bvh) -> np.ndarray:
     return rows[np.lexsort(rows.T)]
 
 
-def test_the_tree_does_not_depend_on_the_threads() -> None:
+def test_the_tree_does_not_depend_on_the_threads():
     # Few primitives go round in pieces of one size. Of many, more threads take smaller pieces: that
     # decides where nodes stand, not what they are.
     for count, is_one_size in ((40_000, True), (150_000, False)):

@@ -39,7 +39,7 @@ print(cache_folder.cache_folder(), not compiled.buffer)
 
 
 @pytest.fixture
-def installation(tmp_path: Path) -> Path:
+def installation(tmp_path):
     """Copy the package, which cannot cache beside itself here: the folder's name is taken. Beside
     it lies a module with a kernel that takes no time to compile.
     """
@@ -73,7 +73,7 @@ def finish(process: subprocess.Popen) -> str:
     return out.strip()
 
 
-def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_path: Path) -> None:
+def test_a_read_only_installation_caches_for_the_user(installation, tmp_path):
     cache = tmp_path / "cache"
     for process in [start(installation, cache) for _ in range(2)]:  # both compile, at once
         folder = finish(process).rsplit(" ", 1)[0]
@@ -100,15 +100,13 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     assert len(folders) == 5
 
 
-def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch):
     monkeypatch.setattr(compiled, "cache_folder", lambda: None)
     assert compiled.kernel(tripled)(4) == 12
     assert not compiled.is_cached()
 
 
-def test_a_kernel_that_cannot_be_stored_is_reported(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_kernel_that_cannot_be_stored_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr(compile_note, "_note", "")  # which counts for a whole process
     monkeypatch.setattr(compiled, "_has_failed", threading.Event())
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
@@ -128,7 +126,7 @@ def tripled(x):
     return 3 * x
 
 
-def test_old_folders_are_pruned(tmp_path: Path) -> None:
+def test_old_folders_are_pruned(tmp_path):
     for age in range(10):
         folder = tmp_path / f"old{age}"
         folder.mkdir()

@@ -9,7 +9,6 @@ import sys
 import threading
 import time
 import weakref
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -61,8 +60,8 @@ def nearest(frame: Frame) -> float:
 
 
 def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     with Tracer(scene_of(Sphere())) as tracer:
         tracer.render(FRONT, SMALL)
         gate = Gate(monkeypatch)
@@ -83,9 +82,7 @@ def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
 
 
 @pytest.mark.parametrize("fails", [False, True])
-def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(
-    monkeypatch: pytest.MonkeyPatch, fails: bool
-) -> None:
+def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(monkeypatch, fails):
     """Preparing another scene is given up, or fails. The one before is prepared again."""
     before = one_triangle(0.5)
     with Tracer(before) as tracer:
@@ -112,8 +109,8 @@ def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(
 
 
 def test_building_goes_on_for_another_image_of_the_same_scene(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     with Tracer(scene_of(Sphere())) as tracer:
         tracer.render(FRONT, SMALL)
         gate = Gate(monkeypatch)
@@ -127,7 +124,7 @@ def test_building_goes_on_for_another_image_of_the_same_scene(
         assert gate.ends == ["built"]
 
 
-def test_closing_gives_up_building(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_closing_gives_up_building(monkeypatch):
     tracer = Tracer(scene_of(Sphere()))
     tracer.render(FRONT, SMALL)
     gate = Gate(monkeypatch)
@@ -143,8 +140,8 @@ def test_closing_gives_up_building(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     with Tracer(scene_of(Sphere())) as tracer:
         tracer.render(FRONT, SMALL)
         gate = Gate(monkeypatch)
@@ -167,7 +164,7 @@ def slow_scene() -> Scene:
 
 
 @pytest.fixture(scope="module")
-def slow() -> Iterator[Tracer]:
+def slow():
     with Tracer(slow_scene(), threads=2, method="reference") as tracer:
         tracer.render(FRONT, (1, 1))
         yield tracer
@@ -180,7 +177,7 @@ def wait_until_tracing(job: TraceJob) -> None:
     assert 0 < job.progress < 1
 
 
-def test_a_cancelled_job_gives_what_it_has(slow: Tracer) -> None:
+def test_a_cancelled_job_gives_what_it_has(slow):
     job = slow.start(FRONT, LARGE, ("color", "depth", "normal", "id", "primitive"))
     wait_until_tracing(job)
     assert not job.done
@@ -202,7 +199,7 @@ def test_a_cancelled_job_gives_what_it_has(slow: Tracer) -> None:
     assert np.isfinite(frame.depth[~missed]).all()
 
 
-def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow: Tracer) -> None:
+def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow):
     first = slow.start(FRONT, LARGE, ("depth",))
     second = slow.start(FRONT, SMALL)
     third = slow.start(FRONT, (8, 8))
@@ -218,7 +215,7 @@ def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow: Trac
     assert third.result().complete
 
 
-def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow: Tracer) -> None:
+def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow):
     job = slow.start(FRONT, LARGE)
     job.cancel()
     job.cancel()
@@ -230,11 +227,11 @@ def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow: Tracer) ->
     assert done.result().complete
 
 
-def test_progress_rises_to_one(slow: Tracer) -> None:
-    seen: list[float] = []
+def test_progress_rises_to_one(slow):
+    seen = []
     threads = set()
 
-    def progress(fraction: float) -> None:
+    def progress(fraction):
         seen.append(fraction)
         threads.add(threading.current_thread())
 
@@ -247,8 +244,8 @@ def test_progress_rises_to_one(slow: Tracer) -> None:
     assert threads == {threading.current_thread()}
 
 
-def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
-    def progress(fraction: float) -> None:
+def test_an_exception_in_progress_cancels(slow):
+    def progress(fraction):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -256,7 +253,7 @@ def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
     assert slow.render(FRONT, (4, 4)).complete  # not after minutes
 
 
-def test_closing_cancels_and_ends_the_threads() -> None:
+def test_closing_cancels_and_ends_the_threads():
     before = threading.active_count()
     tracer = Tracer(slow_scene(), threads=3, method="reference")
     jobs = [tracer.start(FRONT, LARGE) for _ in range(3)]
@@ -270,7 +267,7 @@ def test_closing_cancels_and_ends_the_threads() -> None:
         tracer.start(FRONT, SMALL)
 
 
-def test_a_dropped_tracer_ends_its_threads() -> None:
+def test_a_dropped_tracer_ends_its_threads():
     before = set(threading.enumerate())
     tracer = Tracer(slow_scene(), threads=2, method="reference")
     job = tracer.start(FRONT, LARGE)
@@ -290,7 +287,7 @@ def test_a_dropped_tracer_ends_its_threads() -> None:
         assert not thread.is_alive()
 
 
-def test_several_tracers_at_once() -> None:
+def test_several_tracers_at_once():
     scenes = [scene_of(Sphere((0, 0, z), 1.0)) for z in (-4.0, -2.0, 0.0, 1.0)]
     tracers = [Tracer(scene, threads=2) for scene in scenes]
     jobs = [tracer.start(FRONT, (63, 65), ("depth",)) for _ in range(5) for tracer in tracers]
@@ -305,7 +302,7 @@ def test_several_tracers_at_once() -> None:
         tracer.close()
 
 
-def test_the_image_does_not_depend_on_the_threads() -> None:
+def test_the_image_does_not_depend_on_the_threads():
     frames = []
     for threads in (1, 2, 5):
         with Tracer(scene_of(Sphere(), Sphere((1, 1, 1), 0.5)), threads) as tracer:
@@ -316,22 +313,22 @@ def test_the_image_does_not_depend_on_the_threads() -> None:
         )
 
 
-def test_an_error_in_the_team_reaches_the_caller() -> None:
+def test_an_error_in_the_team_reaches_the_caller():
     team = Team(3)
 
-    def fail() -> None:
+    def fail():
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
         team.run(fail)
-    calls: list[int] = []
+    calls = []
     team.run(calls.append, 1)
     team.run(calls.append, 1, size=2)
     assert len(calls) == 5
     team.close()
 
 
-def test_the_interpreter_exits_while_jobs_run() -> None:
+def test_the_interpreter_exits_while_jobs_run():
     script = """
 import sys, time
 from test_trace_jobs import FRONT, LARGE, slow_scene

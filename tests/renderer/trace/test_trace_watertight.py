@@ -37,7 +37,7 @@ def closed_mesh(kind: str) -> Mesh:
 
 
 @pytest.mark.parametrize("kind", ["ball", "box", "squashed"])
-def test_rays_at_vertices_and_edges_do_not_leak(kind: str) -> None:
+def test_rays_at_vertices_and_edges_do_not_leak(kind):
     flat = flatten(scene_of(closed_mesh(kind)))
     vertices = world_vertices(flat)
     random = np.random.default_rng(4)
@@ -54,7 +54,7 @@ def test_rays_at_vertices_and_edges_do_not_leak(kind: str) -> None:
             assert leaks(flat, eye, targets, scale) == 0
 
 
-def test_a_symmetric_view_through_vertices_is_full() -> None:
+def test_a_symmetric_view_through_vertices_is_full():
     # Pixel centres fall on the vertices and diagonals of a grid.
     n = 9
     j, i = np.meshgrid(np.arange(n), np.arange(n))

@@ -46,7 +46,7 @@ def shards(count: int, seed: int = 1) -> Mesh:
 
 
 @pytest.mark.parametrize("count", [1, 2, 16, 17, 300, 20_000])
-def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
+def test_each_triangle_is_in_one_leaf_within_its_boxes(count):
     mesh = shards(count)
     tree = wide(mesh)
     face, child = tree.face.reshape(-1, WIDTH), tree.child.reshape(-1, WIDTH)
@@ -55,7 +55,7 @@ def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
     seen_leaves = []
     deepest = 0
 
-    def visit(node: int, low: np.ndarray, high: np.ndarray, level: int) -> None:
+    def visit(node, low, high, level):
         nonlocal deepest
         deepest = max(deepest, level)
         for lane in np.flatnonzero(child[node] != NO_CHILD):
@@ -80,7 +80,7 @@ def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
     assert deepest == tree.levels
 
 
-def test_normals_are_those_of_the_winding() -> None:
+def test_normals_are_those_of_the_winding():
     mesh = ball()
     tree = wide(mesh)
     used = tree.face >= 0
@@ -92,7 +92,7 @@ def test_normals_are_those_of_the_winding() -> None:
     assert not normal[lengths == 0].any()
 
 
-def test_a_triangle_takes_at_most_120_bytes() -> None:
+def test_a_triangle_takes_at_most_120_bytes():
     mesh = shards(100_000)
     tree = wide(mesh)
     size_bytes = sum(array.nbytes for array in tree if isinstance(array, np.ndarray))
@@ -101,18 +101,18 @@ def test_a_triangle_takes_at_most_120_bytes() -> None:
 
 
 @pytest.mark.parametrize("count", [300, 4000])
-def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> None:
+def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count):
     mesh, team = shards(count), Team(2)
     no_spheres = np.zeros((0, 4), np.float32)
     binary = build(mesh.vertices, mesh.faces, no_spheres, team, leaf_size=WIDTH)
     team.close()
 
-    def surface(low: np.ndarray, high: np.ndarray) -> float:
+    def surface(low, high):
         x, y, z = high.astype(float) - low
         return float(x * y + y * z + z * x)
 
     @cache
-    def least(node: int, slots: int) -> float:
+    def least(node, slots):
         """The surface of all wide nodes below a binary node that has so many slots above it."""
         first, size = binary.links[node]
         if size:
@@ -121,7 +121,7 @@ def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> N
         return alone if slots == 1 else min(alone, opened(first, slots))
 
     @cache
-    def opened(first: int, slots: int) -> float:
+    def opened(first, slots):
         return min(least(first, k) + least(first + 1, slots - k) for k in range(1, slots))
 
     box, child, _, _ = collapse(binary)
@@ -131,7 +131,7 @@ def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> N
 
 
 @pytest.mark.parametrize("count", [1, 40, 3000])
-def test_boxes_are_leaves_of_one(count: int) -> None:
+def test_boxes_are_leaves_of_one(count):
     random = np.random.default_rng(2)
     low = random.uniform(-1, 1, (count, 3)).astype(np.float32)
     high = low + random.uniform(0, 0.1, (count, 3)).astype(np.float32)
@@ -159,7 +159,7 @@ def placed(mesh: Mesh, x: float) -> Mesh:
     return moved
 
 
-def test_objects_share_the_tree_of_a_shared_mesh() -> None:
+def test_objects_share_the_tree_of_a_shared_mesh():
     mesh, other = ball(), shards(50)
     scene = scene_of(mesh, placed(mesh, 3), Sphere((9, 0, 0)), other, placed(mesh, -3))
     team = Team(1)

@@ -128,7 +128,7 @@ def test_swipes_and_typed_numbers_go_to_builds(opened):
 
     finger = opened.context.new_cdp_session(opened)
 
-    def swipe(*way: tuple[int, int], to: str) -> None:
+    def swipe(*way, to):
         moves = [("touchMove", [one]) for one in way[1:]]
         for kind, points in (("touchStart", way[:1]), *moves, ("touchEnd", ())):
             touches = [{"x": x, "y": y} for x, y in points]

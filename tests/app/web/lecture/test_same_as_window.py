@@ -39,12 +39,12 @@ Said = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
-def html(lecture: Lecture) -> str:
+def html(lecture):
     return page(lecture, [stills(build, state_of(lecture, build)) for build in lecture.builds])
 
 
 @pytest.fixture(scope="module")
-def shown(lecture: Lecture) -> list[Said]:
+def shown(lecture):
     return [*window_says(lecture)]
 
 
@@ -113,15 +113,15 @@ def window_says(lecture: Lecture) -> Iterator[Said]:
 
 def page_says(html: str) -> Iterator[Said]:
     """Yield what a page shows in each build; the camera and what follows, of a live figure only."""
-    data = json.loads(DATA.search(html)[0])  # type: ignore[index]
+    data = json.loads(DATA.search(html)[0])
     for match in SECTION.finditer(html):
         name, section = match[1], match[0]
         texts = re.findall(r'(?:alt|aria-label)="([^"]*)"', section)
         drawings = re.findall(r"<svg viewBox.*?</svg>\s*<figcaption", section, re.DOTALL)
         words = re.findall(r"<text[^>]*>(.*?)</text>", "".join(drawings))
-        said: Said = {
+        said = {
             "name": name,
-            "title": unescape(re.search(r"<h2[^>]*>(.*?)</h2>", section)[1]),  # type: ignore[index]
+            "title": unescape(re.search(r"<h2[^>]*>(.*?)</h2>", section)[1]),
             "views": re.findall(r'<figure class="view of-([\w-]+)', section.replace(" still", "")),
             "rays": [ray.groups() for text in texts if (ray := RAY.search(unescape(text)))],
             "labels": sorted({unescape(re.sub(r"<.*?>", "", word)) for word in words}),
@@ -157,5 +157,5 @@ def differences(shown: list[Said], html: str) -> list[str]:
     return found
 
 
-def test_the_page_shows_what_the_window_shows(shown: list[Said], html: str) -> None:
+def test_the_page_shows_what_the_window_shows(shown, html):
     assert differences(shown, html) == []

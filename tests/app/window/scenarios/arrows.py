@@ -37,7 +37,7 @@ def stands(d: Driver) -> tuple[int, int]:
     return d.state.options.stepper.steps
 
 
-def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d: Driver) -> None:
+def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d):
     """F3 and the palette show the keyboard's own frame; the mouse has not moved since."""
     enter(d, "Side by side")
     for item in ("//Camera/Canonical", "//Camera/Scene's view", d.field("eye.x")):
@@ -51,7 +51,7 @@ def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d: Driver) -> Non
         assert [right(d), right(d)] == [1, 1], keys
 
 
-def drive_a_box_over_the_views_keeps_its_keys(d: Driver) -> None:
+def drive_a_box_over_the_views_keeps_its_keys(d):
     enter(d, "Side by side")
     d.window.files.open_dialog()
     d.frames(3)
@@ -63,7 +63,7 @@ def drive_a_box_over_the_views_keeps_its_keys(d: Driver) -> None:
     assert [right(d), right(d)] == [1, 1]
 
 
-def drive_after_a_click_in_the_stepper(d: Driver) -> None:
+def drive_after_a_click_in_the_stepper(d):
     """Its own keys hold where the mouse is not on an image."""
     enter(d, "Loops")
     d.click(f"//###{STEPPER}/###step")

@@ -16,7 +16,7 @@ def resize(d: Driver, size: tuple[int, int]) -> None:
     """Resize the window, in its own thread, and wait until that is drawn."""
     callbacks = d.run.params.callbacks
 
-    def once() -> None:
+    def once():
         callbacks.post_new_frame = lambda: None
         set_size(size)
 
@@ -25,14 +25,14 @@ def resize(d: Driver, size: tuple[int, int]) -> None:
     d.frames(2)
 
 
-def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
+def drive_no_view_fails_where_it_has_no_room(d):
     stage = d.stage
     for size, scale in (((640, 480), 3.0), ((200, 900), 2.0), ((1600, 120), 1.0), ((16, 16), 1.0)):
         d.change(preferences={"font_scale": scale})
         resize(d, size)
         for one in layout.LAYOUTS:
             layout.switch(one.name)
-            d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
+            d.until(lambda name=one.name: layout.current().name == name)
             d.frames(6)
             assert not stage.failed.errors, (size, scale, one.name)
         d.settle()
@@ -42,12 +42,12 @@ def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
+def drive_a_mistake_in_a_view_is_told_in_its_place(d):
     stage = d.stage
     view = stage.views[CAMERA]
     for error in (None, moderngl.Error("GLSL: 0:1: syntax error")):
 
-        def fail(_: object, error: Exception | None = error) -> None:
+        def fail(_, error=error):
             imgui.begin_child("half drawn")
             imgui.push_id("and more")
             if error is not None:
@@ -56,7 +56,7 @@ def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
             imgui.push_font(None, -1.0)  # ImGui's assertions are exceptions
 
         before = d.state
-        view.draw = fail  # type: ignore[method-assign]
+        view.draw = fail
         d.until(lambda: CAMERA in stage.failed.errors)
         d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
         assert d.state != before

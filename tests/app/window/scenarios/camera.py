@@ -1,11 +1,9 @@
 """The camera panel: numbers dragged and typed."""
 
-from __future__ import annotations
-
-from window_driver import RASTER, SIZE, Driver, Key, changed
+from window_driver import RASTER, SIZE, Key, changed
 
 
-def drive_a_slider_is_dragged(d: Driver) -> None:
+def drive_a_slider_is_dragged(d):
     before = d.agreeing_images()
     center = d.box(d.field("w.x")).get_center()
     d.ctx.mouse_teleport_to_pos((center.x, center.y))
@@ -30,11 +28,11 @@ def drive_a_slider_is_dragged(d: Driver) -> None:
 NOTE = "//###pending camera"
 
 
-def drive_a_number_that_is_not_legal_moves_nothing(d: Driver) -> None:
+def drive_a_number_that_is_not_legal_moves_nothing(d):
     """The buttons stay where they are, and one of them is a way out."""
     names = ("Scene's view", "Canonical", "Look at", "##eye.x", "##distance")
 
-    def places() -> list[tuple[float, float]]:
+    def places():
         boxes = (d.box(f"//Camera/{name}") for name in names)
         return [(box.min.x, box.min.y) for box in boxes]
 
@@ -59,7 +57,7 @@ def drive_a_number_that_is_not_legal_moves_nothing(d: Driver) -> None:
     assert not panel.has_pending
 
 
-def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
+def drive_a_singular_basis_is_told_and_survived(d):
     d.click("//Camera/keep orthonormal")
     assert not d.state.keep_orthonormal
     d.settle()
@@ -100,7 +98,7 @@ def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     assert changed(before[0], d.images()[0]) == 0
 
 
-def drive_letters_typed_into_a_field_are_no_shortcuts(d: Driver) -> None:
+def drive_letters_typed_into_a_field_are_no_shortcuts(d):
     d.ctx.item_double_click(d.field("eye.y"))
     d.ctx.key_chars_replace("po")
     d.press(Key.p)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
@@ -58,7 +57,7 @@ def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> boo
     return np.allclose(seen.row, wanted.row) and np.allclose(seen.column, wanted.column)
 
 
-def drive_a_camera_is_copied_and_pasted(d: Driver) -> None:
+def drive_a_camera_is_copied_and_pasted(d):
     shown, size = d.renderers.camera(d.state), d.renderers.size
     d.menu("Edit/Copy camera as/OpenCV")
     assert said(d).endswith("OpenCV.")
@@ -68,7 +67,7 @@ def drive_a_camera_is_copied_and_pasted(d: Driver) -> None:
     assert "pasted from the clipboard: " in said(d)
 
 
-def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
+def drive_a_pasted_matrix_asks_for_its_meaning(d):
     pose = np.linalg.inv(AIMED.camera_from_world) * (1, -1, -1, 1)
     imgui.set_clipboard_text(str(pose.tolist()))
     d.press(CTRL | Key.v)
@@ -83,7 +82,7 @@ def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
     assert d.steps == 1
 
 
-def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
+def drive_a_dropped_camera_is_taken_with_its_lens(d):
     plain, bent = d.folder / "plain.yml", d.folder / "bent.json"
     plain.write_bytes(written([PosedCamera(AIMED, SIZE)], "opencv")[""])
     bent.write_text(LENS)
@@ -119,7 +118,7 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
     assert "COLMAP" in said(d)
 
 
-def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
+def drive_the_camera_is_saved_in_every_format(d):
     shown, size = d.renderers.camera(d.state), d.renderers.size
     saved = {
         "OpenCV (.yml)...": d.folder / "saved.yml",
@@ -127,7 +126,7 @@ def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
     }
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
-        d.until(lambda path=path: str(path) in said(d))  # type: ignore[misc]
+        d.until(lambda path=path: str(path) in said(d))
         assert not d.window.files.message
     for path in (d.folder / "saved.yml", d.folder / "model"):
         posed = read_cameras(path).cameras[0]
@@ -135,7 +134,7 @@ def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
         assert same_camera(posed.camera, shown, size)
 
 
-def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d: Driver) -> None:
+def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d):
     path = d.folder / "out.glb"
     d.press(CTRL | Key.e)
     assert d.window.files.dialog.is_open
@@ -154,10 +153,10 @@ def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d: Driver) -> None:
     assert str(path) in said(d)
 
 
-def drive_a_long_export_is_cancelled(d: Driver) -> None:
+def drive_a_long_export_is_cancelled(d):
     export, begun, gate = exporting.export_scene, threading.Event(), threading.Event()
 
-    def slow(*arguments: Any) -> tuple[str, ...]:
+    def slow(*arguments):
         begun.set()
         gate.wait(PATIENT_S)
         check_cancelled()
@@ -186,7 +185,7 @@ def drive_a_long_export_is_cancelled(d: Driver) -> None:
         exporting.export_scene = export
 
 
-def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
+def drive_k_r_and_t_are_read_switched_and_copied(d):
     only_sections(d, "K, R and t")
     shown, size = d.renderers.camera(d.state), d.renderers.size
     assert d.state.options.pixel_origin == "center"
@@ -194,7 +193,7 @@ def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
         d.click(f"{PANEL}/{button}")
         assert d.state.options.pixel_origin == origin
         d.click(f"{PANEL}/Copy K, R, t")
-        names: dict[str, Any] = {}
+        names = {}
         exec(imgui.get_clipboard_text(), names)
         assert np.allclose(names["K"], shown.intrinsics(size, origin).K, atol=1e-9)
         d.menu("Camera/Canonical camera")

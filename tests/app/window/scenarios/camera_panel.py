@@ -41,7 +41,7 @@ def right_click_menu(d: Driver, field: str, entry: str) -> None:
     d.click(f"//$FOCUSED/{entry}")
 
 
-def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
+def drive_all_of_the_main_part_is_seen_without_scrolling(d):
     close_sections(d)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
@@ -49,7 +49,7 @@ def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
         assert d.box(f"//Camera/{name}").max.y < bottom
 
 
-def drive_the_field_of_view_is_typed(d: Driver) -> None:
+def drive_the_field_of_view_is_typed(d):
     before = d.agreeing_images()
     was = d.state.camera
     d.type("field of view", "35")
@@ -64,7 +64,7 @@ def drive_the_field_of_view_is_typed(d: Driver) -> None:
     d.click("//###pending camera/Back to the camera shown")
 
 
-def drive_fractions_and_roots_are_typed(d: Driver) -> None:
+def drive_fractions_and_roots_are_typed(d):
     d.type("eye.x", "1/3")
     assert d.state.camera.eye[0] == 1 / 3
     d.type("eye.y", "2*sqrt(2)/2")
@@ -93,7 +93,7 @@ def drive_fractions_and_roots_are_typed(d: Driver) -> None:
     assert d.state.camera.eye[:2] == (0.25, 2.0)
 
 
-def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) -> None:
+def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d):
     """Or it would depend on what was seen before."""
     height, width = d.renderers.size[::-1]
     mark = height // 2, width // 2
@@ -109,7 +109,7 @@ def drive_the_focus_is_the_marked_pixel_s_also_without_a_ray_image(d: Driver) ->
     d.settle()
 
 
-def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
+def drive_near_and_far_are_switched_on_and_cut(d):
     before = d.agreeing_images()
     assert (d.state.camera.near, d.state.camera.far) == (None, None)
     d.click("//Camera/near")
@@ -132,7 +132,7 @@ def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
     assert d.state.camera == d.start.camera
 
 
-def drive_a_number_is_reset_copied_and_pasted(d: Driver) -> None:
+def drive_a_number_is_reset_copied_and_pasted(d):
     d.type("eye.x", "-2.5")
     right_click_menu(d, "eye.x", "Copy")
     assert float(imgui.get_clipboard_text()) == -2.5
@@ -143,13 +143,13 @@ def drive_a_number_is_reset_copied_and_pasted(d: Driver) -> None:
     assert d.steps == 3
 
 
-def drive_presets_frame_the_scene_in_both_images(d: Driver) -> None:
+def drive_presets_frame_the_scene_in_both_images(d):
     for name in ("Left", "Cabinet"):
         d.menu(f"Camera/Presets/{name}")
         d.agreeing_images()
 
 
-def drive_a_lens_is_chosen_dragged_and_taken_off(d: Driver) -> None:
+def drive_a_lens_is_chosen_dragged_and_taken_off(d):
     close_sections(d)
     open_section(d, "Lens")
     before = d.images()
@@ -182,7 +182,7 @@ def drive_a_lens_is_chosen_dragged_and_taken_off(d: Driver) -> None:
     close_sections(d)
 
 
-def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d: Driver) -> None:
+def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d):
     d.menu("Camera/Lens/190 degrees")
     d.agreeing_images()
     window = d.window
@@ -194,7 +194,7 @@ def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_look_at_is_typed(d: Driver) -> None:
+def drive_look_at_is_typed(d):
     close_sections(d)
     open_section(d, "Look at")
     for axis, value in zip("xyz", ("0", "6", "9"), strict=True):
@@ -215,7 +215,7 @@ def drive_look_at_is_typed(d: Driver) -> None:
     close_sections(d)
 
 
-def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
+def drive_a_passage_is_smooth_and_one_step(d):
     clock = Clock(d)
     d.press(Key.p)
     window = d.window
@@ -240,7 +240,7 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
     assert window.state == d.start
 
 
-def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
+def drive_sections_stay_as_the_user_leaves_them(d):
     view, stage = d.window.views["Camera"], d.stage
     close_sections(d)
     open_section(d, "Look at")

@@ -35,7 +35,7 @@ def tampered(d: Driver, change: Callable[[np.ndarray], None]) -> Iterator[None]:
     """As if the tracer had made a mistake, in full images only."""
     live, take = d.renderers.live, d.renderers.live.poll
 
-    def poll() -> RayImage | None:
+    def poll():
         image = take()
         if image is None or image.factor > 1:
             return image
@@ -43,12 +43,12 @@ def tampered(d: Driver, change: Callable[[np.ndarray], None]) -> Iterator[None]:
         change(color)
         return replace(image, frame=replace(image.frame, color=color))
 
-    live.poll = poll  # type: ignore[method-assign]
+    live.poll = poll
     try:
         trace_again(d)
         yield
     finally:
-        live.poll = take  # type: ignore[method-assign]
+        live.poll = take
         trace_again(d)
 
 
@@ -268,7 +268,7 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
     both = d.renderers
     live, take = both.live, both.live.poll
 
-    def coarse() -> RayImage | None:
+    def coarse():
         image = take()
         if image is None or image.factor > 1:
             return image
@@ -276,7 +276,7 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
         frame = Frame(size=(frame.shape[1], frame.shape[0]), color=frame)
         return RayImage(image.request, frame, 4)
 
-    live.poll = coarse  # type: ignore[method-assign]
+    live.poll = coarse
     try:
         camera = d.state.camera
         d.window.change(d.state.with_camera(replace(camera, eye=(0.5, 1.0, 6.0))))
@@ -288,7 +288,7 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
         assert np.ptp(seen, axis=2).max() <= 2, "gray: the raster image, muted"
         assert seen.std() > 3
     finally:
-        live.poll = take  # type: ignore[method-assign]
+        live.poll = take
     trace_again(d)
     assert waiting(both, d.state) == ""
 

@@ -8,7 +8,7 @@ import threading
 from typing import Any
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
-from window_driver import PATIENT_S, Driver, Key, changed
+from window_driver import PATIENT_S, Key, changed
 
 from lucida.app.ui import messages
 from lucida.app.window.palette_entries import entries
@@ -20,7 +20,7 @@ from lucida.renderer.files.export import export_scene
 CTRL, SHIFT = Key.mod_ctrl, Key.mod_shift
 
 
-def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
+def drive_files_are_opened_and_broken_ones_told(d):
     window = d.window
     window.open(str(d.folder / "missing.toml"))
     d.until(lambda: bool(window.files.message))
@@ -57,7 +57,7 @@ def drive_files_are_opened_and_broken_ones_told(d: Driver) -> None:
     assert window.state == d.start
 
 
-def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
+def drive_a_model_s_own_cameras_are_chosen_and_undone(d):
     window, start = d.window, d.state
     scene = load_scene("spheres")
     camera = Camera.look_at((0, 2, 12), (0, 1, 0), fov_y_deg=20)
@@ -87,12 +87,12 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d: Driver) -> None:
     ]
 
 
-def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
+def drive_no_frame_waits_for_the_tracer(d):
     """The tracer's thread is held up: the window goes on, with the raster image of now."""
     live, gate = d.renderers.live, threading.Event()
     good = live.make_tracer
 
-    def slow(scene: object) -> Any:
+    def slow(scene):
         gate.wait(PATIENT_S)
         return good(scene)
 
@@ -116,7 +116,7 @@ def drive_no_frame_waits_for_the_tracer(d: Driver) -> None:
     assert hello_imgui.get_runner_params().fps_idling.fps_idle == IDLE_FPS
 
 
-def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
+def drive_the_windows_own_dialog_opens_and_saves(d):
     files = d.window.files
     folder = d.folder / "scenes"
     folder.mkdir()
@@ -150,10 +150,10 @@ def drive_the_windows_own_dialog_opens_and_saves(d: Driver) -> None:
     assert files.recent.entries == ()
 
 
-def drive_loading_is_told_and_cancelled(d: Driver) -> None:
+def drive_loading_is_told_and_cancelled(d):
     for _ in range(2):
         gate = threading.Event()
-        d.window.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))  # type: ignore[misc]
+        d.window.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))
         d.until(lambda: loading_box() is not None)
         d.frames(2)
         box, pad = loading_box(), imgui.get_style().window_padding
@@ -167,7 +167,7 @@ def drive_loading_is_told_and_cancelled(d: Driver) -> None:
     d.until(lambda: d.state.scene.name == "spheres")
 
 
-def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d: Driver) -> None:
+def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d):
     window, path = d.window, d.folder / "twice.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     window.open(str(path))
@@ -178,14 +178,14 @@ def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d: Driver) ->
     d.settle()
     textures = window.renderers.textures
     rasterizer = textures.rasterizer.of(window.state.scene)
-    taken: list[bool] = []
+    taken = []
     good = rasterizer.set_scene
 
-    def set_scene(scene: object, prepared: object = None) -> None:
+    def set_scene(scene, prepared=None):
         taken.append(scene is opened and prepared is not None)
-        good(scene, prepared)  # type: ignore[arg-type]
+        good(scene, prepared)
 
-    rasterizer.set_scene = set_scene  # type: ignore[method-assign]
+    rasterizer.set_scene = set_scene
     window.redo()
     d.settle()
     del rasterizer.set_scene

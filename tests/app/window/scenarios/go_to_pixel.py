@@ -19,7 +19,7 @@ def typed(d: Driver, row: str, column: str) -> None:
     d.press(Key.enter)
 
 
-def drive_a_pixel_is_typed(d: Driver) -> None:
+def drive_a_pixel_is_typed(d):
     window = d.window
     typed(d, "31", "41")
     assert window.state.marked == (30, 40)
@@ -30,7 +30,7 @@ def drive_a_pixel_is_typed(d: Driver) -> None:
     assert d.steps == 3
 
 
-def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
+def drive_a_mistake_is_said_and_escape_leaves(d):
     window = d.window
     before = with_options(window.state, marked=(5, 6))
     window.change(before)
@@ -44,7 +44,7 @@ def drive_a_mistake_is_said_and_escape_leaves(d: Driver) -> None:
     assert window.state.marked == (5, 6), "Escape has left the box and nothing else"
 
 
-def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
+def drive_keys_in_the_box_are_for_the_box(d):
     """Escape leaves nothing else, and digits are no bookmarks, where no field has them yet."""
     window = d.window
     d.change(preferences={"presentation": True})
@@ -65,7 +65,7 @@ def drive_keys_in_the_box_are_for_the_box(d: Driver) -> None:
     d.settle()
 
 
-def drive_a_pixel_out_of_sight_is_brought_into_it(d: Driver) -> None:
+def drive_a_pixel_out_of_sight_is_brought_into_it(d):
     d.change(images={"magnification": 16.0})
     d.settle()
     typed(d, "2", "3")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from capitals import capital_heights
 from imgui_bundle import imgui
 from views_in_turn import views_in_turn
@@ -15,10 +13,10 @@ from lucida.app.lecture.view import LECTURE
 
 def overflow(d: Driver) -> float:
     """How far the step's text can be scrolled."""
-    found: list[float] = []
+    found = []
     end_child = imgui.end_child
 
-    def told() -> None:
+    def told():
         if "/step_" in imgui.internal.get_current_window().name:
             found.append(imgui.get_scroll_max_y())
         end_child()
@@ -31,15 +29,15 @@ def overflow(d: Driver) -> float:
     return max(found, default=0.0)  # over a picture, nothing can be scrolled
 
 
-def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None:
+def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d):
     """1/50 of the window's height at least: at the end of all steps, and in all views alone."""
     lecture = load_lecture(BUILTIN)
     for size in ((1920, 1080), (1024, 728)):  # 1024x768 less a title bar
         d.resize(size)
-        low: dict[str, dict[float, str]] = {}
-        scrolled: dict[str, float] = {}
+        low = {}
+        scrolled = {}
 
-        def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
+        def look(name, least=size[1] / 50, low=low):
             d.until(lambda: d.in_draw_lists(capital_heights))
             heights = d.in_draw_lists(capital_heights)
             low |= {name: small} if (small := below(heights, least)) else {}
@@ -72,7 +70,7 @@ def below(heights: dict[float, str], least: float) -> dict[float, str]:
     return {height: letters for height, letters in heights.items() if height < least}
 
 
-def drive_the_lecture_ends(d: Driver) -> None:
+def drive_the_lecture_ends(d):
     """The scene and the camera from before the lecture come back."""
     camera, scene = d.state.camera, d.state.scene
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)

@@ -1,16 +1,14 @@
 """Undo, keys, menus, switches."""
 
-from __future__ import annotations
-
 import numpy as np
-from window_driver import IMAGES, Driver, Key
+from window_driver import IMAGES, Key
 
 from lucida.app.images.pair.view import RASTER, RAY
 
 CTRL = Key.mod_ctrl
 
 
-def drive_undo_and_redo(d: Driver) -> None:
+def drive_undo_and_redo(d):
     d.drag_field("eye.x", 40)
     moved = d.state
     d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
@@ -30,7 +28,7 @@ def drive_undo_and_redo(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_keys_and_menus(d: Driver) -> None:
+def drive_keys_and_menus(d):
     window = d.window
     d.ctx.mouse_move(IMAGES[RASTER])
     d.press(Key.p)
@@ -53,7 +51,7 @@ def drive_keys_and_menus(d: Driver) -> None:
     assert not window.shell.help
 
 
-def drive_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
+def drive_shadows_and_mirrors_are_the_ray_images_alone(d):
     raster, ray = d.agreeing_images()
     d.menu("View/Shadows (ray image only)")
     d.settle()
@@ -70,7 +68,7 @@ def drive_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_the_history_is_a_list(d: Driver) -> None:
+def drive_the_history_is_a_list(d):
     d.drag_field("eye.x", 30)
     d.drag_field("eye.z", 30)
     d.drag_field("eye.y", 30)
@@ -80,7 +78,7 @@ def drive_the_history_is_a_list(d: Driver) -> None:
     assert len(d.window.history.future) == 3
 
 
-def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d: Driver) -> None:
+def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d):
     d.type("eye.y", "2.5")
     edited = d.state
     assert edited != d.start

@@ -1,17 +1,12 @@
 """The image windows: sizes and layouts, channels, resolutions, display."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 from imgui_bundle import imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
-from window_driver import SIZE, Driver, Key
+from window_driver import SIZE, Key
 
 from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
-from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.raster import Display
 
@@ -173,26 +168,26 @@ def drive_nothing_is_drawn_twice(d):
     assert [count() for count in (shown, drawn, read)] == [0, 0, 0]
 
 
-def drive_images_are_on_the_screen_in_the_frame_of_their_change(d: Driver) -> None:
+def drive_images_are_on_the_screen_in_the_frame_of_their_change(d):
     found, seen, asked = d.renderers.textures, [], ["color"]
     left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
     raster_in = found.raster_in
 
-    def ask(placement: Any, wanted: Any, look: Any, *more: Any, **named: Any) -> Any:
+    def ask(placement, wanted, look, *more, **named):
         asked.append(look.channel)
         return raster_in(placement, wanted, look, *more, **named)
 
-    def look(target: Target) -> None:
+    def look(target):
         seen.append((asked[-1], hash(target.read()[top:bottom, left:right].tobytes())))
 
-    found.raster_in, d.run.on_drawn = ask, look  # type: ignore[method-assign]
+    found.raster_in, d.run.on_drawn = ask, look
     try:
         d.frames(3)
         d.change(images={"channel": "id"})
         d.frames(3)
     finally:
         d.run.on_drawn = None
-        del found.raster_in  # type: ignore[attr-defined]
+        del found.raster_in
     colors = {number for channel, number in seen if channel == "color"}
     others = {number for channel, number in seen if channel == "id"}
     assert colors and others

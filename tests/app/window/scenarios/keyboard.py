@@ -43,7 +43,7 @@ def walked(d: Driver) -> set[int]:
     return ids
 
 
-def drive_tab_reaches_every_control(d: Driver) -> None:
+def drive_tab_reaches_every_control(d):
     d.window.change(with_content(d))
     missed, io = {}, imgui.get_io()
     io.key_repeat_delay = io.key_repeat_rate = FRAME_S / 2  # a step a frame
@@ -54,7 +54,7 @@ def drive_tab_reaches_every_control(d: Driver) -> None:
     assert not missed, missed
 
 
-def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
+def drive_a_frame_shows_where_the_keyboard_is(d):
     for look in ("dark", "light", "contrast"):
         d.change(preferences={"theme": look})
         d.ctx.nav_move_to(d.field("eye.x"))
@@ -66,10 +66,10 @@ def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
         assert (rows.max(axis=2) < 60).all(axis=1).sum() >= 2, look
 
 
-def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
+def drive_alt_leads_into_the_menus_and_back(d):
     context, menus = imgui.get_current_context(), d.window.menu_keys
 
-    def at() -> str:
+    def at():
         d.frames(5)
         return context.nav_window.name if context.nav_window else ""
 
@@ -108,7 +108,7 @@ def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
     assert not menus.in_menus
 
 
-def drive_the_first_tab_goes_into_a_view(d: Driver) -> None:
+def drive_the_first_tab_goes_into_a_view(d):
     imgui.set_window_focus(None)
     d.frames(2)
     d.press(Key.tab)

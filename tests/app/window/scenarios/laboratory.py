@@ -1,11 +1,8 @@
 """The image laboratory: every drawing in the window, and its light at the pointer."""
 
-from __future__ import annotations
-
 import itertools
 
 from maximised import Maximised
-from window_driver import Driver
 
 from lucida.app.instruments.laboratory.pages import PAGES
 from lucida.app.instruments.laboratory.view import LaboratoryView
@@ -14,7 +11,7 @@ from lucida.app.instruments.outside.figure import Label
 ALONE = Maximised(LaboratoryView, "laboratory")
 
 
-def drive_every_page_is_drawn_and_moves(d: Driver) -> None:
+def drive_every_page_is_drawn_and_moves(d):
     view = ALONE.open(d)
     for page, kind in PAGES.items():
         seen = []
@@ -29,10 +26,10 @@ def drive_every_page_is_drawn_and_moves(d: Driver) -> None:
     ALONE.close(d)
 
 
-def drive_the_pointer_reads_the_image(d: Driver) -> None:
+def drive_the_pointer_reads_the_image(d):
     view = ALONE.open(d, page="function", progress=1.0)
 
-    def words() -> list[str]:
+    def words():
         return [part.text for part in view.figure.parts if isinstance(part, Label)]
 
     box, texts = d.box(ALONE.item("image")), []

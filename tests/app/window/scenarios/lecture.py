@@ -1,7 +1,5 @@
 """The guided lecture: its steps, keys and buttons, its column, the file that is edited."""
 
-from __future__ import annotations
-
 import threading
 from dataclasses import replace
 
@@ -9,17 +7,16 @@ import numpy as np
 from imgui_bundle import imgui
 from lecture_window import SMALL, give, lecture_of, number_of, shown
 from option_changes import with_options
-from window_driver import SIZE, Driver, Key, changed
+from window_driver import SIZE, Key, changed
 
 from lucida.app.lecture import view
 from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.lecture.session import LectureReread, LectureSession
 from lucida.app.lecture.step_options import state_of
 from lucida.app.lecture.view import LECTURE
 from lucida.app.ui import formula, layout
 
 
-def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
+def drive_a_key_right_after_the_beginning_is_not_lost(d):
     d.ctx.menu_click('//##MainMenuBar/Lecture/Begin "Images, rays and cameras"')
     d.press(Key.page_down)
     d.settle()
@@ -30,7 +27,7 @@ def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
     d.settle()
 
 
-def drive_the_end_brings_back_what_was_shown_before(d: Driver) -> None:
+def drive_the_end_brings_back_what_was_shown_before(d):
     moved = replace(d.state.camera, eye=(1.0, 2.0, 7.0))
     before = d.state.with_camera(moved).with_fit(False)
     d.window.change(before)
@@ -45,7 +42,7 @@ def drive_the_end_brings_back_what_was_shown_before(d: Driver) -> None:
     assert d.state.view == before.view
 
 
-def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
+def drive_keys_and_buttons_walk_the_steps(d):
     first, second = give(d).steps
     assert layout.current().name == layout.LECTURE
     assert d.state == state_of(first, d.state)
@@ -95,13 +92,13 @@ title = "Second"
 """
 
 
-def drive_builds_are_walked_and_move(d: Driver) -> None:
+def drive_builds_are_walked_and_move(d):
     give(d, BUILDS)
     lecture, session = lecture_of(d), lecture_of(d).session
     window, past = d.window, d.steps
     first, picture = window.state, d.picture()
 
-    def press(key: Key) -> tuple[int, int]:
+    def press(key):
         d.press(int(key))
         return session.place[1:]
 
@@ -141,7 +138,7 @@ def drive_builds_are_walked_and_move(d: Driver) -> None:
     assert session.place[1:] == (0, 2) and window.state.images.exposure_ev == 4
 
 
-def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
+def drive_one_key_comes_back_to_the_step(d):
     first, _ = give(d).steps
     lecture = d.state
     d.change(shadows=True, images={"exposure_ev": 3.0})
@@ -154,7 +151,7 @@ def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
     assert d.state.scene is d.start.scene
 
 
-def drive_undo_walks_back_over_steps(d: Driver) -> None:
+def drive_undo_walks_back_over_steps(d):
     first, second = give(d).steps
     moved = with_options(d.state, mirrors=True)
     d.window.change(moved)
@@ -189,12 +186,12 @@ def drive_undo_walks_back_over_steps(d: Driver) -> None:
     assert (number_of(d), d.state) == (0, begun)
 
 
-def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
+def drive_the_column_keeps_its_share_of_a_window_that_grows(d):
     give(d, SMALL.replace('["ray"]', '["raster", "ray"]'))
     lecture_of(d).advance(d.window, 1)
     d.settle()
 
-    def shares() -> tuple[float, float]:
+    def shares():
         """The column's part of the width, and the lower image's of the height of both."""
         rects = d.stage.rects
         low, high = rects["Ray"], rects["Raster"]
@@ -208,7 +205,7 @@ def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
         assert np.allclose(shares(), before, atol=0.02)
 
 
-def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
+def drive_in_a_narrow_column_no_button_is_cut_off(d):
     give(d)
     for size in ((1600, 720), SIZE, (640, 480)):
         d.resize(size)
@@ -218,10 +215,10 @@ def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
         assert low_y <= box.min.y < box.max.y <= high_y
 
 
-def drive_a_column_that_was_widened_stays_so(d: Driver) -> None:
+def drive_a_column_that_was_widened_stays_so(d):
     give(d)
 
-    def left() -> float:
+    def left():
         return d.stage.rects[LECTURE][0]
 
     before, top = left(), d.stage.rects[LECTURE][1]
@@ -240,7 +237,7 @@ def drive_a_column_that_was_widened_stays_so(d: Driver) -> None:
     assert abs(left() - before) < 3
 
 
-def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
+def drive_a_lecture_is_read_again_when_it_is_saved(d):
     give(d)
     session = lecture_of(d).session
     path = session.path
@@ -267,13 +264,13 @@ def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
     assert d.state.scene.name == "canonical camera"
 
 
-def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d: Driver) -> None:
+def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d):
     give(d)
     first = lecture_of(d).session
     begun, gate = threading.Event(), threading.Event()
     again = view.reread
 
-    def slow(session: LectureSession) -> LectureReread:
+    def slow(session):
         begun.set()
         assert gate.wait(60)
         return again(session)
@@ -293,7 +290,7 @@ def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d: Dri
     assert number_of(d) == 0
 
 
-def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
+def drive_a_lecture_is_opened_and_dropped(d):
     path, broken = d.folder / "mine.toml", d.folder / "broken.toml"
     path.write_text(SMALL.replace('"Small"', '"Mine"'))
     broken.write_text(SMALL.replace('"canonical"', '"canonicle"'))

@@ -1,7 +1,5 @@
 """The lecture's exercises, and the formula that grows."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -9,17 +7,16 @@ from both_lectures import both_lectures
 from lecture_window import answer, item, lecture_of
 from objects_window import handle_px
 from outside_window import place
-from window_driver import Driver, Key, changed
+from window_driver import Key, changed
 
 from lucida.app.instruments.objects.choosing import chosen
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
 from lucida.app.lecture.hiding import HideExercise
 from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.state.kept_lecture import Judgement
 from lucida.renderer.editing.moving import bounds_of
 
 
-def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
+def drive_exercises_say_what_is_right_and_wrong(d):
     lecture = both_lectures()
     titles = [step.title for step in lecture.steps]
     lecture_of(d).give(lecture, BUILTIN, (titles.index("Exercise: a pixel's ray"), 0))
@@ -63,7 +60,7 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     assert session.answers.chosen == 0
 
 
-def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
+def drive_an_object_is_moved_until_it_hides_another(d):
     lecture = load_lecture(BUILTIN)
     number, step = next(
         (k, one) for k, one in enumerate(lecture.steps) if isinstance(one.exercise, HideExercise)
@@ -77,7 +74,7 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     begun = d.state
     assert chosen(begun) == (task.item,)
 
-    def said() -> Judgement:
+    def said():
         watch = lecture_of(d).column.hidden_watch
         return watch.said[1]
 

@@ -86,7 +86,7 @@ def _spoil(d: Driver) -> None:
     _rest(d)
 
 
-def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
+def drive_a_step_does_not_depend_on_the_way(d):
     lecture = _begin(d)
     count = len(lecture.session.lecture.steps)
     facts, before = [], np.zeros(0)
@@ -112,13 +112,13 @@ def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
     _leave(d)
 
 
-def drive_the_stage_has_pictures_and_text_alone(d: Driver) -> None:
+def drive_the_stage_has_pictures_and_text_alone(d):
     before = layout.LAYOUTS[1].name
     d.layout(before)
     lecture = _begin(d)
     bars = hello_imgui.get_runner_params().imgui_window_params
 
-    def is_bare() -> bool:
+    def is_bare():
         return not (bars.show_menu_bar or bars.show_status_bar or d.window.has_tools)
 
     d.ctx.mouse_teleport_to_pos((200, 200))

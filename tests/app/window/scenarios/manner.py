@@ -25,7 +25,7 @@ def into(d: Driver, name: str) -> None:
     d.frames(4)
 
 
-def drive_the_palette_does_what_is_typed(d: Driver) -> None:
+def drive_the_palette_does_what_is_typed(d):
     palette = d.window.shell.palette
     d.press(CTRL | SHIFT | Key.p)
     assert palette.open
@@ -53,7 +53,7 @@ def drive_the_palette_does_what_is_typed(d: Driver) -> None:
     assert not palette.open
 
 
-def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
+def drive_the_sheet_fits_the_window_at_every_size_of_type(d):
     for scale in (1.0, 3.0):
         d.change(preferences={"font_scale": scale})
         d.press(SHIFT | Key.slash)
@@ -65,7 +65,7 @@ def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
         assert not d.window.shell.help
 
 
-def drive_looks_are_options_that_undo_leaves_alone(d: Driver) -> None:
+def drive_looks_are_options_that_undo_leaves_alone(d):
     dark = d.picture().mean()
     d.menu("View/Theme/Light theme")
     assert d.state.preferences.theme == "light"
@@ -84,7 +84,7 @@ def drive_looks_are_options_that_undo_leaves_alone(d: Driver) -> None:
     assert not d.window.can_undo()
 
 
-def drive_presentation_is_large_and_ends_with_escape(d: Driver) -> None:
+def drive_presentation_is_large_and_ends_with_escape(d):
     d.press(Key.f9)
     d.settle()
     assert imgui.get_font_size() >= 0.02 * SIZE[1]
@@ -95,13 +95,13 @@ def drive_presentation_is_large_and_ends_with_escape(d: Driver) -> None:
     assert d.state == d.start
 
 
-def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
+def drive_layouts_have_keys_and_remember_the_users_changes(d):
     stage = d.stage
     into(d, layout.LAYOUTS[1].name)
     into(d, layout.LAYOUTS[0].name)
     for number, one in enumerate(layout.CHOICES):
         d.press(CTRL | (Key.f1 + number))
-        d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
+        d.until(lambda name=one.name: layout.current().name == name)
         d.frames(3)
         for name in one.places:
             if name in stage.views:
@@ -123,7 +123,7 @@ def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
     return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
 
 
-def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None:
+def drive_an_opened_view_has_the_largest_area_and_views_stack(d):
     stage = d.stage
     into(d, SIDE)
     room = boxes(d)[RASTER]
@@ -143,7 +143,7 @@ def drive_an_opened_view_has_the_largest_area_and_views_stack(d: Driver) -> None
     into(d, SIDE)
 
 
-def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
+def drive_a_view_is_maximised_and_comes_back(d):
     stage = d.stage
     d.settle()
     small = stage.rects[RASTER]
@@ -163,7 +163,7 @@ def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_the_keyboard_goes_from_view_to_view(d: Driver) -> None:
+def drive_the_keyboard_goes_from_view_to_view(d):
     stage = d.stage
     seen = []
     for _ in stage.shown:
@@ -174,7 +174,7 @@ def drive_the_keyboard_goes_from_view_to_view(d: Driver) -> None:
     assert stage.focused == seen[-2]
 
 
-def drive_bookmarks_bring_views_back(d: Driver) -> None:
+def drive_bookmarks_bring_views_back(d):
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
     home = d.state.view
     d.press(CTRL | Key._3)
@@ -200,7 +200,7 @@ def drive_bookmarks_bring_views_back(d: Driver) -> None:
     assert [mark.number for mark in d.state.options.bookmarks] == [3, 9]
 
 
-def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
+def drive_pictures_show_what_the_window_shows(d):
     shell = d.window.shell
     shell.captures.folder = d.folder / "pictures"
     shell.captures.folder.mkdir(exist_ok=True)
@@ -225,7 +225,7 @@ def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
 
 
-def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
+def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
     d.change(preferences={"font_scale": 3.0})
     for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
         d.resize((width, 480))
@@ -240,7 +240,7 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
     assert d.state.options.shadows
 
 
-def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
+def drive_a_framebuffer_out_of_scale_makes_no_letters(d):
     """As ImGui's backend finds it where the window is resized between two of its questions."""
     io, viewport = imgui.get_io(), imgui.get_main_viewport()
     scale, far = imgui.get_io().display_framebuffer_scale.x, ImVec2(1280, 720)
@@ -255,7 +255,7 @@ def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
+def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
     window = d.window
     d.change(marked=(20, 30))
     d.settle()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import moderngl
 from window_driver import Driver
@@ -21,7 +20,7 @@ def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
     live = renderers.live
     good = live.make_tracer
 
-    def bad(request: object) -> Any:
+    def bad(request):
         raise error
 
     live.make_tracer = bad
@@ -35,7 +34,7 @@ def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
     d.until(lambda: live.error is None and d.window.settled)
 
 
-def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
+def drive_failures_of_the_tracer_are_told_and_tried_again(d):
     fail_until_retried(d, MemoryError(), "MemoryError")
     fail_until_retried(d, LucidaError("tracer", "broke", "mend it"), "broke")
     fail_until_retried(d, SystemExit(3), "SystemExit")
@@ -43,7 +42,7 @@ def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
+def drive_failures_of_the_rasterizer_are_told_and_survived(d):
     textures = d.renderers.textures
     rasterizer = textures.rasterizer.of(d.state.scene)
     for error in (
@@ -52,10 +51,10 @@ def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
         MemoryError(),
     ):
 
-        def fail(*_: object, error: Exception = error) -> Any:
+        def fail(*_, error=error):
             raise error
 
-        rasterizer.draw = fail  # type: ignore[method-assign]
+        rasterizer.draw = fail
         d.drag_field("eye.x", 10)
         d.until(lambda: d.renderers.raster_error is not None)
         d.until(lambda: is_told(d))

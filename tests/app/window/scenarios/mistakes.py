@@ -44,7 +44,7 @@ def _choose(d: Driver, line: str, mistake: str) -> None:
     d.settle()
 
 
-def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
+def drive_lines_are_made_wrong_and_right_again(d):
     view = ALONE.open(d, columns=32)
     assert _options(d).chosen == ("rows count upwards",)
     made = view.made
@@ -66,7 +66,7 @@ def drive_lines_are_made_wrong_and_right_again(d: Driver) -> None:
     assert view.made is None
 
 
-def drive_a_click_marks_a_pixel_in_all_views(d: Driver) -> None:
+def drive_a_click_marks_a_pixel_in_all_views(d):
     view = ALONE.open(d, columns=16)
     d.click(_item("wrong"))
     d.settle()
@@ -79,7 +79,7 @@ def drive_a_click_marks_a_pixel_in_all_views(d: Driver) -> None:
     ALONE.close(d)
 
 
-def drive_the_outside_view_shows_the_wrong_camera(d: Driver) -> None:
+def drive_the_outside_view_shows_the_wrong_camera(d):
     d.stage.show(OUTSIDE)
     d.settle()
     d.stage.show(MISTAKES)

@@ -1,16 +1,14 @@
 """The mouse over the images, and the keys that act where it is."""
 
-from __future__ import annotations
-
 import numpy as np
-from window_driver import Driver, Key, changed
+from window_driver import Key, changed
 
 from lucida.app.images.pair.view import RASTER, RAY
 
 SIZE = (400, 300)  # to project with
 
 
-def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
+def drive_the_mouse_turns_moves_and_zooms(d):
     window, start = d.window, d.start.camera
     for name in (RASTER, RAY):
         before = d.agreeing_images()
@@ -65,7 +63,7 @@ def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_the_wheel_goes_through_nothing(d: Driver) -> None:
+def drive_the_wheel_goes_through_nothing(d):
     """Scrolling faster than images are finished: the point under the mouse stays the aim."""
     window = d.window
     pixel = (window.renderers.size[1] // 2 + 30, window.renderers.size[0] // 2)
@@ -89,7 +87,7 @@ def drive_the_wheel_goes_through_nothing(d: Driver) -> None:
     assert window.state == d.start
 
 
-def drive_keys_fly_over_an_image(d: Driver) -> None:
+def drive_keys_fly_over_an_image(d):
     window = d.window
     keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
     for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
@@ -110,7 +108,7 @@ def drive_keys_fly_over_an_image(d: Driver) -> None:
         d.reset()
 
 
-def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
+def drive_the_object_under_the_mouse_is_framed(d):
     d.settle()
     window = d.window
     _, _, frame = window.renderers.agreement.pair
@@ -140,7 +138,7 @@ def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
     assert frame[0].std() > 5
 
 
-def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
+def drive_alt_and_a_drag_looks_around(d):
     start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
     d.ctx.key_down(Key.mod_alt)
     d.drag(start, goal)

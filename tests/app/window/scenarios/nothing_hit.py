@@ -1,7 +1,5 @@
 """An image that shows nothing says so: over both images, in the status line, as the comparison."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from window_driver import RASTER, RAY

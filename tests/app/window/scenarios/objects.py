@@ -1,7 +1,5 @@
 """The scene in hand: choosing, the list, the inspector; adding, deleting."""
 
-from __future__ import annotations
-
 import numpy as np
 from objects_window import (
     CTRL,
@@ -17,7 +15,7 @@ from objects_window import (
     seen_at,
 )
 from option_changes import with_options
-from window_driver import RASTER, RAY, Driver, Key
+from window_driver import RASTER, RAY, Key
 
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of
 from lucida.app.instruments.objects.in_views import CHOSEN
@@ -27,7 +25,7 @@ from lucida.renderer.editing import objects
 # Choosing.
 
 
-def drive_a_double_click_leaves_no_mark_and_no_step(d: Driver) -> None:
+def drive_a_double_click_leaves_no_mark_and_no_step(d):
     enter(d)
     click(d, seen_at(d, RASTER, "matte sphere"))
     marked, steps = d.state.marked, d.window.history.past
@@ -44,7 +42,7 @@ def drive_a_double_click_leaves_no_mark_and_no_step(d: Driver) -> None:
     assert d.window.history.past == steps
 
 
-def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
+def drive_clicks_mark_pixels_unless_they_are_to_choose(d):
     enter(d)
     window = d.window
     click(d, seen_at(d, RASTER, "matte sphere"))
@@ -67,7 +65,7 @@ def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
     d.picture()
 
 
-def drive_outlines_end_where_the_image_does(d: Driver) -> None:
+def drive_outlines_end_where_the_image_does(d):
     enter(d)
     window = d.window
     state = with_options(window.state, images={"resolution": (64, 64)}, objects={"handle": "none"})
@@ -85,7 +83,7 @@ def drive_outlines_end_where_the_image_does(d: Driver) -> None:
 # The list.
 
 
-def drive_rows_are_chosen_as_everywhere(d: Driver) -> None:
+def drive_rows_are_chosen_as_everywhere(d):
     enter(d)
     names = [row.shown for row in rows_of(d.state.scene)]
     d.click(in_list(d, names[1]))
@@ -102,7 +100,7 @@ def drive_rows_are_chosen_as_everywhere(d: Driver) -> None:
     d.press(Key.escape)
 
 
-def drive_what_is_typed_edits_no_object(d: Driver) -> None:
+def drive_what_is_typed_edits_no_object(d):
     """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
     enter(d)
     d.click(in_list(d, "box"))
@@ -119,7 +117,7 @@ def drive_what_is_typed_edits_no_object(d: Driver) -> None:
     d.press(Key.escape)
 
 
-def drive_the_palette_edits_what_is_chosen(d: Driver) -> None:
+def drive_the_palette_edits_what_is_chosen(d):
     """Though its own field has the keyboard."""
     enter(d)
     count = len(rows_of(d.state.scene))
@@ -132,7 +130,7 @@ def drive_the_palette_edits_what_is_chosen(d: Driver) -> None:
         assert len(rows_of(d.state.scene)) == count + more, words
 
 
-def drive_a_checkbox_hides_from_both_images(d: Driver) -> None:
+def drive_a_checkbox_hides_from_both_images(d):
     enter(d)
     before = d.agreeing_images()
     d.click(in_list(d, "matte sphere", "##shown"))
@@ -148,7 +146,7 @@ def drive_a_checkbox_hides_from_both_images(d: Driver) -> None:
 # The inspector.
 
 
-def drive_a_number_that_is_dragged_is_one_step(d: Driver) -> None:
+def drive_a_number_that_is_dragged_is_one_step(d):
     enter(d)
     window = d.window
     d.click(in_list(d, "matte sphere"))
@@ -163,7 +161,7 @@ def drive_a_number_that_is_dragged_is_one_step(d: Driver) -> None:
     assert now(d) == ("matte sphere",)
 
 
-def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
+def drive_a_material_is_changed_for_one_object(d):
     enter(d)
     window = d.window
     row = next(row for row in rows_of(window.state.scene) if row.shown == "box")
@@ -183,7 +181,7 @@ def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
     assert window.state.scene.objects[row.ids[0]].material.checker is not None
 
 
-def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
+def drive_nothing_chosen_shows_the_scene_s_own(d):
     enter(d)
     before = d.state.scene.background
     d.ctx.item_double_click("//###Inspector/##sky/##X")
@@ -197,7 +195,7 @@ def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
 # Adding.
 
 
-def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> None:
+def drive_every_shape_and_light_is_added_and_both_images_agree(d):
     enter(d)
     window = d.window
     for kind in (*objects.SHAPES, *objects.LIGHTS):
@@ -216,7 +214,7 @@ def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> Non
 # Many objects, large type.
 
 
-def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d: Driver) -> None:
+def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d):
     enter(d)
     balls = "".join(
         f'[[objects]]\ntype = "sphere"\nname = "ball {k}"\ncenter = [{k % 20}, 0, {k // 20}]\n'
@@ -240,7 +238,7 @@ def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d: Driver) -
     d.press(Key.escape)
 
 
-def drive_the_column_grows_with_the_type(d: Driver) -> None:
+def drive_the_column_grows_with_the_type(d):
     enter(d)
     window = d.window
     window.amend(choose(window.state, (item(d, "box"),)))

@@ -22,7 +22,7 @@ from lucida.renderer.editing.changing import fields_of
 from lucida.renderer.editing.moving import bounds_of
 
 
-def drive_handles_move_in_the_images_and_outside(d: Driver) -> None:
+def drive_handles_move_in_the_images_and_outside(d):
     enter(d)
     window = d.window
     d.change(objects={"handle": "move"})
@@ -42,7 +42,7 @@ def drive_handles_move_in_the_images_and_outside(d: Driver) -> None:
         assert np.array_equal(ball(d, "shiny sphere").center, before)
 
 
-def drive_escape_and_undo_end_the_drag_of_a_handle(d: Driver) -> None:
+def drive_escape_and_undo_end_the_drag_of_a_handle(d):
     choose_to(d, "move", "shiny sphere")
     window = d.window
     for view in (RASTER, OUTSIDE):
@@ -77,7 +77,7 @@ def choose_to(d: Driver, handle: str, name: str) -> None:
     d.settle()
 
 
-def drive_handles_turn(d: Driver) -> None:
+def drive_handles_turn(d):
     window = d.window
     choose_to(d, "turn", "box")
     before, steps = fields_of(window.state.scene, item(d, "box")), d.steps

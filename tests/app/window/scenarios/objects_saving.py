@@ -1,7 +1,5 @@
 """The scene in hand: saving what was changed, and what is dropped on it."""
 
-from __future__ import annotations
-
 from objects_window import (
     CTRL,
     SCENE,
@@ -10,7 +8,7 @@ from objects_window import (
     item,
     opened,
 )
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.instruments.objects.choosing import chosen
 from lucida.app.instruments.objects.editing import with_scene
@@ -23,7 +21,7 @@ from lucida.renderer.files import load_scene
 # Saving.
 
 
-def drive_a_changed_scene_is_saved_with_its_comments(d: Driver) -> None:
+def drive_a_changed_scene_is_saved_with_its_comments(d):
     enter(d)
     window, path = d.window, opened(d)
     assert "*" not in title(window.state.scene)
@@ -48,7 +46,7 @@ def drive_a_changed_scene_is_saved_with_its_comments(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
+def drive_a_file_that_another_has_changed_is_asked_about(d):
     enter(d)
     window, path = d.window, opened(d, name="theirs")
     scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.5)
@@ -72,10 +70,10 @@ def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-def drive_closing_asks_about_what_is_not_saved(d: Driver) -> None:
+def drive_closing_asks_about_what_is_not_saved(d):
     enter(d)
     window, path = d.window, opened(d, name="closing")
-    ended: list[str] = []
+    ended = []
     window.saving.end = lambda: ended.append("quit")
     scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.25)
     window.change(with_scene(window.state, scene))
@@ -100,7 +98,7 @@ def drive_closing_asks_about_what_is_not_saved(d: Driver) -> None:
     assert load_scene(path).objects
 
 
-def drive_saving_as_begins_beside_the_scene_s_file(d: Driver) -> None:
+def drive_saving_as_begins_beside_the_scene_s_file(d):
     enter(d)
     window, path = d.window, opened(d, name="begun")
     (d.folder / "elsewhere").mkdir()
@@ -117,7 +115,7 @@ def drive_saving_as_begins_beside_the_scene_s_file(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-def drive_opening_another_scene_asks_about_what_is_not_saved(d: Driver) -> None:
+def drive_opening_another_scene_asks_about_what_is_not_saved(d):
     enter(d)
     window, path = d.window, opened(d, name="leaving")
     for answer, there in (("Cancel", False), ("Open without saving", True), ("Save", True)):
@@ -139,7 +137,7 @@ def drive_opening_another_scene_asks_about_what_is_not_saved(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
+def drive_a_dropped_model_is_added_once_the_user_has_said_so(d):
     window = d.window
     path = d.folder / "wedge.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", "utf-8")

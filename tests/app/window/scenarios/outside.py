@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import numpy as np
 from imgui_bundle.imguizmo import im_guizmo
@@ -23,7 +22,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import Sphere
 
 
-def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
+def drive_a_pixel_is_the_same_in_all_views(d):
     enter(d)
     window = d.window
     camera, size = window.renderers.camera(window.state), window.renderers.size
@@ -54,7 +53,7 @@ def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
     assert np.allclose(ray.points[0, 0] + (at.origin.x, at.origin.y), start, atol=1.0)
 
 
-def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) -> None:
+def drive_what_stands_before_the_image_plane_is_not_looked_through(d):
     enter(d)
     window = d.window
     camera = window.renderers.camera(window.state)
@@ -74,7 +73,7 @@ def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) ->
         assert (window.state.marked is None) == hidden
 
 
-def drive_the_legend_switches(d: Driver) -> None:
+def drive_the_legend_switches(d):
     enter(d)
     window = d.window
     for name in ("basis", "image", "grid", "volume", "ray"):
@@ -94,7 +93,7 @@ def drive_the_legend_switches(d: Driver) -> None:
     assert window.state.options.outside.bundle == (0, 0)
 
 
-def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
+def drive_nothing_is_drawn_anew_while_nothing_changes(d):
     enter(d)
     d.until(lambda: view(d).settled)
     d.frames(3)
@@ -107,13 +106,13 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
     assert strokes(d, "ray")
 
 
-def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
+def drive_it_is_drawn_anew_in_another_look(d):
     """The look follows the preferences a frame later: what was drawn between is of the old one."""
     enter(d)
-    drawn: list[palettes.Palette] = []
+    drawn = []
     layers = outside.layers
 
-    def watched(primitives: Any, ground: theme.Rgb) -> Any:
+    def watched(primitives, ground):
         drawn.append(theme.used().palette)
         return layers(primitives, ground)
 
@@ -136,7 +135,7 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
         outside.layers = layers
 
 
-def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
+def drive_handles_move_the_eye_and_turn_the_basis(d):
     """While a handle is dragged, only our own text and colours are shown, none of ImGuizmo's."""
     enter(d)
     window = d.window
@@ -202,16 +201,16 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
 @contextmanager
 def _watched() -> Iterator[tuple[list[str], list[int], set[int]]]:
     """Watch a dragged handle: the motion's texts, the numbers of hidden vertices, the colours."""
-    texts: list[str] = []
-    hidden: list[int] = []
-    colors: set[int] = set()
+    texts = []
+    hidden = []
+    colors = set()
     motion, hide_text = outside_gizmo.motion, outside_gizmo.hide_text
 
-    def told(before: Camera, after: Camera) -> str:
+    def told(before, after):
         texts.append(motion(before, after))
         return texts[-1]
 
-    def counted(draw: Any, first: int) -> None:
+    def counted(draw, first):
         shadows = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
         hide_text(draw, first)
         after = outside_tint.vertex_colors(draw)[first:]

@@ -25,7 +25,7 @@ def looks_from(d: Driver) -> np.ndarray:
     return back / np.linalg.norm(back)
 
 
-def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
+def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d):
     enter(d)
     at = view(d).scope
     d.change(outside={"camera": at.camera})
@@ -40,7 +40,7 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     d.settle()
 
 
-def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:
+def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
     enter(d)
     window, clock = d.window, Clock(d)
     start = looks_from(d)
@@ -84,7 +84,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     d.settle()
 
 
-def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
+def drive_an_object_is_aimed_at_smoothly(d):
     enter(d)
     window, clock = d.window, Clock(d)
     at = view(d).scope
@@ -104,7 +104,7 @@ def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
     d.settle()
 
 
-def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
+def drive_the_mouse_moves_the_camera_that_looks(d):
     enter(d)
     window, inner = d.window, d.state.camera
     assert window.state.options.outside.camera is None
@@ -141,7 +141,7 @@ def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
     assert window.state.options.outside.camera == closer
 
 
-def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
+def drive_keys_fly_it_and_switch_it(d):
     enter(d)
     window, inner = d.window, d.state.camera
     d.move_to(empty_place(d))

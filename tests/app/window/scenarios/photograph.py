@@ -47,7 +47,7 @@ def opened(d: Driver, path: Path) -> None:
     d.settle()
 
 
-def drive_a_photograph_is_dropped_and_laid_over_both_images(d: Driver) -> None:
+def drive_a_photograph_is_dropped_and_laid_over_both_images(d):
     d.window.change(d.state.with_fit(False))
     d.settle()
     bare, pixels = d.images(), noise(d)
@@ -69,7 +69,7 @@ def drive_a_photograph_is_dropped_and_laid_over_both_images(d: Driver) -> None:
             assert np.array_equal(after, seen)
 
 
-def drive_it_is_switched_with_a_key_undone_and_closed(d: Driver) -> None:
+def drive_it_is_switched_with_a_key_undone_and_closed(d):
     steps = d.steps
     opened(d, saved(d, np.full((30, 40, 3), 200, np.uint8)))
     assert d.steps == steps + 1
@@ -89,7 +89,7 @@ def drive_it_is_switched_with_a_key_undone_and_closed(d: Driver) -> None:
     assert d.renderers.size == (40, 30)
 
 
-def drive_a_photograph_through_a_lens_lines_up_and_is_undistorted(d: Driver) -> None:
+def drive_a_photograph_through_a_lens_lines_up_and_is_undistorted(d):
     state = d.state.with_fit(False)
     camera = replace(state.camera, lens=Lens("brown", {"k1": -0.2, "p1": 0.01}))
     d.window.change(state.with_camera(camera))

@@ -1,15 +1,13 @@
 """Into the pixels: marks, magnification, rulers, values; on the screen's pixels."""
 
-from __future__ import annotations
-
 import numpy as np
 from shown_pixels import ALT, SHIFT, choose, magnified, placement, without_overlays
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.images.pair.view import RASTER, RAY
 
 
-def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:
+def drive_a_click_marks_a_pixel_in_both(d):
     window, before = d.window, d.agreeing_images()
     x, y, *_ = d.rect(RASTER)
     d.ctx.mouse_teleport_to_pos((x + 120, y + 150))
@@ -49,7 +47,7 @@ def drive_a_click_marks_a_pixel_in_both(d: Driver) -> None:
     assert window.state.camera != d.start.camera
 
 
-def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d: Driver) -> None:
+def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d):
     window = d.window
     choose(d, "Resolution/640 x 360")
     x, y = d.point(RASTER, 0.3, 0.6)
@@ -83,7 +81,7 @@ def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d: Driver) -> None:
     assert window.state.images.magnification == 1
 
 
-def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
+def drive_magnified_pixels_are_squares_with_a_grid(d):
     choose(d, "Resolution/160 x 90")
     choose(d, "Magnification/8x")
     d.change(images={"center": (0.4, 0.6), "grid": False})
@@ -111,7 +109,7 @@ def drive_magnified_pixels_are_squares_with_a_grid(d: Driver) -> None:
     assert (np.abs(fine[0] - d.images()[0]) <= 1).all(), "no lines between smaller pixels"
 
 
-def drive_values_are_written_into_large_pixels(d: Driver) -> None:
+def drive_values_are_written_into_large_pixels(d):
     window = d.window
     choose(d, "Resolution/64 x 36")
     choose(d, "Magnification/64x")

@@ -16,7 +16,6 @@ from lucida.app.images.pair.view import RasterView
 from lucida.app.instruments.poses.model import PoseSet, frusta
 from lucida.app.instruments.poses.photographs import photo_path
 from lucida.app.instruments.poses.view import POSES, PosesView
-from lucida.app.state.options.photograph import PhotographOptions
 from lucida.app.state.paths import restored
 from lucida.app.ui import layout
 from lucida.renderer.camera.camera import Camera
@@ -83,7 +82,7 @@ def stands_at(d: Driver, poses: PoseSet, number: int) -> bool:
     return d.state.view == poses.view(number)
 
 
-def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
+def drive_a_set_is_dropped_closed_and_hidden(d):
     stage, outside = d.stage, outside_view(d)
     stage.show_in(POSES, layout.OUTSIDE)
     d.until(lambda: POSES in stage.rects)
@@ -120,7 +119,7 @@ def drive_a_set_is_dropped_closed_and_hidden(d: Driver) -> None:
     d.until(lambda: outside.cloud is not None)
 
 
-def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> None:
+def drive_cameras_are_taken_by_click_key_search_and_double_click(d):
     poses = opened(d, transforms(d))
     d.change(outside={"image": False, "grid": False})
     d.settle()
@@ -175,7 +174,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d: Driver) -> N
     assert chosen(d) == 10  # 001, 010, 011
 
 
-def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
+def drive_a_passage_is_one_step_with_the_choice(d):
     poses = opened(d, transforms(d))
     steps = d.steps
     start = d.state
@@ -210,7 +209,7 @@ def drive_a_passage_is_one_step_with_the_choice(d: Driver) -> None:
         transition.now_s, transition.instant = clock, True
 
 
-def drive_points_are_framed_drawn_and_left_out(d: Driver) -> None:
+def drive_points_are_framed_drawn_and_left_out(d):
     poses, outside = opened(d, colmap(d, 3000)), outside_view(d)
     assert len(poses.points) == 3000
     before = d.state.options.outside.camera
@@ -225,7 +224,7 @@ def drive_points_are_framed_drawn_and_left_out(d: Driver) -> None:
         assert at.origin.x < x < at.origin.x + at.extent.x
         assert at.origin.y < y < at.origin.y + at.extent.y
 
-    def magenta() -> int:
+    def magenta():
         shown = d.picture().astype(int)
         left, top, right, bottom = (round(e) for e in d.stage.rects["Outside"])
         cut = shown[top:bottom, left:right]
@@ -250,13 +249,13 @@ def drive_points_are_framed_drawn_and_left_out(d: Driver) -> None:
     assert d.state.options.outside.camera == before
 
 
-def drive_the_photograph_follows_the_set(d: Driver) -> None:
+def drive_the_photograph_follows_the_set(d):
     poses, laid = opened(d, transforms(d)), d.window.view(RasterView).linked.photograph
 
-    def file() -> PhotographOptions:
+    def file():
         return d.state.options.photograph
 
-    def take(number: int) -> None:
+    def take(number):
         view(d).take(d.window, number)
         d.settle()
 
@@ -276,7 +275,7 @@ def drive_the_photograph_follows_the_set(d: Driver) -> None:
     assert file().file == "" and not file().follows
 
 
-def drive_a_mistake_is_reported_and_a_set_follows_its_file(d: Driver) -> None:
+def drive_a_mistake_is_reported_and_a_set_follows_its_file(d):
     path = transforms(d)
     poses = opened(d, path)
     away, broken = d.folder / "away.json", d.folder / "broken.json"
@@ -301,7 +300,7 @@ def drive_a_mistake_is_reported_and_a_set_follows_its_file(d: Driver) -> None:
     d.until(lambda: chosen(d) == 1 and not d.window.files.message)  # the same camera, by its name
 
 
-def drive_a_lecture_shows_a_set(d: Driver) -> None:
+def drive_a_lecture_shows_a_set(d):
     transforms(d)
     path = d.folder / "poses.toml"
     path.write_text(

@@ -36,7 +36,7 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
             d.change(compare=options)
         d.settle()
         assert len(np.unique(middle(d, view), axis=0)) > 20
-        live.request = lambda *_: None  # type: ignore[method-assign]
+        live.request = lambda *_: None
         try:
             camera = window.state.camera
             window.change(window.state.with_camera(orbited(camera, (0, 0, 0), 0.1, 0.0)))
@@ -64,7 +64,7 @@ def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
     """Return the status line's words for a pixel, from the window's thread, which has OpenGL."""
     callbacks, said = d.run.params.callbacks, []
 
-    def once() -> None:
+    def once():
         callbacks.post_new_frame = lambda: None
         said.append(d.renderers.seen_at(d.state, pixel))
 
@@ -103,11 +103,11 @@ def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
     d.change(marked=pixel)
     d.settle()
 
-    def direction() -> np.ndarray:
+    def direction():
         ray = both.camera(window.state).ray(*window.state.marked, both.size)
         return ray.direction / np.linalg.norm(ray.direction)
 
-    def is_kept() -> bool:
+    def is_kept():
         pixel_size = 2.0 / min(both.size)
         return float(np.linalg.norm(direction() - first)) < pixel_size
 

@@ -43,7 +43,7 @@ def strokes(d: Driver, name: str) -> int:
     return sum(len(part.points) for part in found)
 
 
-def drive_buttons_go_through_both_runs(d: Driver) -> None:
+def drive_buttons_go_through_both_runs(d):
     enter(d, steps=(0, 0), canvas=(16, 12), order="both")
     steps = d.steps
     assert [moment.step for moment in moments(d)] == [0, 0]
@@ -68,7 +68,7 @@ def drive_buttons_go_through_both_runs(d: Driver) -> None:
     assert d.steps == steps  # steps are nothing to undo
 
 
-def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
+def drive_it_plays_and_stops_at_the_end(d):
     enter(d, steps=(0, 0), canvas=(4, 3), order="both", speed=20000.0)
     press(d, "play")
     assert view(d).playing
@@ -84,7 +84,7 @@ def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
     assert [moment.step for moment in moments(d)] == stopped
 
 
-def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
+def drive_the_outside_view_shows_the_ray_and_the_triangle(d):
     enter(d, steps=(0, 0), canvas=(16, 12), order="both")
     assert strokes(d, "ray") == strokes(d, "triangle") == 0
     for name in ("object", "pixel", "step", "step", "step", "step"):
@@ -99,7 +99,7 @@ def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
     d.frames(4)
 
 
-def drive_the_palette_and_the_keys_step(d: Driver) -> None:
+def drive_the_palette_and_the_keys_step(d):
     enter(d, steps=(5, 5), canvas=(16, 12), order="both")
     assert not d.renderers.is_tracing  # so that no verdict on both images is announced
     offered = {entry.name: entry for entry in entries(d.window, d.stage)}
@@ -127,7 +127,7 @@ def drive_the_palette_and_the_keys_step(d: Driver) -> None:
     assert all(moment.finished for moment in moments(d))
 
 
-def drive_the_same_lines_in_julia_and_the_depth_buffer(d: Driver) -> None:
+def drive_the_same_lines_in_julia_and_the_depth_buffer(d):
     enter(d, steps=(0, 0), canvas=(16, 12), order="both")
     d.click(f"{WINDOW}/Julia")
     d.click(f"{WINDOW}/depth")

@@ -24,7 +24,7 @@ def _store(d: Driver, path: Path) -> ElementTree.Element:
     return ElementTree.parse(f"{path}.svg").getroot()
 
 
-def drive_the_diagram_is_exported_as_it_is_seen(d: Driver) -> None:
+def drive_the_diagram_is_exported_as_it_is_seen(d):
     d.change(marked=(60, 90), outside={"bundle": (2, 2)})
     d.settle()
     d.press(Key.mod_ctrl | Key.mod_shift | Key.e)

@@ -24,7 +24,7 @@ def boxes(d: Driver) -> Iterator[str]:
     """Open every box and menu in turn."""
     files, shell = d.window.files, d.window.shell
     answers = {"Add it to the scene": lambda: None, "Open it instead": lambda: None}
-    opened: dict[str, Callable[[], object]] = {
+    opened = {
         "palette": shell.toggle_palette,
         "shortcut sheet": shell.toggle_help,
         "go to pixel": lambda: d.press(CTRL | Key.g),
@@ -51,13 +51,13 @@ def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str
     """Provide a function that notes what a frame cuts, and tooltips that would be cut."""
     set_item_tooltip, wide = imgui.set_item_tooltip, dict[str, str]()
 
-    def with_tooltip(text: str) -> None:
+    def with_tooltip(text):
         set_item_tooltip(text)
         room = imgui.get_io().display_size.x - 2 * imgui.get_style().window_padding.x
         if imgui.calc_text_size(text).x > room:
             wide["tooltip"] = text
 
-    def look(name: str) -> None:
+    def look(name):
         wide.clear()
         if seen := d.in_draw_lists(lambda: cut_texts() | wide):
             cut[name] = seen
@@ -79,8 +79,8 @@ def layouts(d: Driver) -> Iterator[str]:
             yield one.name
 
 
-def drive_nothing_is_cut_off(d: Driver) -> None:
-    cut: dict[str, dict[str, str]] = {}
+def drive_nothing_is_cut_off(d):
+    cut = {}
     d.window.change(with_options(with_content(d), preferences={"font_scale": LARGEST}))
     d.settle()
     with looking(d, cut) as look:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 from window_driver import Driver, Key
@@ -72,7 +71,7 @@ def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
     return path
 
 
-def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
+def drive_without_a_file_it_helps_to_begin(d):
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
     d.frames(8)
@@ -87,7 +86,7 @@ def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
     d.picture()
 
 
-def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
+def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     opened(d, RIGHT)
     until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
@@ -113,7 +112,7 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
     d.picture()
 
 
-def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> None:
+def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     opened(d, CORNER)
     until_told(d, "768 of 768 rays are wrong.", "half a pixel")
     d.settle()
@@ -143,7 +142,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     assert not any(item.name.startswith("second") for item in outside.extra)
 
 
-def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
+def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
     d.until(lambda: runs.running_s > 0.1)
@@ -173,7 +172,7 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     d.until(lambda: view(d).report.question.content.version > version)
 
 
-def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
+def drive_nothing_runs_that_nobody_sees(d):
     usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
@@ -189,7 +188,7 @@ def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
     until_told(d, "Every ray is correct.")
 
 
-def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
+def drive_images_are_pictures_and_other_functions_words(d):
     opened(
         d,
         "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
@@ -205,7 +204,7 @@ def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
     d.picture()
 
 
-def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
+def drive_a_course_s_tasks_are_asked(d):
     course = d.folder / "hw2.toml"
     course.write_text(TASKS)
     opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
@@ -224,13 +223,13 @@ def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
     until_told(d, "768 of 768 rays are wrong.")
 
 
-def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
+def drive_the_verdict_is_read_from_afar(d):
     """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
     window's height at least, and larger than the other words."""
-    sizes: dict[str, float] = {}
+    sizes = {}
     coded_text = panel.coded_text
 
-    def drawn(text: str, *arguments: Any) -> None:
+    def drawn(text, *arguments):
         sizes[text] = imgui.get_font_size()
         coded_text(text, *arguments)
 
@@ -241,7 +240,7 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
     stage.show(YOUR_CODE)
     d.until(lambda: stage.focused == YOUR_CODE)
     stage.maximise()
-    panel.coded_text = drawn  # type: ignore[assignment]
+    panel.coded_text = drawn
     try:
         for scale in (1.0, 1.5, 2.0, 3.0):
             wished = {"font_scale": scale, "presentation": True}
@@ -260,7 +259,7 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
         d.change(preferences=wished)
 
 
-def drive_a_file_that_a_lecture_names_is_not_run_unasked(d: Driver) -> None:
+def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     ran = d.folder / "ran"
     ran.unlink(missing_ok=True)
     d.window.files.recent.clear()  # it was opened where the folder has been used before
@@ -304,7 +303,7 @@ def children() -> set[int]:
     return found
 
 
-def drive_presentation_leaves_the_code_in_sight(d: Driver) -> None:
+def drive_presentation_leaves_the_code_in_sight(d):
     opened(d, RIGHT)
     layout.switch(layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
