@@ -13,31 +13,30 @@ PAGES = {name: (ROOT / name).read_text("utf-8") for name in ("README.md", "docs/
 NAMES = [entry.name for entry in FORMATS]
 
 
-class TestRun:
-    @pytest.mark.parametrize("name", NAMES)
-    def test_each_format_has_a_check(self, name):
-        assert callable(import_module(f"tools.conformance.formats.{name}").check)
-
-    @pytest.mark.parametrize("name", ["view", "nerf"])
-    def test_those_that_need_no_program(self, name):
-        found = run.outcome(name, 20)
-        assert found.met and found.checked is not None, found.problem
+@pytest.mark.parametrize("name", NAMES)
+def test_each_format_has_a_check(name):
+    assert callable(import_module(f"tools.conformance.formats.{name}").check)
 
 
-class TestPages:
-    @pytest.mark.parametrize("name", PAGES)
-    def test_the_table_is_of_a_run(self, name):
-        block = PAGES[name].partition(report.BEGIN)[2].partition(report.END)[0]
-        header, _, *rows = [
-            [cell.strip() for cell in line.split("|")[1:-1]]
-            for line in block.splitlines()
-            if line.startswith("|")
-        ]
-        assert [cell for cell in header if cell != "what"] == list(report.HEADER)
-        tables = [dict(zip(header, row, strict=True)) for row in rows]
-        assert [row["format"] for row in tables] == [f"`{name}`" for name in NAMES]
-        for row in tables:
-            if not row["checked against"].startswith("not checked here: "):
-                assert int(row["cameras"]) >= 1000
-                worst, bound = (float(row[part].split()[0]) for part in ("worst error", "bound"))
-                assert worst <= bound
+@pytest.mark.parametrize("name", ["view", "nerf"])
+def test_those_that_need_no_program(name):
+    found = run.outcome(name, 20)
+    assert found.met and found.checked is not None, found.problem
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_the_table_is_of_a_run(name):
+    block = PAGES[name].partition(report.BEGIN)[2].partition(report.END)[0]
+    header, _, *rows = [
+        [cell.strip() for cell in line.split("|")[1:-1]]
+        for line in block.splitlines()
+        if line.startswith("|")
+    ]
+    assert [cell for cell in header if cell != "what"] == list(report.HEADER)
+    tables = [dict(zip(header, row, strict=True)) for row in rows]
+    assert [row["format"] for row in tables] == [f"`{name}`" for name in NAMES]
+    for row in tables:
+        if not row["checked against"].startswith("not checked here: "):
+            assert int(row["cameras"]) >= 1000
+            worst, bound = (float(row[part].split()[0]) for part in ("worst error", "bound"))
+            assert worst <= bound

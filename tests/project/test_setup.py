@@ -32,32 +32,33 @@ def normal(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-class TestPins:
-    @pytest.mark.parametrize("name", FILES)
-    def test_every_package_has_one_version_and_its_hashes(self, name):
-        for requirement, hashes in pins(name).values():
-            assert re.fullmatch(r"==[0-9.]+(post\d+)?", str(requirement.specifier)), requirement
-            assert hashes, requirement
-            assert all(re.fullmatch("sha256:[0-9a-f]{64}", digest) for digest in hashes)
+@pytest.mark.parametrize("name", FILES)
+def test_every_package_has_one_version_and_its_hashes(name):
+    for requirement, hashes in pins(name).values():
+        assert re.fullmatch(r"==[0-9.]+(post\d+)?", str(requirement.specifier)), requirement
+        assert hashes, requirement
+        assert all(re.fullmatch("sha256:[0-9a-f]{64}", digest) for digest in hashes)
 
-    @pytest.mark.parametrize("name", FILES)
-    def test_no_address_of_an_index(self, name):
-        text = (ROOT / name).read_text("utf-8")
-        assert not re.search(r"://|--index|--extra-index|--find-links|--trusted-host|^-", text)
 
-    @pytest.mark.parametrize("name", FILES)
-    def test_ranges_of_pyproject_admit_the_pins(self, name):
-        dev = name != "requirements.txt"
-        groups = PROJECT["dependency-groups"]
-        needed = PROJECT["project"]["dependencies"] + groups["install"]
-        ranges = groups["dev"] if dev else needed
-        pinned = pins(name)
-        for text in ranges:
-            wanted = Requirement(text)
-            requirement, _ = pinned[normal(wanted.name)]
-            version = str(requirement.specifier).removeprefix("==")
-            assert wanted.specifier.contains(version), text
-            assert requirement.marker is None
+@pytest.mark.parametrize("name", FILES)
+def test_no_address_of_an_index(name):
+    text = (ROOT / name).read_text("utf-8")
+    assert not re.search(r"://|--index|--extra-index|--find-links|--trusted-host|^-", text)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_ranges_of_pyproject_admit_the_pins(name):
+    dev = name != "requirements.txt"
+    groups = PROJECT["dependency-groups"]
+    needed = PROJECT["project"]["dependencies"] + groups["install"]
+    ranges = groups["dev"] if dev else needed
+    pinned = pins(name)
+    for text in ranges:
+        wanted = Requirement(text)
+        requirement, _ = pinned[normal(wanted.name)]
+        version = str(requirement.specifier).removeprefix("==")
+        assert wanted.specifier.contains(version), text
+        assert requirement.marker is None
 
 
 # A stand-in for Python: it records its arguments, and fails where a test says so.

@@ -157,26 +157,27 @@ def test_a_session_keeps_the_build(tmp_path):
     assert LectureSession.resumed(session.kept(state)).place == session.place
 
 
-class TestTheOlderFormat:
-    def test_lists_and_answers_are_builds(self):
-        text = "text = '''\n- one\n- two\n\n> Why?\n\n1. three\n'''\n"
-        lecture = read(f"{STEP}reveal = true\nanswer = 'So.'\n{text}{STEP}low = true\n")
-        shown = [plain_text(step.blocks).split() for step in lecture.builds if step.number == 0]
-        words = ["Why?"], ["one", "Why?"], ["one", "two", "Why?"], ["one", "two", "Why?", "three"]
-        assert shown == [*words, [*words[-1], "So."]]
+def test_lists_and_answers_are_builds():
+    text = "text = '''\n- one\n- two\n\n> Why?\n\n1. three\n'''\n"
+    lecture = read(f"{STEP}reveal = true\nanswer = 'So.'\n{text}{STEP}low = true\n")
+    shown = [plain_text(step.blocks).split() for step in lecture.builds if step.number == 0]
+    words = ["Why?"], ["one", "Why?"], ["one", "two", "Why?"], ["one", "two", "Why?", "three"]
+    assert shown == [*words, [*words[-1], "So."]]
 
-    def test_one_line_says_what_to_change(self):
-        lecture = read(
-            f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
-        )
-        (note,) = lecture.summary
-        assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
-        one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
-        (note,) = read(one).summary
-        assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")
-        assert load_lecture(BUILTIN).notes == ()
 
-    def test_a_link_is_its_words(self):
-        assert plain_text(read(f"{STEP}text = 'They [meet](#lines).'\n").steps[0].blocks) == (
-            "They meet."
-        )
+def test_one_line_says_what_to_change():
+    lecture = read(
+        f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
+    )
+    (note,) = lecture.summary
+    assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
+    one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
+    (note,) = read(one).summary
+    assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")
+    assert load_lecture(BUILTIN).notes == ()
+
+
+def test_a_link_is_its_words():
+    assert plain_text(read(f"{STEP}text = 'They [meet](#lines).'\n").steps[0].blocks) == (
+        "They meet."
+    )
