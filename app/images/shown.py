@@ -27,19 +27,12 @@ class DepthBounds:
     texture: moderngl.Texture
 
 
-Held = tuple[moderngl.Texture, object]  # a texture, and what it holds, if that can change
-
-
 @dataclass(frozen=True, eq=False)
 class Picture:
     """The visible part of an image. made: another object whenever something else was drawn."""
 
     texture: moderngl.Texture
     made: object
-
-    @property
-    def held(self) -> Held:
-        return self.texture, self.made
 
 
 class _Target:
@@ -125,7 +118,7 @@ class ShownImage:
 
 def _show(
     display: Display,
-    source: Held,
+    source: tuple[moderngl.Texture, int],
     look: Look,
     section: Section,
     target: moderngl.Framebuffer,

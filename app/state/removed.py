@@ -58,6 +58,7 @@ REMOVED: dict[str, Removed] = {
     "compare.pair": Removed(
         "both renderers are compared, and a photograph is laid over them", "raster-ray"
     ),
+    "compare.flipped": Removed("a wipe has both images, on the divider's sides", False),
     "probe.section": Removed("the probe's parts are folded by their headings", "all"),
     "probe.rays": Removed("rows and columns of rays are outside.bundle's", "pixel"),
     "filming": Removed("films are made by `lucida animate`"),
@@ -68,6 +69,9 @@ REMOVED: dict[str, Removed] = {
     ),
     "outside.see": Removed("a step says from where to look by outside.camera", []),
     "outside.parameters": Removed("a ray as half a line is outside.half_line's", False),
+    "photograph.distorted": Removed(
+        "the lens stays in the photograph; COLMAP's image_undistorter takes it out", None
+    ),
     "photograph.lay": Removed("a photograph is laid over the images", "over"),
     "images.tinted": Removed("a single component is shown as gray", False),
     "pair.value": Removed("the laboratory's page 'function' reads an image", False),
@@ -86,6 +90,8 @@ REMOVED: dict[str, Removed] = {
 # Values by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, Any], Replaced] = {
     ("language", "c"): Replaced("python", "programs are in Python or Julia"),
+    ("compare.mode", "signed"): Replaced("absolute", "a difference has no sign"),
+    ("compare.mode", "flip"): Replaced("wipe", "the divider shows either image"),
     ("laboratory.page", "subpixels"): Replaced("displays", "an LCD's pixel has three stripes"),
     ("laboratory.page", "heights"): Replaced("function", "an image's light is read at a point"),
     ("laboratory.page", "bitmaps"): Replaced("kinds", "a bitmap is made by a threshold"),

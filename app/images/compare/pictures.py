@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.state.options.shared import Channel, Component
+from lucida.app.state.options.shared import Channel
 from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING
 from lucida.renderer.images.difference import false_color, signed_difference
 from lucida.renderer.images.frame import Frame
@@ -18,21 +16,9 @@ MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
 LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
 
 
-def difference_picture(
-    raster: Frame, ray: Frame, channel: Channel, component: Component, gain: float, signed: bool
-) -> tuple[Frame, Bytes]:
-    """Return the ray image that was compared, and the difference as colours, uint8 (H, W, 3).
-
-    component: compare this channel of the colours alone; "rgb" for the one that differs most.
-    """
-    first, second = raster, ray
-    if channel == "color" and component != "rgb":
-        alone = [["red", "green", "blue"].index(component)] * 3
-        first, second = (
-            replace(one, color=one.channel("color")[..., alone]) for one in (raster, ray)
-        )
-    difference = signed_difference(first, second, channel)
-    return ray, false_color(difference, channel, gain, signed)
+def difference_picture(raster: Frame, ray: Frame, channel: Channel, gain: float) -> Bytes:
+    """Return the difference in a channel as colours, uint8 (H, W, 3)."""
+    return false_color(signed_difference(raster, ray, channel), channel, gain)
 
 
 def marked_picture(labels: Bytes, is_large: bool) -> Bytes:

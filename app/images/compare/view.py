@@ -1,8 +1,7 @@
-"""The compare view: both images in one place, as a difference, a wipe or a flip.
+"""The compare view: both images in one place, as a wipe or a difference.
 
-A difference is shown only between two full images of the present state. comparing.py explains the
-numbers; pictures.py makes the pictures. Over the image, the mouse does the same as in
-../pair/view.py.
+A difference is shown only between two full images of the present state. Over the image, the mouse
+does the same as in ../pair/view.py.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
 
 from lucida.app.images.compare import comparing, panel
-from lucida.app.images.compare.actions import COMPARING, FLIP_KEY
+from lucida.app.images.compare.actions import COMPARING
 from lucida.app.images.compare.pictures import Bytes, difference_picture, marked_picture
 from lucida.app.images.pair.pane import Pane
 from lucida.app.images.pair.view import ImageView, RasterView
@@ -25,6 +24,7 @@ from lucida.app.images.renderers import Renderers, look_of
 from lucida.app.images.screen import Screen
 from lucida.app.images.shown import Picture, visible_size
 from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Channel
 from lucida.app.ui import theme
 from lucida.app.ui.areas import focused_steps, mouse_area
 from lucida.app.ui.background import Background
@@ -32,7 +32,6 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.uploads import Uploads
-from lucida.renderer.images.difference import ABSOLUTE_COLORS, SIGNED_COLORS
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.raster.targets import Region
 from lucida.renderer.system.errors import describe
@@ -43,6 +42,7 @@ KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
 COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
+SMALL_EM = 22.0  # a view that is less high shows its image alone
 MUTED = 0.6  # how dark an image is that stands in for a difference
 
 
@@ -50,10 +50,7 @@ class CompareView(ImageView):
     name = NAME
     title = "Compare  raster and ray"
     actions = COMPARING
-    synonyms = {
-        "Worst pixel": "error difference",
-        "Compare raster and ray": "difference diff error flip",
-    }
+    synonyms = {"Compare raster and ray": "difference diff error wipe"}
     padding = ImVec2(8, 6)
     flags = int(imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
 
@@ -61,20 +58,17 @@ class CompareView(ImageView):
         super().__init__(view_of(views, RasterView).linked)
         self._uploads: Uploads | None = None
         self._work: Background[tuple[Frame, Bytes]] = Background("lucida-difference")
-        self._made: tuple[Frame, Bytes] | None = None  # the last difference, and of what
+        self._made: tuple[Frame, Bytes] | None = None  # the last difference, and its ray image
         self._marks = Memo(marked_picture)
-        self._footer_px = 0.0  # the height of what is below the image, in the last frame
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
 
     @property
     def settled(self) -> bool:
-        return super().settled and not self._work.busy
+        return not self._work.busy
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._uploads = Uploads(context)
-        for signed, colors in ((False, ABSOLUTE_COLORS), (True, SIGNED_COLORS)):
-            self._uploads.put(f"map {signed}", colors[None])
 
     def end(self) -> None:
         self._work.close()
@@ -87,50 +81,39 @@ class CompareView(ImageView):
         self._held = None
 
     def draw(self, host: Host) -> None:
-        if not host.has_tools:
-            self._image(host)
-            host.renderers.trace(host.state)
-            return
-        if imgui.get_window_height() > panel.SMALL_EM * imgui.get_font_size():
-            super()._strip(host)
-        panel.toolbar(host)
-        available = imgui.get_content_region_avail()
-        size = ImVec2(available.x, max(1.0, available.y - self._footer_px))
-        flat, without = imgui.ChildFlags_.nav_flattened, imgui.WindowFlags_.no_background
-        imgui.begin_child("image", size, flat, self.flags | without)
-        self._image(host)
-        imgui.end_child()
-        is_short = available.y < panel.LOW_EM * imgui.get_font_size()
-        top = imgui.get_cursor_pos_y()
-        panel.footer(host, self._report(host), is_short, self._color_map)
-        footer_px = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
-        if footer_px != self._footer_px:
-            self._footer_px = footer_px
-            host.animate()
-        host.renderers.trace(host.state)
-
-    # The image.
-
-    def _image(self, host: Host) -> None:
         both = host.renderers
         if self._uploads is not None:
             self._uploads.begin_frame()
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
             self._made = outcome.value
-        is_picture = host.options.compare.mode in ("wipe", "flip")
-        pane = Pane(
-            lambda state, placement: self._picture(both, state, placement),
-            (lambda state, channel, region: self._values(both, state, channel, region))
-            if is_picture
-            else None,
-            both.raster_error or both.ray_error,
-            legend=is_picture,
-        )
-        self._pane(host, pane)
+        is_wipe = host.options.compare.mode == "wipe"
+
+        def picture(state: AppState, placement: Placement) -> Picture | None:
+            return self._picture(both, state, placement)
+
+        def values(state: AppState, channel: str, region: Region) -> NDArray | None:
+            return _values(both, state, channel, region)
+
+        error = both.raster_error or both.ray_error
+        self._pane(host, Pane(picture, values if is_wipe else None, error, legend=is_wipe))
+        both.trace(host.state)
 
     def _strip(self, host: Host) -> None:
-        """Draw nothing: draw() puts the strip above the view's own controls."""
+        if not host.has_tools or imgui.get_window_height() < SMALL_EM * imgui.get_font_size():
+            return
+        super()._strip(host)
+        panel.toolbar(host)
+        both, state = host.renderers, host.state
+        verdict, waits = both.verdict(state), waiting(both, state)
+        error = both.raster_error or both.ray_error or both.agreement.error
+        if error is not None:
+            panel.verdict(host, describe(error), theme.ERROR, None)
+        elif waits or verdict is None:
+            panel.verdict(host, waits or "Comparing ...", theme.DIM, None)
+        else:
+            text, good = comparing.headline(verdict.comparison, comparing.effects_of(state))
+            panel.verdict(host, text, theme.GOOD if good else theme.ERROR, verdict.comparison)
 
     def _before_image(self, host: Host, screen: Screen) -> None:
         if host.options.compare.mode == "wipe" and min(host.renderers.size):
@@ -140,24 +123,21 @@ class CompareView(ImageView):
 
     def _over_image(self, host: Host, screen: Screen) -> None:
         self.screen = screen
-        mode = host.options.compare.mode
-        if mode == "wipe":
+        if host.options.compare.mode == "wipe":
             self._draw_divider(host, screen)
-        elif mode == "flip":
-            _label(host, screen, "Ray" if self._flipped(host.state) else "Raster", right=False)
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         both, options = host.renderers, host.options.compare
         draw, (low, high) = imgui.get_window_draw_list(), screen.visible
         if options.mode == "wipe":
-            picture = self._image_of(both, host.state, screen.placement, is_ray=True)
+            picture = _image(both, host.state, screen.placement, is_ray=True)
             if picture is not None:
                 x = self._divider_x(host.state, screen, both.size)
                 tint = theme.u32(ImVec4(1, 1, 1, options.rise))
                 draw.push_clip_rect(ImVec2(x, low.y), high, True)
                 draw.add_image(imgui.ImTextureRef(picture.texture.glo), low, high, col=tint)
                 draw.pop_clip_rect()
-        elif options.mode != "flip" and self._difference(both, host.state) is None:
+        elif self._difference(both, host.state) is None:
             draw.add_rect_filled(low, high, theme.u32(theme.rgb("#000000", MUTED)))
         verdict = both.verdict(host.state)
         if options.causes and verdict is not None:
@@ -167,42 +147,28 @@ class CompareView(ImageView):
             draw.add_image(imgui.ImTextureRef(texture.glo), low, high)
 
     def _picture(self, both: Renderers, state: AppState, placement: Placement) -> Picture | None:
-        """Return the visible part of the difference, or of the image that is left of the divider or
-        in front. Return None if it is not there yet.
+        """Return the visible part of the difference, or of the image left of the divider. Return
+        None if it is not there yet.
         """
         options = state.options.compare
-        if options.mode == "flip":
-            return self._image_of(both, state, placement, self._flipped(state))
         if options.mode == "wipe":
             beside = options.divider < 1.0 and options.rise == 1.0
-            if beside and self._image_of(both, state, placement, is_ray=True) is None:
+            if beside and _image(both, state, placement, is_ray=True) is None:
                 return None  # without the ray image, the raster image must not be taken for it
-            return self._image_of(both, state, placement, is_ray=False)
+            return _image(both, state, placement, is_ray=False)
         difference = self._difference(both, state)
         if difference is None:
-            gray = replace(state.images, component="green")  # in place of colours
-            grayed = state.with_options(gray) if state.images.component == "rgb" else state
-            return self._image_of(both, grayed, placement, is_ray=False)
+            return _image(both, state, placement, is_ray=False)
         texture = self._placed("difference", difference, placement)
         return Picture(texture, texture)
 
-    def _image_of(
-        self, both: Renderers, state: AppState, placement: Placement, is_ray: bool
-    ) -> Picture | None:
-        textures, request = both.textures, both.request(state)
-        assert textures is not None and request is not None
-        image_in = textures.ray_in if is_ray else textures.raster_in
-        return image_in(placement, request, look_of(state.images), COMPARED)
-
     def _difference(self, both: Renderers, state: AppState) -> Bytes | None:
         """Return the difference of the images of this state, which is made in the background."""
-        pair, options, images = both.agreement.pair, state.options.compare, state.images
+        pair = both.agreement.pair
         if pair is None or waiting(both, state) or pair[0] != both.request(state):
             return None
         _, raster, ray = pair
-        signed = options.mode == "signed"
-        key = images.channel, images.component, options.gain, signed
-        self._work.ask(difference_picture, raster, ray, *key)
+        self._work.ask(_made, raster, ray, state.images.channel, state.options.compare.gain)
         return self._made[1] if self._made is not None and self._made[0] is ray else None
 
     def _placed(self, name: str, picture: Bytes, placement: Placement) -> moderngl.Texture:
@@ -211,27 +177,6 @@ class CompareView(ImageView):
         left, top, right, bottom = placement.visible_parts
         part = (left, top), (right - left, bottom - top)
         return self._uploads.magnified(name, picture, visible_size(placement), *part)
-
-    def _flipped(self, state: AppState) -> bool:
-        """Return True if flip shows the ray image now."""
-        io = imgui.get_io()
-        held = imgui.is_key_down(FLIP_KEY) and not (io.want_text_input or io.key_ctrl or io.key_alt)
-        return state.options.compare.flipped != held
-
-    def _values(
-        self, both: Renderers, state: AppState, channel: str, region: Region
-    ) -> NDArray | None:
-        """Return the values of the visible pixels, each from the image that it is taken from."""
-        raster = both.raster_values(state, channel, region)
-        ray = both.ray_values(state, channel, region)
-        if state.options.compare.mode == "flip":
-            return ray if self._flipped(state) else raster
-        if raster is None or ray is None:
-            return None
-        _, left, _, right = region
-        divider = _column(state.options.compare.divider, both.size)
-        columns = np.arange(left, right) < divider
-        return np.where(columns.reshape((1, -1) + (1,) * (raster.ndim - 2)), raster, ray)
 
     # The divider.
 
@@ -285,41 +230,37 @@ class CompareView(ImageView):
             draw.add_triangle_filled(tip, foot - wide, foot + wide, black)
         draw.pop_clip_rect()
 
-    # Below the image.
-
-    def _report(self, host: Host) -> panel.CompareReport:
-        both, state = host.renderers, host.state
-        verdict, waits = both.verdict(state), waiting(both, state)
-        error = both.raster_error or both.ray_error or both.agreement.error
-        if error is not None:
-            return panel.CompareReport(describe(error), theme.ERROR)
-        if waits or verdict is None:
-            return panel.CompareReport(waits or "Comparing ...", theme.DIM)
-        comparison = verdict.comparison
-        text, good = comparing.headline(comparison, comparing.effects_of(state))
-        pixel = host.hovered[1] if host.hovered else state.marked
-        width, height = comparison.size
-        if pixel is not None and not (pixel[0] < height and pixel[1] < width):
-            pixel = None
-        return panel.CompareReport(text, theme.GOOD if good else theme.ERROR, comparison, pixel)
-
-    def _color_map(self, low: ImVec2, high: ImVec2, signed: bool) -> None:
-        texture = self._uploads.get(f"map {signed}") if self._uploads is not None else None
-        if texture is not None:
-            draw = imgui.get_window_draw_list()
-            draw.add_image(imgui.ImTextureRef(texture.glo), low, high)
-
 
 def waiting(both: Renderers, state: AppState) -> str:
     """Return why the images cannot be compared yet; "" if they can."""
     image = both.ray_image
     if image is None or image.request != both.request(state):
         return both.preparing() or "The ray image is being traced: no difference yet"
-    if image.factor > 1:
-        return f"The ray image is still coarse (1/{image.factor}): no difference yet"
-    if both.raster_factor > 1:
-        return f"The raster image is still coarse (1/{both.raster_factor}): no difference yet"
+    if max(image.factor, both.raster_factor) > 1:
+        return "The images are still coarse: no difference yet"
     return ""
+
+
+def _made(raster: Frame, ray: Frame, channel: Channel, gain: float) -> tuple[Frame, Bytes]:
+    return ray, difference_picture(raster, ray, channel, gain)
+
+
+def _image(both: Renderers, state: AppState, placement: Placement, is_ray: bool) -> Picture | None:
+    textures, request = both.textures, both.request(state)
+    assert textures is not None and request is not None
+    image_in = textures.ray_in if is_ray else textures.raster_in
+    return image_in(placement, request, look_of(state.images), COMPARED)
+
+
+def _values(both: Renderers, state: AppState, channel: str, region: Region) -> NDArray | None:
+    """Return the values of the visible pixels, each from the image on its side of the divider."""
+    raster = both.raster_values(state, channel, region)
+    ray = both.ray_values(state, channel, region)
+    if raster is None or ray is None:
+        return None
+    _, left, _, right = region
+    columns = np.arange(left, right) < _column(state.options.compare.divider, both.size)
+    return np.where(columns.reshape((1, -1) + (1,) * (raster.ndim - 2)), raster, ray)
 
 
 def _column(divider: float, size: tuple[int, int]) -> int:

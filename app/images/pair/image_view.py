@@ -15,7 +15,6 @@ from lucida.app.images.pair.marks import claim_keys, walked
 from lucida.app.images.pair.pane import Pane, draw_pane
 from lucida.app.images.pair.rulers import ruler_sizes
 from lucida.app.images.pair.toolbar import image_strip
-from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
@@ -36,12 +35,10 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 class Linked:
     """The state that the two images share.
 
-    photograph: laid over them. walked_frame: the last one in which a key has moved the mark. size,
-    steady_frames: of the images, and how often they were drawn at that size. guest: see
-    app/ui/guest.py; set by itself.
+    walked_frame: the last one in which a key has moved the mark. size, steady_frames: of the
+    images, and how often they were drawn at that size. guest: see app/ui/guest.py; set by itself.
     """
 
-    photograph: PhotographLayer = field(default_factory=PhotographLayer)
     mouse: ImageMouse = field(default_factory=ImageMouse)
     anchor: Anchor | None = None
     gesture_number: int = 0
@@ -64,10 +61,6 @@ class ImageView(Instrument):
 
     def __init__(self, linked: Linked) -> None:
         self.linked = linked
-
-    @property
-    def settled(self) -> bool:
-        return not self.linked.photograph.busy
 
     def unseen(self, host: Host) -> None:
         host.renderers.forget_pane(self.name)
@@ -210,7 +203,7 @@ class ImageView(Instrument):
 
     def _strip(self, host: Host) -> None:
         if host.has_tools and not host.state.preferences.presentation:
-            image_strip(self.name, host, self.linked.photograph.file_size)
+            image_strip(self.name, host)
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """Return the pixel to frame: always in the other image, in this one only if it is small."""

@@ -63,28 +63,12 @@ def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool)
     """Draw a line or two of text in the middle of the image, which is darkened."""
     origin, far = screen.visible
     draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
-    _boxed(draw, screen, note, theme.u32(ERROR if is_error else TEXT))
-
-
-def draw_told(draw: imgui.ImDrawList, screen: Screen, text: str, is_error: bool) -> None:
-    """Draw the note on a photograph at the image's upper edge."""
-    color = ERROR if is_error else TEXT
-    draw.push_clip_rect(*screen.pane, True)
-    _boxed(draw, screen, text, theme.u32(color), at_the_top=True)
-    draw.pop_clip_rect()
-
-
-def _boxed(
-    draw: imgui.ImDrawList, screen: Screen, text: str, color: int, at_the_top: bool = False
-) -> None:
-    origin, far = screen.visible
     wrap = max(60.0, (far.x - origin.x) * 0.8)
-    size = imgui.calc_text_size(text, wrap_width=wrap)
+    size = imgui.calc_text_size(note, wrap_width=wrap)
     at, pad = (origin + far - size) / 2, ImVec2(12, 8)
-    if at_the_top:
-        at.y = origin.y + 16
-    draw.add_rect_filled(at - pad, at + size + pad, theme.u32(theme.rgb("#0c0d0f", 0.85)), 4.0)
-    draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, text, wrap_width=wrap)
+    draw.add_rect_filled(at - pad, at + size + pad, theme.u32(BOX), 4.0)
+    color = theme.u32(ERROR if is_error else TEXT)
+    draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, note, wrap_width=wrap)
 
 
 def _depth_legend(

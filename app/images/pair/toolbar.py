@@ -20,7 +20,7 @@ from lucida.app.images.pair.actions import (
     SHOWN_COMPONENT,
     SIZES,
 )
-from lucida.app.images.photograph.panel import entries
+from lucida.app.images.photograph.actions import entries
 from lucida.app.images.placement import magnification_text
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
@@ -94,11 +94,8 @@ PARTS: tuple[tuple[str, Callable[[AppState], str], str, tuple[Action, ...]], ...
 )
 
 
-def image_strip(view: str, host: Host, photo_size: tuple[int, int]) -> None:
-    """Draw the strip into the current window.
-
-    view: its name. photo_size: of the open photograph, (0, 0) if unknown.
-    """
+def image_strip(view: str, host: Host) -> None:
+    """Draw the strip into the current window. view: its name."""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, PADDING)
     imgui.push_style_color(imgui.Col_.button, theme.UNSEEN)
     imgui.push_id(f"strip {view}")
@@ -125,7 +122,7 @@ def image_strip(view: str, host: Host, photo_size: tuple[int, int]) -> None:
             for action in actions:
                 draw_entry(action, host, first=action is actions[0])
             if name == "photograph":
-                entries(host, photo_size)
+                entries(host)
             imgui.end_popup()
     if room > 0:
         imgui.same_line(0, 0)

@@ -11,48 +11,50 @@ from imgui_bundle import imgui
 from lucida.app.images.pair.actions import IMAGE, MOUSE
 from lucida.app.images.pair.footprint import draw_footprint, footprint
 from lucida.app.images.pair.image_view import ImageView, Linked
-from lucida.app.images.pair.overlay import draw_told
-from lucida.app.images.pair.pane import Drawn, Pane
+from lucida.app.images.pair.pane import Pane
 from lucida.app.images.pair.straight_lines import draw_grid
 from lucida.app.images.pair.vanishing import draw_parallels
 from lucida.app.images.photograph.actions import PHOTOGRAPH
-from lucida.app.images.photograph.model import path_of
-from lucida.app.images.placement import Placement
+from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.screen import Screen
-from lucida.app.images.shown import Picture
-from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.uploads import Uploads
 from lucida.renderer.system.memo import Memo
 
 RASTER, RAY = "Raster", "Ray"
 
 
-class PhotographedView(ImageView):
-    """One of the two images, with the photograph where one is open."""
+class PairView(ImageView):
+    """One of the two images, with its drawings and the photograph where one is open."""
 
     is_ray: ClassVar[bool]
 
     def __init__(self, linked: Linked) -> None:
         super().__init__(linked)
         self._footprint = Memo(footprint)
+        self._uploads: Uploads | None = None
+        self.photograph: PhotographLayer | None = None
 
-    def _laid(self, host: Host, picture: Drawn) -> Drawn:
-        layer, options = self.linked.photograph, host.state.options.photograph
-        if options.file and not options.shown:
-            return picture
-        if not layer.follow(host.renderers, host.state):
-            return picture
+    @property
+    def settled(self) -> bool:
+        return self.photograph is None or not self.photograph.busy
 
-        def laid(state: AppState, placement: Placement) -> Picture | None:
-            made = picture(state, placement)
-            return layer.over(host.renderers, state, self.name, made, placement)
+    def begin(self, host: Host, context: moderngl.Context) -> None:
+        self._uploads = Uploads(context)
+        self.photograph = PhotographLayer(self._uploads)
 
-        return laid
+    def end(self) -> None:
+        if self.photograph is not None and self._uploads is not None:
+            self.photograph.close()
+            self._uploads.release()
+
+    def _on_pixels(self, host: Host, screen: Screen) -> None:
+        if self.photograph is not None:
+            self.photograph.draw(host, screen)
 
     def _over_image(self, host: Host, screen: Screen) -> None:
-        layer = self.linked.photograph
         options, state = host.state.options.pair, host.state
         draw, both = imgui.get_window_draw_list(), host.renderers
         camera = both.camera(state)
@@ -62,9 +64,6 @@ class PhotographedView(ImageView):
             draw_parallels(draw, screen, camera, both.size, options)
         if options.footprint and state.marked is not None:
             self._draw_footprint(host, screen, state.marked)
-        told = layer.problem or layer.note
-        if told and path_of(host.state) and host.state.options.photograph.shown:
-            draw_told(draw, screen, told, bool(layer.problem))
 
     def _draw_footprint(self, host: Host, screen: Screen, pixel: Pixel) -> None:
         both, state = host.renderers, host.state
@@ -82,7 +81,7 @@ def _contains(size: tuple[int, int], pixel: Pixel) -> bool:
     return pixel[0] < size[1] and pixel[1] < size[0]
 
 
-class RasterView(PhotographedView):
+class RasterView(PairView):
     name = RASTER
     title = "Raster  object order"
     actions = (*PHOTOGRAPH, *IMAGE)
@@ -105,7 +104,6 @@ class RasterView(PhotographedView):
         "Raster object order": "opengl rasterizer rasterization gpu",
         "Ray image order": "tracer tracing raytracer cpu",
         "Photograph on the images": "overlay background hide show toggle",
-        "Undistort the photograph": "lens distortion rectify pinhole straighten",
         "Close the photograph": "remove background overlay",
     }
     is_ray = False
@@ -113,19 +111,12 @@ class RasterView(PhotographedView):
     def __init__(self, views: Sequence[Instrument]) -> None:
         super().__init__(Linked())
 
-    def begin(self, host: Host, context: moderngl.Context) -> None:
-        self.linked.photograph.begin(context)
-
-    def end(self) -> None:
-        self.linked.photograph.end()
-
     def draw(self, host: Host) -> None:
         both = host.renderers
-        picture = self._laid(host, both.raster_picture)
-        self._pane(host, Pane(picture, both.raster_values, both.raster_error))
+        self._pane(host, Pane(both.raster_picture, both.raster_values, both.raster_error))
 
 
-class RayView(PhotographedView):
+class RayView(PairView):
     name = RAY
     title = "Ray  image order"
     is_ray = True
@@ -138,6 +129,5 @@ class RayView(PhotographedView):
         refining = image is not None and not image.is_last
         progress = both.live.progress if refining else 1.0
         note = both.preparing()
-        picture = self._laid(host, both.ray_picture)
-        self._pane(host, Pane(picture, both.ray_values, both.ray_error, note, progress))
+        self._pane(host, Pane(both.ray_picture, both.ray_values, both.ray_error, note, progress))
         both.trace(host.state)

@@ -1,150 +1,101 @@
-"""The open photograph, for all views: read on a thread, held once. It costs nothing until used."""
+"""A photograph over an image: read on a thread, blended by ImGui. It costs nothing until used."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-import moderngl
+from imgui_bundle import ImVec2, ImVec4, imgui
+from numpy.typing import NDArray
 
-from lucida.app.images.photograph.laying import Laying
-from lucida.app.images.photograph.model import Parts, covered, letterboxed, note, path_of, pixels_of
-from lucida.app.images.photograph.reading import DecodedPhotograph, Size, decoded, without_lens
-from lucida.app.images.placement import Placement
-from lucida.app.images.renderers import Renderers
-from lucida.app.images.shown import Picture
-from lucida.app.state.app_state import AppState
+from lucida.app.images.photograph.model import covered, letterboxed, path_of, pixels_of
+from lucida.app.images.photograph.reading import DecodedPhotograph, Size, decoded
+from lucida.app.images.screen import Screen
+from lucida.app.ui import theme
 from lucida.app.ui.background import Background
-from lucida.renderer.scene.model import View
-from lucida.renderer.system.errors import LucidaError, describe
+from lucida.app.ui.host import Host
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.system.errors import describe
 
-# The file, its size on screen in pixels, and the lens that is taken out of it.
-Asked = tuple[Path, Size, View | None]
-Answer = tuple[Asked, DecodedPhotograph | str]  # the photograph, or why there is none
+Asked = tuple[Path, Size]  # the file, and the number of pixels that the photograph covers
 
 
 class PhotographLayer:
-    """problem: why there is no photograph, one line. note: a remark on it. file_size: the
-    photograph's own (width, height); (0, 0) if unknown.
+    """The photograph over one view's image. The images, and the values read from them, are
+    unchanged.
+
+    uploads: the view's textures.
     """
 
-    def __init__(self) -> None:
-        self._gl: moderngl.Context | None = None
-        self._work: Background[Answer] = Background("lucida-photograph")
-        self._laying: Laying | None = None
+    def __init__(self, uploads: Uploads) -> None:
+        self._uploads = uploads
+        self._work: Background[tuple[Asked, DecodedPhotograph]] = Background("lucida-photograph")
         self._asked: Asked | None = None
-        self._path: Path | None = None  # of the photograph on the GPU
-        self._distorted: View | None = None  # the lens that is taken out of that
-        self.problem = ""
-        self.note = ""
-        self.file_size: Size = (0, 0)
-
-    def begin(self, context: moderngl.Context) -> None:
-        """Prepare the layer."""
-        self._gl = context
+        self._path: Path | None = None
+        self._photograph: DecodedPhotograph | None = None  # of that path
 
     @property
     def busy(self) -> bool:
-        """True while a photograph is being read that a view still asks for."""
+        """True while a photograph is being read that the view still asks for."""
         return self._asked is not None and self._work.busy
 
-    def follow(self, both: Renderers, state: AppState) -> bool:
-        """Return True if there is a photograph to show. Call in each frame in which a view would
-        show it.
-        """
-        path = path_of(state)
-        if path is None or self._gl is None or not min(both.size):
-            self._forget()
-            return False
-        distorted = state.options.photograph.distorted
-        asked = path, pixels_of(self._parts(both, state), both.size), distorted
-        if self._laying is None:
-            self._laying = Laying(self._gl)
-        outcome = self._work.poll()
-        if outcome is not None and outcome.value is not None:
-            self._take(*outcome.value)
-        if asked != self._asked:
-            self._asked, self.problem = asked, ""
-            self._work.submit(lambda: _answer(asked))
-        if self._path != path or self._distorted != distorted:
-            return False
-        has_bars = self._parts(both, state) != covered(state.camera, both.camera(state))
-        self.note = note(path.name, self.file_size, has_bars)
-        return True
+    def draw(self, host: Host, screen: Screen) -> None:
+        """Draw the photograph over the visible part of the image, if one is open and shown."""
+        self._uploads.begin_frame()
+        options, path = host.options.photograph, path_of(host.state)
+        if path is None:
+            self._asked = self._path = self._photograph = None
+            return
+        view, camera, place = host.state.view, host.renderers.camera(host.state), screen.placement
+        parts = covered(view.camera, camera)
+        width, height = map(min, place.size, place.extent)
+        self._read(host, (path, pixels_of(parts, (width, height))))
+        if self._photograph is None or self._path != path or not options.shown:
+            return
+        # A camera from a file may have pixels that are not square: its own image's shape counts.
+        shape = view.own_size or pixels_of(parts, place.size)
+        left, top, right, bottom = letterboxed(parts, shape, self._photograph.size)
+        self._show(self._photograph.pixels, (left, top, right, bottom), screen, options.opacity)
 
-    def over(
-        self,
-        both: Renderers,
-        state: AppState,
-        name: str,
-        picture: Picture | None,
-        placement: Placement,
-    ) -> Picture | None:
-        """Return a picture of one of the images with the photograph as the state says. Call
-        follow() first.
-
-        name: of the view.
-        """
-        options = state.options.photograph
-        if picture is None or not options.shown or not options.opacity:
-            return picture
-        assert self._laying is not None
-        parts = self._parts(both, state)
-        try:
-            return self._laying.laid(name, picture, placement, parts, options.opacity)
-        except (LucidaError, moderngl.Error) as error:  # shown in the view, which goes on
-            self.problem = describe(error)
-            return picture
-
-    def end(self) -> None:
+    def close(self) -> None:
         self._work.close()
-        self._forget()
-        if self._laying is not None:
-            self._laying.release()
-        self._laying = self._gl = None
 
-    def _parts(self, both: Renderers, state: AppState) -> Parts:
-        """Return the part of the images that the photograph covers, as far as its size is known.
+    def _read(self, host: Host, asked: Asked) -> None:
+        """Ask for a photograph, unless it was the last one asked for, and take what was read."""
+        outcome = self._work.poll()
+        if outcome is not None and outcome.error is not None:
+            host.files.say(describe(outcome.error))
+        elif outcome is not None and outcome.value is not None:
+            (self._path, _), self._photograph = outcome.value
+        if asked != self._asked:
+            self._asked = asked
+            self._work.submit(lambda: (asked, decoded(*asked)))
 
-        A camera from a file may have pixels that are not square: its own image's shape counts.
-        """
-        parts = covered(state.camera, both.camera(state))
-        known = self._path is not None and self._path == path_of(state)
-        known = known and self._distorted == state.options.photograph.distorted
-        shape = state.view.own_size or pixels_of(parts, both.size)
-        return letterboxed(parts, shape, self.file_size) if known else parts
-
-    def _take(self, asked: Asked, answer: DecodedPhotograph | str) -> None:
-        assert self._laying is not None
-        if self._asked is None or asked[::2] != self._asked[::2]:
-            return  # another one is wanted by now
-        self._path, self.problem = None, ""
-        if isinstance(answer, str):
-            self.problem = answer
-            self._laying.take(None)
+    def _show(
+        self,
+        pixels: NDArray,
+        parts: tuple[float, float, float, float],
+        screen: Screen,
+        opacity: float,
+    ) -> None:
+        """Draw the pixels over a part of the image: left, top, right, bottom, as fractions."""
+        place = screen.placement
+        low, far, corner, extent = [0, 0], [0, 0], [0.0, 0.0], [0.0, 0.0]
+        for axis in (0, 1):
+            start = place.origin[axis] + parts[axis] * place.extent[axis]
+            length = (parts[axis + 2] - parts[axis]) * place.extent[axis]
+            low[axis] = max(round(start), place.visible[axis])
+            far[axis] = min(round(start + length), place.visible[axis + 2])
+            corner[axis] = (low[axis] - start) / length
+            extent[axis] = (far[axis] - low[axis]) / length
+        if low[0] >= far[0] or low[1] >= far[1]:
             return
-        try:
-            self._laying.take(answer.pixels)
-        except LucidaError as error:
-            self.problem = describe(error)
-            return
-        self._path, self.file_size, self._distorted = asked[0], answer.size, asked[2]
-
-    def _forget(self) -> None:
-        """Release the photograph's memory."""
-        if self._asked is None:
-            return
-        self._asked = self._path = None
-        self.problem = self.note = ""
-        self.file_size = (0, 0)
-        if self._laying is not None:
-            self._laying.take(None)
-
-
-def _answer(asked: Asked) -> Answer:
-    try:
-        path, size, distorted = asked
-        if distorted is None:
-            return asked, decoded(path, size)
-        return asked, without_lens(decoded(path, distorted.own_size or size), distorted)
-    except LucidaError as error:
-        return asked, describe(error)
+        size = far[0] - low[0], far[1] - low[1]
+        texture = self._uploads.magnified(
+            "photograph", pixels, size, (corner[0], corner[1]), (extent[0], extent[1])
+        )
+        imgui.get_window_draw_list().add_image(
+            imgui.ImTextureRef(texture.glo),
+            screen.corner + ImVec2(*low) / screen.scale,
+            screen.corner + ImVec2(*far) / screen.scale,
+            col=theme.u32(ImVec4(1, 1, 1, opacity)),
+        )

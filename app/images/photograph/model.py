@@ -1,4 +1,4 @@
-"""The place of a photograph in the images, and the note on it. Pure.
+"""The place of a photograph in the images. Pure.
 
 A photograph of the viewport's shape fills the camera's own viewport: its left edge is the
 viewport's left, its upper edge the top. Another one has bars on two sides. If a view is fitted to
@@ -15,9 +15,6 @@ from lucida.app.images.photograph.reading import Size
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored, stored
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.undistort import undistorted_camera
-from lucida.renderer.scene.model import View
-from lucida.renderer.system.errors import one_line
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)
@@ -31,48 +28,13 @@ def path_of(state: AppState) -> Path | None:
 
 
 def with_photograph(state: AppState, path: str | None, **changes: Any) -> AppState:
-    """Return the state with a photograph open, as it was taken; None closes it."""
+    """Return the state with a photograph open; None closes it."""
     file = stored(path or "")
-    return state.with_options(
-        replace(state.options.photograph, file=file, distorted=None, **changes)
-    )
+    return state.with_options(replace(state.options.photograph, file=file, **changes))
 
 
 def closed(state: AppState) -> AppState:
     return with_photograph(state, None, follows=False)
-
-
-def can_undistort(state: AppState) -> bool:
-    """Return True if there is a lens to take out of the photograph, or one that was taken out."""
-    options = state.options.photograph
-    return bool(options.file) and (state.camera.lens is not None or options.distorted is not None)
-
-
-def undistorting(state: AppState, size: Size) -> AppState:
-    """Return the state in which photograph and camera have no lens; if they are so, with it again.
-
-    The camera stays where it is. size: (width, height) of the photograph, or of the images, if the
-    camera was not given for an image of its own.
-    """
-    was = state.options.photograph.distorted
-    if was is not None:
-        taken = was.camera
-        camera = replace(
-            state.camera, viewport=taken.viewport, distance=taken.distance, lens=taken.lens
-        )
-        given = camera, was.own_size
-        return _as_seen(state, View(camera, was.fit, given), None)
-    if state.camera.lens is None:
-        return state
-    size = state.view.own_size or size
-    camera, new = undistorted_camera(state.camera.pinhole, state.camera.lens, size)
-    kept = replace(state.view, given=(state.camera, size))
-    return _as_seen(state, View(camera, state.view.fit, (camera, new)), kept)
-
-
-def _as_seen(state: AppState, view: View, distorted: View | None) -> AppState:
-    photograph = replace(state.options.photograph, distorted=distorted, shown=True)
-    return state.with_view(view).with_options(photograph)
 
 
 def covered(camera: Camera, drawn: Camera) -> Parts:
@@ -113,10 +75,3 @@ def pixels_of(parts: Parts, size: Size) -> Size:
     left, top, right, bottom = parts
     wide, high = round((right - left) * size[0]), round((bottom - top) * size[1])
     return min(max(wide, 1), size[0]), min(max(high, 1), size[1])
-
-
-def note(name: str, own: Size, has_bars: bool) -> str:
-    """Return a note if a photograph has not the viewport's shape; "" if it has."""
-    if not has_bars:
-        return ""
-    return f"{one_line(name)}, {own[0]} x {own[1]}, has not the viewport's shape: with bars"

@@ -13,10 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.undistort import undistorted
 from lucida.renderer.files.reading import check_file
 from lucida.renderer.images.frame import LARGEST_PIXELS
-from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
@@ -34,8 +32,7 @@ Size = tuple[int, int]  # (width, height)
 class DecodedPhotograph:
     """A photograph in memory.
 
-    pixels: uint8 (height, width, 4), row 0 at the top; red, green and blue are display values times
-    alpha.
+    pixels: uint8 (height, width, 4), display values and alpha, row 0 at the top.
     size: the file's own, upright.
     """
 
@@ -76,16 +73,6 @@ def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
         raise LucidaError("", UNREADABLE, REMEDY, str(path)) from None
 
 
-def without_lens(photograph: DecodedPhotograph, view: View) -> DecodedPhotograph:
-    """Return a photograph as the pinhole in the place of its camera sees it; transparent where the
-    photograph ends. view: its camera, with a lens.
-    """
-    camera, size = view.camera, view.own_size or photograph.size
-    assert camera.lens is not None
-    pixels = undistorted(photograph.pixels, camera.pinhole, camera.lens, size)
-    return DecodedPhotograph(pixels, (pixels.shape[1], pixels.shape[0]))
-
-
 def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
     from PIL import Image, ImageOps
 
@@ -98,12 +85,7 @@ def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
     size = min(wanted[0], own[0]), min(wanted[1], own[1])
     if picture.size != size:
         picture = picture.resize(size, Image.Resampling.BOX)
-    pixels = np.array(picture.convert("RGBA"))
-    alpha = pixels[..., 3:]
-    if alpha.min(initial=255) < 255:
-        product = pixels[..., :3] * alpha.astype(np.uint16)
-        pixels[..., :3] = (product + 127) // 255
-    return DecodedPhotograph(pixels, own)
+    return DecodedPhotograph(np.array(picture.convert("RGBA")), own)
 
 
 def _eight_bits(opened: Picture) -> Picture:

@@ -9,7 +9,7 @@ from lucida.app.state.bounds import OptionPart, Range
 from lucida.app.state.options.shared import Part
 from lucida.renderer.images.difference import LARGEST_GAIN
 
-CompareMode = Literal["absolute", "signed", "wipe", "flip"]
+CompareMode = Literal["absolute", "wipe"]
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,6 @@ class CompareOptions(OptionPart):
     gain: the factor of the difference before it is coloured.
     divider: the wipe's place, as a fraction of the image's width.
     rise: how far the ray image has risen on its side of the wipe, over the raster image.
-    flipped: show the ray image in `flip`.
     causes: mark differing pixels in the colours of their causes.
     """
 
@@ -27,5 +26,4 @@ class CompareOptions(OptionPart):
     gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
     divider: Part = 0.5
     rise: Part = 1.0
-    flipped: bool = False
     causes: bool = False

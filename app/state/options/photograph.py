@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from lucida.app.state.bounds import Beside, OptionPart, Range
-from lucida.renderer.scene.model import View
 
 
 @dataclass(frozen=True)
@@ -18,12 +17,9 @@ class PhotographOptions(OptionPart):
     shown: draw it in the images.
     opacity: from 0 to 1, of display values.
     follows: show the photograph of the current pose.
-    distorted: the view with the lens that took it, while the photograph and the camera are shown
-    without; None: the photograph is as it was taken.
     """
 
     file: Annotated[str, Beside(("",))] = ""
     shown: bool = True
     opacity: Annotated[float, Range(0, 1)] = 0.5
     follows: bool = False
-    distorted: View | None = None

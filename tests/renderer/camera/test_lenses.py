@@ -1,4 +1,4 @@
-"""Lenses against OpenCV and pycolmap, their inverses, and photographs without their lens."""
+"""Lenses against OpenCV and pycolmap, and their inverses."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from lucida import Camera, LucidaError
+from lucida import LucidaError
 from lucida.renderer.camera.lenses import MODELS, Lens
-from lucida.renderer.camera.undistort import undistorted, undistorted_camera
 
 DIRECTIONS = np.array([(0.64, 0.48, 1.0), (-0.64, 0.3, 1.0)]).T
 # Where these appear: cv2.projectPoints and cv2.fisheye of OpenCV 5.0.0, pycolmap 4.2.1.
@@ -135,70 +134,3 @@ def test_a_wrong_lens_names_the_field(model, coefficients, field):
     with pytest.raises(LucidaError) as caught:
         Lens(model, coefficients)
     assert caught.value.field == field and caught.value.remedy
-
-
-# Undistorting.
-
-# pycolmap.undistort_camera of images of 640 x 480: the size, and fx, fy, cx, cy.
-PINHOLES = [
-    (
-        Lens("brown", {"k1": -0.2, "k2": 0.05, "p1": 0.003, "p2": -0.002}),
-        (500.0, 510.0, 330.0, 235.0),
-        (699, 501),
-        (500.0, 510.0, 360.421875, 245.28125),
-    ),
-    (
-        Lens("brown", {"k1": 0.2}),
-        (500.0, 500.0, 320.0, 240.0),
-        (578, 433),
-        (500.0, 500.0, 289.0, 216.5),
-    ),
-    (
-        Lens("fisheye", {"k1": 0.02, "k2": -0.01, "k3": 0.001}),
-        (300.0, 305.0, 330.0, 235.0),
-        (1010, 594),
-        (300.0, 305.0, 520.78125, 290.8125),
-    ),
-]
-Four = tuple[float, float, float, float]
-
-
-def camera_of(fx: float, fy: float, cx: float, cy: float) -> Camera:
-    K = [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]
-    return Camera.from_intrinsics(K, size=(640, 480), pixel_origin="corner")
-
-
-@pytest.mark.parametrize(("lens", "own", "size", "wanted"), PINHOLES)
-def test_the_pinhole_is_colmaps(lens, own, size, wanted):
-    camera, found = undistorted_camera(camera_of(*own), lens, (640, 480))
-    assert found == size
-    (fx, _, cx), (_, fy, cy), _ = camera.intrinsics(size, "corner").K.tolist()
-    assert (fx, fy, cx, cy) == pytest.approx(wanted)
-
-
-@pytest.mark.parametrize(("lens", "own"), [row[:2] for row in PINHOLES])
-def test_a_pinholes_pixel_is_the_photographs_of_the_same_direction(lens, own):
-    """On a photograph whose colours are linear in the place, interpolation is exact."""
-    fx, fy, cx, cy = own
-    columns, rows = np.meshgrid(np.arange(640), np.arange(480))
-    photograph = np.stack([columns / 640 * 255, rows / 480 * 255], axis=2)
-    photograph = np.concatenate([photograph, np.full((480, 640, 1), 9.0)], axis=2)
-    camera, size = undistorted_camera(camera_of(*own), lens, (640, 480))
-    found = undistorted(photograph.astype(np.uint8), camera_of(*own), lens, (640, 480))
-    assert found.shape == (size[1], size[0], 3)
-    ray = camera.rays(size).direction  # u is x, v is -y, w is -z
-    a, b = lens.image_point(ray[..., 0], ray[..., 1], ray[..., 2])
-    x, y = fx * a + cx - 0.5, fy * b + cy - 0.5
-    inside = found[..., 2] > 0
-    assert inside.mean() > 0.99  # no gap, but for the border's half pixels
-    wanted = np.stack([x / 640 * 255, y / 480 * 255], axis=2)
-    assert np.abs(found[..., :2] - wanted)[inside].max() < 1.6  # each rounded down at four pixels
-
-
-def test_a_photograph_of_any_lens_gets_a_picture_of_a_sane_size():
-    half = math.pi
-    panorama = Camera(viewport=(-half, half, -half / 2, half / 2))
-    for camera in (panorama, Camera(viewport=(0.1, 0.9, -2, -1)), Camera(viewport=(-1, 1, -1, 1))):
-        for lens in (Lens("equirectangular"), Lens("brown", {"k1": -3.0, "p1": 0.1})):
-            _, (width, height) = undistorted_camera(camera, lens, (64, 48))
-            assert 12 <= width <= 128 and 9 <= height <= 96

@@ -1,8 +1,7 @@
-"""The compare view's words, units, and steps from pixel to pixel."""
+"""The compare view's words, and steps from pixel to pixel."""
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from flawed_images import changed, image
 from option_changes import with_options
@@ -10,7 +9,6 @@ from option_changes import with_options
 from lucida import Camera, load_scene
 from lucida.app.images.compare import comparing
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import ImageOptions
 from lucida.renderer.compare.raster_and_ray import CAUSES, SHADING, UNEXPLAINED, compare_frames
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import Scene
@@ -54,9 +52,6 @@ def test_pixels_are_counted_by_cause():
     assert counts[SHADING] == 3
     assert counts[UNEXPLAINED] == 1
     assert sum(counts.values()) == comparison.pixels - comparison.agree
-    cause = comparing.cause_at(comparison, (0, 0))
-    assert cause is not None and cause.name == "unexplained"
-    assert comparing.cause_at(comparison, (5, 5)) is None
 
 
 def test_with_effects_the_colour_alone_is_not_examined():
@@ -94,71 +89,6 @@ def test_a_step_marks_and_magnifies(state):
     closer = with_options(state, images={"magnification": 64.0})
     assert comparing.stepped(closer, comparison).images.magnification == 64.0
     assert comparing.stepped(state, compared()) is state
-
-
-def test_the_worst_pixel_is_the_channels(state):
-    comparison = compared(color=((3, 4), 0.9), depth=((1, 1), 5), normal=((2, 7), (1, 0, 0)))
-    worst = {
-        channel: comparing.at_worst(
-            with_options(state, images={"channel": channel}), comparison
-        ).marked
-        for channel in ("color", "depth", "normal")
-    }
-    assert worst == {"color": (3, 4), "depth": (1, 1), "normal": (2, 7)}
-
-
-@pytest.mark.parametrize(
-    ("channel", "gain", "full"),
-    [
-        ("color", 1, "255/255"),
-        ("color", 1024, "0.249/255"),
-        ("depth", 1, "100 %"),
-        ("depth", 64, "1.56 %"),
-        ("normal", 1, "2"),
-    ],
-)
-def test_a_scale_has_its_units_and_says_which_image_has_more(channel, gain, full):
-    absolute = comparing.scale(channel, gain, signed=False)
-    assert (absolute.low, absolute.middle, absolute.high) == ("", "0", full)
-    signed = comparing.scale(channel, gain, signed=True)
-    assert signed.low.endswith(full) and "raster" in signed.low
-    assert signed.high.endswith(full) and "ray" in signed.high
-    assert all(
-        len(s) < len(t) for s, t in zip(signed.short, (signed.low, signed.high), strict=True)
-    )
-
-
-def test_objects_are_the_same_or_not():
-    assert comparing.scale("id", 7, signed=True) == comparing.scale("id", 1, signed=False)
-
-
-def test_errors_are_told_with_their_units():
-    comparison = compared(
-        color=((3, 4), 1.0), depth=((1, 1), 4), normal=((2, 7), (0, 0, 0)), id=((0, slice(2)), 3)
-    )
-    # Linear light 0.5 is shown as 187.5 of 255.
-    assert comparing.error_text(comparison, "color").startswith("max  67.5/255  RMS   9.740/255")
-    assert comparing.error_text(comparison, "depth").startswith("max 50 %  RMS 7.22 %")
-    assert comparing.error_text(comparison, "normal").startswith("max 1  RMS 0.144")
-    assert comparing.error_text(comparison, "id") == "another object in 2 pixels"
-    for images, told in (
-        (ImageOptions(), ""),
-        (ImageOptions(exposure_ev=-2.0), "  at 0 EV"),
-        (ImageOptions(exposure_ev=-2.0, channel="depth"), ""),  # has no exposure
-    ):
-        assert comparing.measured_at(images) == told
-    missed = compared(depth=((1, slice(3)), np.inf))
-    assert comparing.error_text(missed, "depth").endswith("hit in one image only: 3")
-
-
-def test_a_pixels_values():
-    comparison = compared(color=((3, 4), 1.0), depth=((1, 1), np.inf), id=((2, 2), -1))
-    raster, ray, difference = comparing.pixel_values(comparison, (3, 4), "color")
-    assert raster.split() == ["0.500"] * 3
-    assert ray.split() == ["1.000"] * 3
-    assert difference == "+67.5/255"
-    assert comparing.pixel_values(comparison, (1, 1), "depth") == ("2", "no hit", "+inf %")
-    assert comparing.pixel_values(comparison, (2, 2), "id") == ("object 0", "none", "")
 
 
 def test_effects_have_names(state):

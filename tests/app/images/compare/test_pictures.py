@@ -1,22 +1,9 @@
-"""The compare view's pictures: false colours, and marks that can be seen."""
+"""The compare view's marks on pixels, which are large enough to be seen."""
 
 import numpy as np
-from flawed_images import changed, image
 
-from lucida.app.images.compare.pictures import RIM, difference_picture, enlarged, marked_picture
+from lucida.app.images.compare.pictures import RIM, enlarged, marked_picture
 from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING, UNEXPLAINED
-from lucida.renderer.images.difference import false_color, signed_difference
-
-
-def test_a_single_component_is_compared_alone():
-    raster = image(2, 0, -1, (4, 3))
-    ray = changed(raster, (1, 2), color=(0.9, 0.5, 0.5))
-    for component, differs in (("rgb", True), ("red", True), ("green", False)):
-        of, picture = difference_picture(raster, ray, "color", component, 2.0, False)
-        assert of is ray
-        assert picture[1, 2].any() == differs
-    expected = false_color(signed_difference(raster, ray), "color", 4.0, True)
-    assert (difference_picture(raster, ray, "color", "rgb", 4.0, True)[1] == expected).all()
 
 
 def test_marked_pixels_have_their_causes_colours():

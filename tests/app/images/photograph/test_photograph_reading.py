@@ -84,7 +84,7 @@ def test_what_is_transparent_stays_so(tmp_path):
     pixels = np.zeros((1, 3, 4), np.uint8)
     pixels[0] = (200, 100, 50, 0), (200, 100, 50, 128), (200, 100, 50, 255)
     photograph = decoded(saved(tmp_path, pixels), WHOLE)
-    assert photograph.pixels[0].tolist() == [[0, 0, 0, 0], [100, 50, 25, 128], [200, 100, 50, 255]]
+    assert photograph.pixels[0].tolist() == pixels[0].tolist()
 
 
 def test_gray_palettes_and_16_bits_are_read(tmp_path):

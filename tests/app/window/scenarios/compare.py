@@ -1,4 +1,4 @@
-"""The compare view: false colours, wipe, flip, counts, steps. The ray image is tampered with."""
+"""The compare view: false colours, wipe, counts, steps. The ray image is tampered with."""
 
 from __future__ import annotations
 
@@ -118,45 +118,36 @@ def drive_a_wrong_block_is_shown_counted_marked_and_stepped_through(d):
 
 
 def check_false_colours(d):
-    for mode, gain in (("absolute", 1.0), ("absolute", 8.0), ("signed", 4.0)):
-        show(d, mode=mode, gain=gain)
+    for gain in (1.0, 8.0):
+        show(d, gain=gain)
         both = comparison(d)
         difference = signed_difference(both.raster, both.ray)
-        expected = false_color(difference, "color", gain, signed=mode == "signed")
         seen = shown(d)
-        assert close(seen, expected), f"{mode}, gain {gain}"
-        inside, outside = seen[45, 50].tolist(), seen[80, 150].tolist()
-        assert outside == ([0, 0, 0] if mode == "absolute" else [255, 255, 255])
-        assert inside != outside
-        if mode == "signed":
-            red, _, blue = seen[WORST].tolist()
-            assert red > blue, "the ray image has more: orange"
+        assert close(seen, false_color(difference, "color", gain)), f"gain {gain}"
+        assert seen[45, 50].any() and not seen[80, 150].any()
     d.change(images={"channel": "depth"})
     d.settle()
-    assert shown(d)[45, 50].tolist() == [255] * 3, "signed: only the colour was changed"
+    assert not shown(d)[45, 50].any(), "only the colour was changed"
     d.change(images={"channel": "color"})
 
 
 def check_counts(d):
     both = comparison(d)
-    assert both.errors["color"].worst == WORST
     count = d.steps
-    d.click("//###Compare/###worst")
+    d.click("//###Compare/##shading")
+    assert d.state.marked is not None
+    assert both.labels[d.state.marked] == SHADING
     d.settle()
-    assert d.state.marked == WORST
     assert d.state.images.magnification == comparing.MARKED_MAGNIFICATION
+    row, column = d.state.marked
     screen = d.window.views[NAME].screen
-    low, high = screen.point(*WORST), screen.point(WORST[0] + 1, WORST[1] + 1)
+    low, high = screen.point(row, column), screen.point(row + 1, column + 1)
     pane_low, pane_high = screen.pane
     assert pane_low.x < low.x < high.x < pane_high.x, "it is in sight"
     assert pane_low.y < low.y < high.y < pane_high.y
     assert d.steps == count + 1
     d.window.undo()
     assert d.state.marked is None
-    d.click("//###Compare/##shading")
-    assert d.state.marked is not None
-    assert both.labels[d.state.marked] == SHADING
-    d.window.undo()
 
 
 def check_steps(d):
@@ -167,12 +158,9 @@ def check_steps(d):
         (Key.n, first),
         (Key.n, second),
         (SHIFT | Key.n, first),
-        (SHIFT | Key.m, WORST),
     ):
         d.press(keys)
         assert d.state.marked == expected
-    d.window.undo()
-    assert d.state.marked == first
     for _ in range(3):
         d.window.undo()
     assert d.state.marked is None
@@ -189,13 +177,12 @@ def check_causes(d):
     assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
 
 
-def drive_a_wipe_and_a_flip_have_the_raster_image_first_and_the_ray_image_second(d):
+def drive_a_wipe_has_the_raster_image_first_and_the_ray_image_second(d):
     show(d, mode="wipe", divider=0.5)
     with tampered(d, lambda color: np.multiply(color, 0.3, out=color)):
         raster, ray = (below_labels(picture) for picture in pictures(d))
         assert not close(raster, ray, 0.5)
         check_wipe(d, raster, ray)
-        check_flip(d, raster, ray)
 
 
 def check_wipe(d, raster, ray):
@@ -224,37 +211,16 @@ def check_wipe(d, raster, ray):
         assert close(seen[:, handle:-handle], expected[:, handle:-handle])
 
 
-def check_flip(d, raster, ray):
-    show(d, mode="flip")
-    for first, second in ((raster, ray), (ray, raster)):
-        assert close(below_labels(shown(d)), first)
-        d.ctx.key_down(Key.x)
-        d.frames(2)
-        assert close(below_labels(shown(d)), second)
-        d.ctx.key_up(Key.x)
-        d.frames(2)
-        if first is raster:
-            d.click("//###Compare/show ray")
-            assert d.state.options.compare.flipped
-
-
-def drive_modes_and_gain_have_keys_and_can_be_undone(d):
+def drive_modes_have_keys_and_can_be_undone(d):
     show(d)
-    for key, mode in ((Key.f6, "signed"), (Key.f7, "wipe"), (Key.f8, "flip"), (Key.f5, "absolute")):
-        d.press(int(key))
+    for key, mode in ((Key.f5, "wipe"), (Key.f6, "absolute")):
+        d.press(key)
         assert d.state.options.compare.mode == mode
         d.window.undo()
         d.window.redo()
-    d.click("//###Compare/Signed")
-    assert d.state.options.compare.mode == "signed"
-    for _ in range(3):
-        d.press(Key.right_bracket)
-    d.press(Key.left_bracket)
-    assert d.state.options.compare.gain == 4
+    d.click("//###Compare/Wipe")
+    assert d.state.options.compare.mode == "wipe"
     d.window.undo()
-    assert d.state.options.compare.gain == 8
-    d.press(SHIFT | Key.right_bracket)
-    assert d.state.options.compare.divider == 0.5 + comparing.DIVIDER_STEP
     count = d.steps
     slider = d.box("//###Compare/##gain")
     at = slider.get_center()
@@ -283,10 +249,9 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
         d.frames(3)
         d.until(lambda: both.ray_image is not None and both.ray_image.factor == 4)
         d.frames(3)
-        assert "coarse (1/4)" in waiting(both, d.state)
+        assert "coarse" in waiting(both, d.state)
         seen = shown(d)
-        assert np.ptp(seen, axis=2).max() <= 2, "gray: the raster image, muted"
-        assert seen.std() > 3
+        assert seen.std() > 3 and seen.max() < 110, "the raster image, muted"
     finally:
         live.poll = take
     trace_again(d)

@@ -13,7 +13,7 @@ def typed(d: Driver, row: str, column: str) -> None:
     d.press(OPEN)
     for key, text in ((None, row), (Key.tab, column)):
         if key is not None:
-            d.press(int(key))
+            d.press(key)
         d.ctx.key_chars(text)
         d.frames(2)
     d.press(Key.enter)

@@ -11,7 +11,7 @@ from lucida.app.ui import theme
 from lucida.app.window.menu_keys import BAR
 
 STEPS_BACK = 8  # to controls where Tab was before, one after another: it is round
-ALT, CTRL, SHIFT = (int(key) for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
+ALT, CTRL, SHIFT = (key for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
 OTHERS = int(imgui.ItemFlags_.disabled)
 Box = tuple[int, int, int, int]  # left, top, right, bottom
 
@@ -81,7 +81,7 @@ def drive_alt_leads_into_the_menus_and_back(d):
     d.press(Key.f3)
     before = at(), context.nav_id
     for key in (Key.left_alt, Key.f10):
-        d.press(int(key))
+        d.press(key)
         assert at() == BAR
         d.press(Key.right_arrow)
         d.press(Key.down_arrow)

@@ -99,7 +99,7 @@ def drive_builds_are_walked_and_move(d):
     first, picture = window.state, d.picture()
 
     def press(key):
-        d.press(int(key))
+        d.press(key)
         return session.place[1:]
 
     assert press(Key.page_down) == (0, 1)

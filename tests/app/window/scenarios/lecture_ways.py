@@ -138,7 +138,7 @@ def drive_the_stage_has_pictures_and_text_alone(d):
     d.press(Key.f9)
     assert is_bare()
     for key in (Key._1, Key._2, Key.enter):
-        d.press(int(key))
+        d.press(key)
     assert lecture.session.number == 11
     _rest(d)
     _leave(d)

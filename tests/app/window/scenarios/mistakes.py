@@ -60,8 +60,7 @@ def drive_lines_are_made_wrong_and_right_again(d):
     assert _options(d).chosen == ("rows count upwards",)
     _choose(d, "y", "correct")
     assert _options(d).chosen == ()
-    made = view.made
-    assert not made.mistakes
+    assert not view.made.mistakes
     ALONE.close(d)
     assert view.made is None
 
@@ -71,8 +70,7 @@ def drive_a_click_marks_a_pixel_in_all_views(d):
     d.click(_item("wrong"))
     d.settle()
     assert d.state.marked is not None
-    made = view.made
-    assert made.ray is not None
+    assert view.made.ray is not None
     d.click(_item("wrong"))
     d.settle()
     assert d.state.marked is None

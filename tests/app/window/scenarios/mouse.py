@@ -92,11 +92,11 @@ def drive_keys_fly_over_an_image(d):
     keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
     for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
         d.move_to(d.point(name, 0.5, 0.5))
-        d.ctx.key_down(int(key))
+        d.ctx.key_down(key)
         d.until(
             lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
         )
-        d.ctx.key_up(int(key))
+        d.ctx.key_up(key)
         d.frames(2)
         way = np.subtract(window.state.camera.eye, d.start.camera.eye)
         assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from option_changes import with_options
 from PIL import Image
-from window_driver import Driver, Key
+from window_driver import SIZE, Driver, Key
 
-from lucida.app.images.pair.view import RasterView
-from lucida.app.images.photograph.actions import PHOTOGRAPH, UNDISTORT
+from lucida.app.images.pair.view import RasterView, RayView
 from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.photograph.model import closed
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored
-from lucida.renderer.camera.lenses import Lens
 
 
-def layer(d: Driver) -> PhotographLayer:
-    return d.window.view(RasterView).linked.photograph
+def layers(d: Driver) -> list[PhotographLayer]:
+    return [d.window.view(kind).photograph for kind in (RasterView, RayView)]
+
+
+def held(layer: PhotographLayer) -> bool:
+    return layer._photograph is not None
 
 
 def laid(d: Driver, **changes: object) -> AppState:
@@ -79,39 +80,18 @@ def drive_it_is_switched_with_a_key_undone_and_closed(d):
     assert d.state.options.photograph.shown
     d.window.change(closed(d.state))
     d.settle()
-    assert layer(d).file_size == (0, 0)  # it is not held any more
+    assert not any(map(held, layers(d)))
     d.window.undo()
     d.settle()
-    assert layer(d).file_size == (40, 30)
-    d.click("//Raster/**/##photograph")
-    d.click("//$FOCUSED/Images of its size, 40 x 30")
-    d.settle()
-    assert d.renderers.size == (40, 30)
+    assert all(map(held, layers(d)))
 
 
-def drive_a_photograph_through_a_lens_lines_up_and_is_undistorted(d):
-    state = d.state.with_fit(False)
-    camera = replace(state.camera, lens=Lens("brown", {"k1": -0.2, "p1": 0.01}))
-    d.window.change(state.with_camera(camera))
+def drive_nothing_is_drawn_anew_while_nothing_changes(d):
+    opened(d, saved(d, noise(d)))
+    d.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
     d.settle()
-    _, taken = d.images()
-    opened(d, saved(d, taken.astype(np.uint8)))
-    d.window.change(laid(d, opacity=1.0))
-    d.settle()
-    for after in d.images():  # of the raster image, too: it is laid pixel by pixel
-        assert np.array_equal(after, taken)
-    undistort = next(action for action in PHOTOGRAPH if action.name == UNDISTORT)
-    undistort.run(d.window)
-    d.settle()
-    assert d.state.camera.lens is None
-    _, flat = d.images()
-    d.window.change(laid(d, shown=False))
-    d.settle()
-    _, pinhole = d.images()
-    off = np.abs(flat.astype(int) - pinhole).max(axis=2)
-    assert np.median(off) <= 1 and (off > 40).mean() < 0.05  # but for interpolated outlines
-    across = np.abs(flat[:, 2:].astype(int) - pinhole[:, :-2]).max(axis=2)
-    assert (across > 40).mean() > 2 * (off > 40).mean()  # two pixels aside, it would not line up
-    undistort.run(d.window)
-    d.settle()
-    assert d.state.camera == camera
+    uploads = [d.window.views[name]._uploads for name in ("Raster", "Ray")]
+    before = [one.get("photograph") for one in uploads]
+    d.frames(20)
+    assert None not in before
+    assert [one.get("photograph") for one in uploads] == before

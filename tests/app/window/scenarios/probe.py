@@ -71,7 +71,7 @@ def drive_keys_walk_and_pins_stay(d):
         (Key.down_arrow, (61, 71)),
         (Key.up_arrow | Key.mod_shift, (51, 71)),
     ):
-        d.press(int(key))
+        d.press(key)
         assert d.state.marked == pixel
         assert reading(d).pixel == pixel
     d.click(f"{WINDOW}/Pin")

@@ -28,11 +28,11 @@ def middle(d: Driver, name: str) -> np.ndarray:
 def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
     window = d.window
     live = window.renderers.live
-    for view, mode in ((RAY, ""), (COMPARE, "flip"), (COMPARE, "wipe")):
+    for view, mode in ((RAY, ""), (COMPARE, "wipe")):
         d.layout(COMPARE if mode else "Side by side")
         window.change(with_options(d.start, images={"channel": "depth"}))
         if mode:
-            options = {"mode": mode, "flipped": True, "divider": 0.1}
+            options = {"mode": mode, "divider": 0.1}
             d.change(compare=options)
         d.settle()
         assert len(np.unique(middle(d, view), axis=0)) > 20

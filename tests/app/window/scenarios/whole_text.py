@@ -17,7 +17,7 @@ from lucida.app.ui import layout
 
 SIZES, LARGEST = ((1080, 1920), (1024, 768)), 2.0
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
-CTRL, SHIFT, ESCAPE = (int(key) for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
+CTRL, SHIFT, ESCAPE = (key for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
 
 
 def boxes(d: Driver) -> Iterator[str]:

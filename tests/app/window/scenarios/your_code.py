@@ -308,7 +308,7 @@ def drive_presentation_leaves_the_code_in_sight(d):
     layout.switch(layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
     for key, presented in ((Key.f9, True), (Key.escape, False)):
-        d.press(int(key))
+        d.press(key)
         assert d.state.preferences.presentation is presented
         d.frames(4)
         assert layout.current().name == layout.LOOPS
