@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
-
 import numpy as np
 import pytest
 from both_lectures import both_lectures
@@ -12,7 +9,6 @@ from plain_text import plain_text
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Dot, Eye, Item, Label, RayEnd
-from lucida.app.lecture.reading import BUILTINS
 from lucida.app.state.options.outside import OutsideOptions
 
 STEPS = {build.title: build for build in both_lectures().builds}  # at their last builds
@@ -74,18 +70,3 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named():
     ray = camera.ray(*step.pixel, size)
     assert np.allclose(at["t = 0"], ray.origin)
     assert np.allclose(at["t = 1"], ray.origin + ray.direction)
-
-
-def test_words_are_of_one_kind():
-    for path in BUILTINS.values():
-        everything = path.read_text(encoding="utf-8")
-        assert not re.search(r"\bgrey", everything, re.IGNORECASE)
-        assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
-
-
-def test_the_windows_words_are_of_one_kind():
-    """And those of its code, which nobody tells apart."""
-    for path in (Path(__file__).parents[3] / "app").glob("**/*.py"):
-        text = path.read_text(encoding="utf-8")
-        assert not re.search(r"\bgrey", text, re.IGNORECASE), path
-        assert not re.search(r"\b(bits?|bytes|floats|numbers?|samples) a pixel", text), path

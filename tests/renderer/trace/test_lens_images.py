@@ -21,9 +21,8 @@ from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.trace import Tracer
-from lucida.renderer.trace.arguments.image import Rows, new_image
-from lucida.renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control
-from lucida.renderer.trace.tiles.engine import PacketEngine
+from lucida.renderer.trace.arguments.image import Rows
+from lucida.renderer.trace.threads.thread_pool import new_control
 from lucida.renderer.trace.tiles.lens_table import lens_table
 
 COEFFICIENTS = {
@@ -161,13 +160,3 @@ def test_a_table_is_made_once_for_a_lens_and_a_size():
     moved = replace(camera, eye=(9.0, 8.0, 7.0), u=(0.0, 1.0, 0.5), v=(-1.0, 0.0, 0.0))
     assert lens_table(moved, rows, new_control()) is table
     assert lens_table(moved.shifted(0.5, 0.0, size), rows, new_control()) is not table
-
-
-def test_a_cancelled_image_stops():
-    team, control = Team(2), new_control()
-    cancel(control)
-    image = new_image((640, 480), ("id",))
-    PacketEngine(crowd(), team).trace(seen_through(LENSES[0]), image, control)
-    assert not image.finished.any()
-    assert control[DONE] == 0
-    team.close()

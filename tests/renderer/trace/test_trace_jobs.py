@@ -38,7 +38,16 @@ class Gate:
         self.reached, self.opened = threading.Event(), threading.Event()
         self.ends: list[str] = []
         self.build = instances.tree_of_mesh
-        monkeypatch.setattr(instances, "tree_of_mesh", self)
+        self.monkeypatch = monkeypatch
+
+    def hold(self, tracer: Tracer, scene: Scene) -> TraceJob:
+        """Draw an image; then return a job that waits for the tree of another scene."""
+        tracer.render(FRONT, SMALL)
+        self.monkeypatch.setattr(instances, "tree_of_mesh", self)
+        tracer.set_scene(scene)
+        job = tracer.start(FRONT, SMALL)
+        assert self.reached.wait(HANG_S)
+        return job
 
     def __call__(self, *arguments: Any) -> Any:
         self.reached.set()
@@ -47,6 +56,11 @@ class Gate:
         tree = self.build(*arguments)
         self.ends[-1] = "built"
         return tree
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    return Gate(monkeypatch)
 
 
 def one_triangle(depth: float) -> Scene:
@@ -59,15 +73,9 @@ def nearest(frame: Frame) -> float:
     return float(frame.channel("depth").min()) * FRONT.distance
 
 
-def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
-    monkeypatch,
-):
+def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(gate):
     with Tracer(scene_of(Sphere())) as tracer:
-        tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        tracer.set_scene(one_triangle(1.0))
-        first = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        first = gate.hold(tracer, one_triangle(1.0))
         first.cancel()
         assert not first.result().complete  # at once
         tracer.set_scene(scene_of(Sphere(radius=0.5)))
@@ -82,19 +90,15 @@ def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
 
 
 @pytest.mark.parametrize("fails", [False, True])
-def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(monkeypatch, fails):
+def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(gate, fails):
     """Preparing another scene is given up, or fails. The one before is prepared again."""
     before = one_triangle(0.5)
     with Tracer(before) as tracer:
         wanted = tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        other = one_triangle(2.0)
-        tracer.set_scene(replace(other, ambient=(0.9, 0.1, 0.1), background=(0.2, 0.9, 0.2)))
-        first = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        colors = {"ambient": (0.9, 0.1, 0.1), "background": (0.2, 0.9, 0.2)}
+        first = gate.hold(tracer, replace(one_triangle(2.0), **colors))
         if fails:
-            build = gate.build
-            monkeypatch.setattr(gate, "build", None)  # calling it raises
+            build, gate.build = gate.build, None  # calling it raises
         else:
             first.cancel()
         tracer.set_scene(before)
@@ -108,15 +112,9 @@ def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(m
         assert gate.ends[:1] == ["given up"]
 
 
-def test_building_goes_on_for_another_image_of_the_same_scene(
-    monkeypatch,
-):
+def test_building_goes_on_for_another_image_of_the_same_scene(gate):
     with Tracer(scene_of(Sphere())) as tracer:
-        tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        tracer.set_scene(one_triangle(1.0))
-        first = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        first = gate.hold(tracer, one_triangle(1.0))
         first.cancel()
         second = tracer.start(FRONT, SMALL)
         gate.opened.set()
@@ -124,13 +122,9 @@ def test_building_goes_on_for_another_image_of_the_same_scene(
         assert gate.ends == ["built"]
 
 
-def test_closing_gives_up_building(monkeypatch):
+def test_closing_gives_up_building(gate):
     tracer = Tracer(scene_of(Sphere()))
-    tracer.render(FRONT, SMALL)
-    gate = Gate(monkeypatch)
-    tracer.set_scene(one_triangle(1.0))
-    job = tracer.start(FRONT, SMALL)
-    assert gate.reached.wait(HANG_S)
+    job = gate.hold(tracer, one_triangle(1.0))
     closing = threading.Thread(target=tracer.close)
     closing.start()
     assert not job.result().complete  # at once
@@ -139,15 +133,9 @@ def test_closing_gives_up_building(monkeypatch):
     assert gate.ends == ["given up"]
 
 
-def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
-    monkeypatch,
-):
+def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(gate):
     with Tracer(scene_of(Sphere())) as tracer:
-        tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        tracer.set_scene(one_triangle(1.0))
-        busy = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        busy = gate.hold(tracer, one_triangle(1.0))
         tracer.set_scene(scene_of(Sphere(radius=0.5)))
         waiting = tracer.start(FRONT, SMALL)
         waiting.cancel()

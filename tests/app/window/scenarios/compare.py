@@ -113,7 +113,8 @@ def drive_a_wrong_block_is_shown_counted_marked_and_stepped_through(d):
         check_causes(d)
         check_counts(d)
         check_steps(d)
-    show(d, mode="absolute")
+    d.reset()  # undo leaves the magnification
+    show(d)
     assert (shown(d).max(axis=2) > 40).mean() < 0.01
 
 
