@@ -76,31 +76,6 @@ def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk, tmp_path):
         program.quit()
 
 
-def test_a_named_model_comes_back_with_its_camera(desk, tmp_path):
-    model = tmp_path / "roof.obj"
-    model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\nf 1 2 3\nf 1 3 4\n")
-    with Program(desk, tmp_path) as program:
-        desk.key("ctrl+plus")  # the user's own, which a model does not end
-        desk.still()
-        program.quit()
-    with Program(desk, tmp_path, str(model)) as program:
-        desk.key("KP_9")  # isometric
-        left = desk.still()
-        program.quit()
-    kept = session(tmp_path)
-    assert str(kept["scene"]).endswith("roof.obj")
-    assert kept["options"]["preferences"]["font_scale"] > 1.0
-    with Program(desk, tmp_path) as program:
-        check_same(left, desk.still(), tmp_path)
-        program.quit()
-    model.unlink()
-    with Program(desk, tmp_path) as program:
-        desk.key("Escape")  # the line that tells it
-        desk.still()
-        program.quit()
-    assert session(tmp_path)["scene"] == "still-life"
-
-
 def test_what_is_typed_right_after_tab_is_in_the_next_field(desk, tmp_path):
     with Program(desk, tmp_path) as program:
         desk.key("ctrl+g")

@@ -236,17 +236,3 @@ def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d):
     d.frames(3)
     assert len(now(d)) == len(rows_of(d.state.scene)) > 300
     d.press(Key.escape)
-
-
-def drive_the_column_grows_with_the_type(d):
-    enter(d)
-    window = d.window
-    window.amend(choose(window.state, (item(d, "box"),)))
-    wide = []
-    for scale in (1.0, 1.5, 1.0):
-        d.change(preferences={"font_scale": scale})
-        d.settle()
-        d.picture()
-        wide.append(d.box("//###Objects/##search").get_width())
-    assert wide[1] > 1.25 * wide[0]
-    assert abs(wide[2] - wide[0]) <= 1, wide

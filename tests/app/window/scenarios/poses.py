@@ -162,15 +162,6 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d):
         d.settle()
     d.move_to((3, 700))
     assert view(d).hovered is None and not strokes(d, "mark pose")
-    d.click(f"{WINDOW}/##search")
-    d.ctx.key_chars("01")
-    d.frames(3)
-    d.click(f"{WINDOW}/**/###10")
-    assert chosen(d) == 10
-    d.press(HOME)
-    assert chosen(d) == 1
-    d.press(DOWN)
-    assert chosen(d) == 10  # 001, 010, 011
 
 
 def drive_a_passage_is_one_step_with_the_choice(d):
@@ -198,12 +189,6 @@ def drive_a_passage_is_one_step_with_the_choice(d):
         d.window.undo()
         d.frames(2)
         assert d.state == start
-        view(d).take(d.window, 4)
-        d.frames(2)
-        time_s += 10.0
-        d.frames(3)
-        assert chosen(d) == 4 and stands_at(d, poses, 4)
-        assert d.steps == steps + 1
     finally:
         transition.now_s, transition.instant = clock, True
 
