@@ -1,7 +1,5 @@
 """Processes that were forked: what would wait for ever there says so; what works still works."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -67,7 +65,7 @@ print("parent", rasterizer.render(camera, (8, 8)).complete)
 """
 
 
-def outcomes(script: str, folder: Path) -> dict[str, str]:
+def outcomes(script, folder):
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT + script],
         cwd=folder, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True,

@@ -1,7 +1,5 @@
 """Nothing that lies beside the user, or beside the user's files, is ever run."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -30,7 +28,7 @@ SCENE = '[[objects]]\ntype = "model"\nfile = "models/large.obj"\n'
 class Here:
     """A folder to stand in, full of traps. Each that is imported leaves its name in `ran`."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder):
         self.folder = folder / "here"
         self.ran = folder / "ran"
         for place in (self.folder, self.folder / "models"):
@@ -52,7 +50,7 @@ class Here:
             "PYTHONPATH": str(ROOT),
         }
 
-    def run(self, *command: str, safe: bool = True) -> str:
+    def run(self, *command, safe=True):
         """Runs Python in the folder; gives its standard output. safe: as the installed `lucida`,
         in whose path the current folder is not."""
         self.ran.unlink(missing_ok=True)
@@ -67,7 +65,7 @@ class Here:
         assert done.stderr in ("", f"lucida: {compile_note.ONCE}\n")
         return done.stdout
 
-    def fill_cache(self) -> None:
+    def fill_cache(self):
         """Give the folder's user the kernels that this run has compiled, but for MISSING: one is
         enough to see what a process that compiles imports."""
         kernels = cache_folder()

@@ -1,7 +1,5 @@
 """Folders that only this user can write into; and that compiled kernels are kept in no others."""
 
-from __future__ import annotations
-
 import logging
 import os
 import stat
@@ -27,7 +25,7 @@ def mine(tmp_path):
     return folder
 
 
-def rights(folder: Path) -> int:
+def rights(folder):
     return stat.S_IMODE(folder.stat().st_mode)
 
 

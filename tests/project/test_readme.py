@@ -1,7 +1,5 @@
 """The examples of the README and of docs/ work: commands, files, Python, links."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path
@@ -23,13 +21,13 @@ TEXT = "\n".join(PAGES.values())
 RELEASED = "../../releases/latest/download/"  # on GitHub: what a release has put up
 
 
-def blocks(page: str) -> list[str]:
+def blocks(page):
     """The indented blocks of a page, without their indentation."""
     found = re.findall(r"(?:^    .*\n(?:\n(?=    ))*)+", PAGES[page], re.MULTILINE)
     return [re.sub(r"^    ", "", block, flags=re.MULTILINE) for block in found]
 
 
-def commands() -> list[str]:
+def commands():
     found = re.findall(r"^    (lucida\b(?! =).*)$", TEXT, re.MULTILINE)
     return [re.split(r"\s{2,}", line)[0] for line in found]
 

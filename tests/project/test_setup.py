@@ -1,7 +1,5 @@
 """scripts/setup.sh with stand-ins for Python and apt."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys
@@ -51,13 +49,11 @@ class TestScript:
         self.stand_in("python3.11", PYTHON)
         return tmp_path
 
-    def stand_in(self, name: str, content: str) -> None:
+    def stand_in(self, name, content):
         (self.tools / name).write_text(content)
         (self.tools / name).chmod(0o755)
 
-    def setup(
-        self, checkout: Path, *arguments: str, **environment: str
-    ) -> tuple[int, str, list[str]]:
+    def setup(self, checkout, *arguments, **environment):
         """Exit status, standard error, and the calls of Python and apt that changed something."""
         log = checkout / "log"
         log.write_text("")
@@ -125,6 +121,6 @@ class TestScript:
         assert "sudo apt-get install --no-install-recommends libosmesa6" in told  # has failed
         assert self.setup(checkout, "tests") == (0, "", [])
 
-    def with_apt(self) -> None:
+    def with_apt(self):
         self.stand_in("apt-get", APT_GET)
         self.stand_in("dpkg-query", DPKG_QUERY)

@@ -1,7 +1,5 @@
 """`pip install .`: the wheel holds everything, and its `lucida` works far from the checkout."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -22,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png"}
 
 
-def run(*command: object, **options) -> subprocess.CompletedProcess:
+def run(*command, **options):
     return subprocess.run(
         [str(part) for part in command],
         capture_output=True,
@@ -73,7 +71,7 @@ def environment():
     return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
 
 
-def of_the_packages() -> set[str]:
+def of_the_packages():
     links = {f"lucida/{name}": ROOT / name for name in ("app", "renderer", "shaders")}
     return {
         f"{place}/{path.relative_to(folder).as_posix()}"

@@ -34,11 +34,13 @@ from lucida.app.images.pair import image_view
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.instruments.outside import mouse as outside_mouse
 from lucida.app.state.app_state import AppState, History
+from lucida.app.state.options import Options
 from lucida.app.ui import toasts
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.window import main_window, viewer
 from lucida.app.window.canvas import WindowCanvas
+from lucida.app.window.files import Files
 from lucida.app.window.platform import start_platform
 from lucida.app.window.viewer import WindowRun
 from lucida.renderer.files import load_scene
@@ -86,7 +88,7 @@ class Driver:
         self._pictures = 0
         Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
         viewer.WindowCanvas = Glimpses
-        self.window.files.native = False  # the system's dialogs, which would wait for somebody
+        self.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop
 
         def listen(dropped):
@@ -98,6 +100,14 @@ class Driver:
     @property
     def state(self) -> AppState:
         return self.window.state
+
+    @property
+    def options(self) -> Options:
+        return self.window.state.options
+
+    @property
+    def files(self) -> Files:
+        return self.window.files
 
     @property
     def steps(self) -> int:
@@ -115,7 +125,7 @@ class Driver:
     def reset(self) -> None:
         """Every test begins with the same state and size, at rest."""
         self.window.history = History(self.start)
-        self.window.files.message = ""
+        self.files.message = ""
         self.window.shell.toasts.clear()
         self.stage.failed.errors.clear()
         self.window.motions.transition.stop()
@@ -142,6 +152,9 @@ class Driver:
     def change(self, **options: Any) -> None:
         """Change options of the state, as with_options() does."""
         self.window.change(with_options(self.state, **options))
+
+    def undo(self) -> None:
+        self.window.undo()
 
     def frames(self, count: int = 1) -> None:
         self.ctx.yield_(count)

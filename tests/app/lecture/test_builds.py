@@ -1,7 +1,5 @@
 """The builds of a step: read from the file, walked in the session, in the older format too."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 
@@ -9,7 +7,6 @@ import pytest
 from plain_text import plain_text
 from sample_lecture import read as read_text
 
-from lucida.app.lecture.model import Lecture
 from lucida.app.lecture.old_format import FIELDS
 from lucida.app.lecture.reading import BUILDS, BUILTIN, load_lecture
 from lucida.app.lecture.session import LectureSession
@@ -22,7 +19,7 @@ STEP = "[[steps]]\ntitle = 'T'\n"
 BUILD = "[[steps.builds]]\n"
 
 
-def read(text: str) -> Lecture:
+def read(text):
     return read_text(f"title = 'L'\n{text}")
 
 

@@ -1,14 +1,11 @@
 """Typed answers, and what exercises say to right and wrong ones."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from lucida.app.checking.mistakes.program import Mistake
 from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
 from lucida.app.lecture import exercises
 from lucida.app.lecture.exercises import (
@@ -96,16 +93,14 @@ PARALLEL = RayExercise(
 )
 
 
-def answer(origin: object, direction: object) -> dict[str, str]:
+def answer(origin, direction):
     return {
         "origin": ", ".join(map(repr, map(float, origin))),
         "direction": ", ".join(map(repr, map(float, direction))),
     }
 
 
-def mistakes(
-    camera: Camera, i: int, j: int, size: tuple[int, int], indexing: Indexing = Indexing.LECTURE
-) -> list[tuple[Mistake, Ray]]:
+def mistakes(camera, i, j, size, indexing=Indexing.LECTURE):
     """Return the pixel that each wrong line computes."""
     task = RayTask(camera.projection, indexing)
     program, known = ray_program(task), ray_values(camera, i, j, size, task)

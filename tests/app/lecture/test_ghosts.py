@@ -1,7 +1,5 @@
 """The drawing of a wrong answer to an exercise of the lecture, in the outside view."""
 
-from __future__ import annotations
-
 import pytest
 from both_lectures import both_lectures
 
@@ -11,7 +9,7 @@ from lucida.app.lecture.ghosts import ghosts
 STEPS = {step.title: step for step in both_lectures().steps if step.exercise is not None}
 
 
-def drawn(title: str, **texts: str):
+def drawn(title, **texts):
     step = STEPS[title]
     return ghosts(step.exercise, tuple(texts.items()), step.view.camera, 8.0)
 

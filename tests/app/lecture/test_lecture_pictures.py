@@ -1,36 +1,34 @@
 """Text and picture of the built-in lecture agree: what a step names is drawn, and large enough."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from both_lectures import both_lectures
 from plain_text import plain_text
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
-from lucida.app.instruments.outside.diagram import Dot, Eye, Item, Label, RayEnd
+from lucida.app.instruments.outside.diagram import Dot, Eye, Label, RayEnd
 from lucida.app.state.options.outside import OutsideOptions
 
 STEPS = {build.title: build for build in both_lectures().builds}  # at their last builds
 VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720
 
 
-def text_of(title: str) -> str:
+def text_of(title):
     return str(plain_text(STEPS[title].blocks))
 
 
-def options_of(title: str) -> OutsideOptions:
+def options_of(title):
     given = dict(STEPS[title].changes.get("outside", {}))
     return OutsideOptions(**given)
 
 
-def items_of(title: str) -> list[Item]:
+def items_of(title):
     step = STEPS[title]
     size = step.changes.get("images", {}).get("resolution", VIEW)
     return diagram(Content(step.view.for_size(size), size, options_of(title), 9.0))
 
 
-def labels_of(title: str) -> set[str]:
+def labels_of(title):
     return {item.text for item in items_of(title) if isinstance(item, Label)}
 
 

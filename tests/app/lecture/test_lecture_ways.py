@@ -1,7 +1,5 @@
 """A step's state, and its mark, do not depend on what was there before."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
@@ -15,7 +13,7 @@ from lucida.renderer.files import load_scene
 LECTURE = both_lectures()
 
 
-def spoiled(state: AppState) -> AppState:
+def spoiled(state):
     """Return a state as a user may have changed it."""
     changed = with_options(
         state,

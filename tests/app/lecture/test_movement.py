@@ -1,7 +1,5 @@
 """States between two states: exact ends, and legal ones between."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +20,7 @@ PARTS = np.linspace(0, 1, 21)
 EYE = Camera.look_at((4, 3, 5), (0, 0, 0))
 
 
-def movement(start: AppState, end: AppState) -> Movement:
+def movement(start, end):
     return Movement(start, end, scene_focus(start.scene), SIZE)
 
 

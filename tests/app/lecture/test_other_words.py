@@ -1,8 +1,6 @@
 """The second lecture's K, R and t are its step's camera, and what it calls wrong is what each
 mistake makes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,7 @@ def step():
     return next(step for step in steps if step.title == "Exercise: K, R and t")
 
 
-def answers(camera: Camera) -> dict[str, tuple[float, ...]]:
+def answers(camera):
     left, _, _, top = camera.viewport
     return {
         "e": camera.eye,

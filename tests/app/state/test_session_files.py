@@ -1,7 +1,5 @@
 """Sessions as files: whatever stands in the file's place, nothing is lost."""
 
-from __future__ import annotations
-
 import os
 import threading
 from dataclasses import replace
@@ -12,21 +10,19 @@ from option_changes import with_options
 from test_session import ARRANGEMENT
 from waiting import PATIENT_S, wait_for
 
-from lucida.app.state.app_state import AppState
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from lucida.app.window.session_store import Keeper, take_place
-from lucida.app.window.start import Start
 from lucida.renderer.files import load_scene
 from lucida.renderer.system.errors import LucidaError
 
 ROOT = Path(__file__).parents[3]
 
 
-def close(start: Start) -> None:
+def close(start):
     start.keeper.close(session_of(start.state, Arrangement()))
 
 
-def saved(folder: Path, state: AppState) -> Path:
+def saved(folder, state):
     place = take_place(folder)
     assert place is not None
     place.save(to_bytes(session_of(state, ARRANGEMENT)))
@@ -116,13 +112,6 @@ def test_two_windows_have_two_sessions(tmp_path, state, begin):
     again = begin(folder=tmp_path)
     assert again.state.scene.name == "still life"  # the first one's
     assert len(list(tmp_path.glob("session-*.json"))) == 2
-
-
-def test_where_no_session_can_be_kept_the_window_opens(tmp_path, begin):
-    (tmp_path / "file").write_text("")
-    start = begin(folder=tmp_path / "file")
-    assert start.keeper is None
-    assert start.state.scene.name == "still life"
 
 
 def test_a_save_that_is_stuck_does_not_replace_the_last_one(tmp_path, state, monkeypatch):

@@ -1,7 +1,5 @@
 """The window's state: history, switches, and edits that may be illegal for a while."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +22,7 @@ STATE = AppState.for_scene(SCENE)
 SKEWED = Camera(u=(1, 0.3, 0), v=(0, 2, 0.1), w=(0.2, 0, 1))
 
 
-def moved(x: float) -> AppState:
+def moved(x):
     return STATE.with_camera(replace(STATE.camera, eye=(x, 0, 5)))
 
 

@@ -1,7 +1,5 @@
 """A scene's page in a browser: its rays and images are the program's, and it asks for nothing."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace
@@ -33,7 +31,7 @@ from tests.support.textured import noise
 SIZE = (64, 48)
 
 
-def _painted() -> Scene:
+def _painted():
     """Return a scene with all that a surface can show."""
     corners = [(-2, -1, -2), (2, -1, -2), (2, 2, -2), (-2, 2, -2)]
     uv = [(-0.5, -0.5), (1.5, -0.5), (1.5, 1.5), (-0.5, 1.5)]
@@ -245,7 +243,7 @@ def test_a_lost_webgl_context_is_reported_and_comes_back(page, tab, moved):
     np.testing.assert_array_equal(page.image("raster", SIZE), image)
 
 
-def _screenshots(tab) -> list[bytes]:
+def _screenshots(tab):
     return [canvas.screenshot() for canvas in tab.locator(".drawn").all()]
 
 

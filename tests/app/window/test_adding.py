@@ -1,7 +1,5 @@
 """The instrument of docs/architecture.md, built from that text and opened in the window."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil
@@ -49,7 +47,7 @@ stepped(run, step)
 """
 
 
-def added(path: Path, after: str, line: str, name: str, module: str) -> None:
+def added(path, after, line, name, module):
     """Add a line, and an import of its name, to a file of the copy."""
     text = path.read_text()
     assert text.count(after) == 1, (path, after)

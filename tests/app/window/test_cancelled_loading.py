@@ -1,9 +1,6 @@
 """Scenes that take long to open: cancelled by a newer one, by the user, and by the window's end."""
 
-from __future__ import annotations
-
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -18,7 +15,7 @@ from lucida.renderer.system.cancelling import check_cancelled
 PATIENT_S = 120.0
 
 
-def wait_for(condition: Callable[[], object]) -> None:
+def wait_for(condition):
     end_s = time.monotonic() + PATIENT_S
     while not condition():
         assert time.monotonic() < end_s, "nothing happened"
@@ -45,7 +42,7 @@ def begun(monkeypatch):
     return events
 
 
-def scene_file(folder: Path, name: str) -> str:
+def scene_file(folder, name):
     path = folder / f"{name}.toml"
     path.write_text('[[objects]]\ntype = "sphere"\n')
     return str(path)

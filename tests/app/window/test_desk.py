@@ -1,15 +1,11 @@
 """The window on a desk: what only a real display, a window manager and a home that outlives a start
 can show."""
 
-from __future__ import annotations
-
 import json
 import sys
-from pathlib import Path
 
-import numpy as np
 import pytest
-from desk import Desk, Program, check_same
+from desk import Program, check_same
 
 pytestmark = [
     pytest.mark.timeout(1500),
@@ -19,14 +15,14 @@ COLUMN = 1100, 560  # in the lecture's column, where nothing is
 STATUS = -90  # rows: below is the status line, which has the time that an image took
 
 
-def at_rest(desk: Desk) -> np.ndarray:
+def at_rest(desk):
     """The screen with no widget under the mouse or marked for the keyboard."""
     desk.click(*COLUMN)
     desk.rest()
     return desk.still()
 
 
-def session(home: Path) -> dict[str, object]:
+def session(home):
     return json.loads((home / "CONFIG" / "lucida" / "session-1.json").read_bytes())
 
 

@@ -1,7 +1,5 @@
 """Recent files, folders, pictures: what the window does with files, without a window."""
 
-from __future__ import annotations
-
 import json
 import threading
 
@@ -29,7 +27,7 @@ PATIENT_S = 60.0
 # Recent files.
 
 
-def paths(recent: RecentFiles) -> list[str]:
+def paths(recent):
     return [str(path) for path in recent.entries]
 
 
@@ -99,10 +97,10 @@ def test_of_several_files_the_first_scene_and_the_first_view_are_taken(tmp_path)
 class Framebuffer:
     """moderngl's, as far as pictures need it: rows from below."""
 
-    def __init__(self, pixels: np.ndarray) -> None:
+    def __init__(self, pixels):
         self.pixels = pixels
 
-    def read(self, viewport: tuple, components: int, alignment: int) -> bytes:
+    def read(self, viewport, components, alignment):
         assert (viewport, components, alignment) == ((0, 0, 7, 5), 3, 1)
         return self.pixels[::-1].tobytes()
 

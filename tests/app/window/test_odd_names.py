@@ -1,7 +1,5 @@
 """Files whose names are not UTF-8, or are no names one would show: opened, remembered, told."""
 
-from __future__ import annotations
-
 import io
 import os
 import subprocess
@@ -40,7 +38,7 @@ def model(request, tmp_path):
     return os.fsdecode(path)
 
 
-def is_shown(text: str) -> bool:
+def is_shown(text):
     """Return True if windows and terminals show the name as it is."""
     return text.isprintable() and is_unicode(text)
 

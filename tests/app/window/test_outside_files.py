@@ -1,7 +1,5 @@
 """Files that a scene or a lecture names outside of its folder: told, asked about, refused."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -37,7 +35,7 @@ def folder(tmp_path):
     return mine
 
 
-def scene_file(folder: Path, *names: str) -> Path:
+def scene_file(folder, *names):
     path = folder / "scene.toml"
     tables = (f"[[objects]]\ntype = 'model'\nfile = '{name}'\n" for name in names)
     path.write_text("".join(tables).format(top=folder.parent))
@@ -168,18 +166,6 @@ def test_a_lecture_keeps_to_its_folder_unless_the_user_agrees(text, folder, caps
     assert not (folder / "slides").exists()
 
 
-def test_a_lecture_names_all_its_files_at_once(folder):
-    path = folder / "lecture.toml"
-    path.write_text(
-        "title = 'L'\n[scenes.s]\nobjects = [{type = 'model', file = '../m.obj'}]\n"
-        + STEP
-        + "scene = '../a.toml'\ncamera = '../b.toml'\n"
-    )
-    with pytest.raises(OutsideError) as caught:
-        load_lecture(path)
-    assert [file.name for file in caught.value.files] == ["m.obj", "a.toml", "b.toml"]
-
-
 # The command line.
 
 
@@ -212,7 +198,7 @@ def test_scene_says_what_a_scene_reads_and_where_its_files_are(folder, capsys):
     assert "reads" not in capsys.readouterr().out
 
 
-def files_of(source: str | Path) -> list[Path]:
+def files_of(source):
     origin = load_scene(source).origin
     assert origin is not None
     return list(origin.files)

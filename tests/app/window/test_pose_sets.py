@@ -1,9 +1,6 @@
 """A set of cameras from the command line, and from one start of the window to the next."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -43,7 +40,7 @@ stepped(run, step)
 """
 
 
-def transforms(folder: Path) -> Path:
+def transforms(folder):
     posed = [
         PosedCamera(Camera.look_at((x, 2.0, 6.0), (0, 0.5, 0), aspect=4 / 3), (80, 60), f"{x}.png")
         for x in (-2.0, 0.0, 1.0, 3.0)

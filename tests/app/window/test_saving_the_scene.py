@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -22,23 +21,23 @@ from lucida.renderer.system.file_dependencies import stamp
 class Host:
     """A window with a scene; files: what it is told."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path):
         path.write_text("[[objects]]\ntype = 'sphere'\n")
         self.state = AppState.for_scene(load_scene(path))
         self.said: list[str] = []
         self.known: list[object] = []
         self.message = ""
 
-    def rename(self, name: str) -> None:
+    def rename(self, name):
         self.state = replace(self.state, scene=set_scene_field(self.state.scene, "name", name))
 
-    def amend(self, state: AppState) -> None:
+    def amend(self, state):
         self.state = state
 
-    def say(self, text: str) -> None:
+    def say(self, text):
         self.said.append(text)
 
-    def know(self, saved) -> None:
+    def know(self, saved):
         self.known.append(saved.origin.files)
 
 
@@ -56,7 +55,7 @@ def gates(monkeypatch):
     return gates
 
 
-def told(saving: SceneSaving, host: Host) -> None:
+def told(saving, host):
     def is_idle():
         saving.poll(host)
         return not saving.busy

@@ -23,7 +23,6 @@ from lucida.app.window.taking import take_newer, take_opened
 from lucida.renderer.editing.changing import set_scene_field
 from lucida.renderer.editing.documents import save
 from lucida.renderer.files import load_scene
-from lucida.renderer.scene import Scene
 
 BALL = "[[objects]]\ntype = 'sphere'\n"
 MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"
@@ -31,10 +30,10 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
 class Clock:
-    def __init__(self) -> None:
+    def __init__(self):
         self.now_s = 100.0
 
-    def __call__(self) -> float:
+    def __call__(self):
         self.now_s += max(LOOK_S, REST_S)
         return self.now_s
 
@@ -56,7 +55,7 @@ def files(monkeypatch):
     files.close()
 
 
-def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
+def follow(files, scene, looks=4):
     """Return what some frames find in which the scene is shown."""
     for _ in range(looks):
         files.follow(scene)
@@ -65,7 +64,7 @@ def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
     return next((opened for opened in came if opened is not None), None)
 
 
-def newer(files: Files, scene: Scene) -> Scene:
+def newer(files, scene):
     """The scene that is read again."""
     opened = follow(files, scene)
     assert opened is not None
@@ -74,7 +73,7 @@ def newer(files: Files, scene: Scene) -> Scene:
     return read.scene
 
 
-def loaded(files: Files) -> Opened:
+def loaded(files):
     """Return the result of the loading that is under way."""
     while (opened := files.poll()) is None:
         pass
@@ -236,7 +235,7 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(path, fil
 class Window:
     """As much of the window as takes newer scenes."""
 
-    def __init__(self, state: AppState) -> None:
+    def __init__(self, state):
         self.history = History(state)
         self.files = self
         self.said: list[str] = []
@@ -244,23 +243,23 @@ class Window:
         self.renderers = SimpleNamespace(textures=None)
         self.opened: Opened | None = None
 
-    def poll(self) -> Opened | None:
+    def poll(self):
         return self.opened
 
-    def animate(self) -> None:
+    def animate(self):
         pass
 
     @property
-    def state(self) -> AppState:
+    def state(self):
         return self.history.present
 
-    def change(self, state: AppState) -> None:
+    def change(self, state):
         self.history = self.history.change(state)
 
-    def say(self, text: str) -> None:
+    def say(self, text):
         self.said.append(text)
 
-    def ask(self, text: str, answers) -> None:
+    def ask(self, text, answers):
         self.asked.append(text)
         (self.then,) = answers.values()
 

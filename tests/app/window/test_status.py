@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from lucida.app.ui.fields import Scale, fitting_format, number_format, short_number
+from lucida.app.ui.fields import short_number
 from lucida.app.window.status import (
     Status,
     agreement_text,
@@ -23,17 +23,6 @@ def test_texts_keep_their_width():
     numbers = (0.0, -0.8, 9.99951, -42.708, 99.996, 123.45, -999.96, 1e6, -1e12)
     assert {len(short_number(number)) for number in numbers} == {7}
     assert all(short_number(number)[0] in " -" for number in numbers)
-
-
-def test_fields_have_the_digits_that_their_scene_needs():
-    wide, small, distance = Scale(-9, 9), Scale(-0.4, 0.4), Scale(0.1, 10, logarithmic=True)
-    assert number_format(0.123, wide) % 0.1234 == "   0.123"
-    assert number_format(0.123, small) % 0.1234 == "  0.1234"
-    assert fitting_format(2e-5, distance, 20) == "2.000e-5"
-    assert number_format(6e-17, Scale(-1, 1)) % 6e-17 == "   0.000"
-    for value in (-999.9, -1e6, 1e12, -99.99, -150.0):
-        form = fitting_format(value, small, 20)
-        assert len(form % value if "%" in form else form) in (8, 9)
 
 
 def test_an_image_that_no_view_has_wanted_has_no_time():

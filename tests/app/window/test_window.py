@@ -1,7 +1,5 @@
 """The window, driven: real widgets, real events, real pixels, in processes of their own."""
 
-from __future__ import annotations
-
 import ast
 import functools
 import json
@@ -31,16 +29,14 @@ DRIVES = [
 ]
 
 
-def environment(folder: Path, display: str | None = None) -> dict[str, str]:
+def environment(folder, display=None):
     """No display unless one is given, and no settings of whoever runs the tests."""
     variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
     return variables | ({"DISPLAY": display} if display else {})
 
 
-def run(
-    arguments: list[str], folder: Path, display: str | None = None, limit_s: float = LIMIT_S
-) -> subprocess.CompletedProcess[str]:
+def run(arguments, folder, display=None, limit_s=LIMIT_S):
     return subprocess.run(
         [sys.executable, *arguments],
         cwd=folder,
@@ -51,7 +47,7 @@ def run(
     )
 
 
-def drive(folder: Path, *names: str) -> dict[str, str]:
+def drive(folder, *names):
     report = folder / "report.json"
     arguments = [str(DRIVER), str(report), str(folder), *names]
     done = run(arguments, folder, limit_s=DRIVES_LIMIT_S)
@@ -66,7 +62,7 @@ def driven(tmp_path_factory):
     return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
 
-def _of_topic(topic: str) -> type:
+def _of_topic(topic):
     """A class of tests: one process gets it whole, so that its drives share one window."""
 
     @drives_take_long
@@ -85,7 +81,7 @@ def test_closing_while_the_tracer_works(tmp_path):
     assert drive(tmp_path, "close_at_work") == {"close_at_work": ""}
 
 
-def check_picture(path: Path, size: tuple[int, int]) -> None:
+def check_picture(path, size):
     """Both images are there, side by side, and nearly equal."""
     picture = np.asarray(Image.open(path).convert("RGB")).astype(int)
     assert picture.shape == (size[1], size[0], 3)

@@ -1,12 +1,8 @@
 """Sessions of the real window: killed or closed, the next one goes on where it was."""
 
-from __future__ import annotations
-
 import json
 import signal
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from test_window import run
@@ -58,7 +54,7 @@ stepped(run, step)
 """
 
 
-def window(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+def window(folder, mode):
     return run(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
 
 

@@ -1,8 +1,5 @@
 """The view "Your code" from start to start: it goes on with its file, and leaves no process."""
 
-from __future__ import annotations
-
-import subprocess
 import sys
 from pathlib import Path
 
@@ -56,7 +53,7 @@ def viewing_ray(i, j, width, height, camera):
 """
 
 
-def opened(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+def opened(folder, mode):
     done = run(["-c", SCRIPT, str(folder), mode], folder)
     assert done.returncode == 0, done.stderr
     return done

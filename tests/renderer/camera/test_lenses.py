@@ -1,7 +1,5 @@
 """Lenses against OpenCV and pycolmap, and their inverses."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -50,7 +48,7 @@ def test_a_direction_appears_where_opencv_and_colmap_see_it(model, coefficients,
     assert np.ravel(np.stack([a, b], axis=1)).tolist() == pytest.approx(seen, abs=1e-14)
 
 
-def random_lens(model: str, rng: np.random.Generator) -> Lens:
+def random_lens(model, rng):
     drawn = {name: rng.normal() * SPREAD[name[0]] for name in MODELS[model]}
     return Lens(model, {"omega": rng.uniform(0.2, 2.5)} if model == "fov" else drawn)
 

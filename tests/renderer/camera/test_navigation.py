@@ -1,7 +1,5 @@
 """Orbit, pan, zoom and the switch of projection, for any basis."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -20,7 +18,7 @@ SIZE = (320, 200)
 points = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
 
 
-def seen_at(camera: Camera, point: tuple[float, float], parameter: float) -> np.ndarray:
+def seen_at(camera, point, parameter):
     """The world point on the ray through (x, y) of the image plane."""
     across = point[0] * np.asarray(camera.u) + point[1] * np.asarray(camera.v)
     if camera.is_parallel:
@@ -29,7 +27,7 @@ def seen_at(camera: Camera, point: tuple[float, float], parameter: float) -> np.
     return np.asarray(camera.eye) + parameter * direction
 
 
-def image_point(camera: Camera, world: np.ndarray) -> np.ndarray:
+def image_point(camera, world):
     row, column, _ = camera.project(world, SIZE)
     return np.array(camera.image_point(row, column, SIZE))
 

@@ -1,12 +1,9 @@
 """The options of both images, the numbers in their pixels, and the mark that stays."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from option_changes import with_options
 
 from lucida.app.images import imaging
@@ -54,7 +51,7 @@ def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
     assert whole == with_options(state, images={"center": (0.5, 0.5)})
 
 
-def frame() -> Frame:
+def frame():
     rng = np.random.default_rng(4)
     normal = rng.normal(size=(5, 7, 3)).astype(np.float32)
     normal /= np.linalg.norm(normal, axis=2, keepdims=True)
@@ -65,7 +62,7 @@ def frame() -> Frame:
     return Frame((7, 5), color, depth, normal, number)
 
 
-def srgb(light: NDArray[np.float64]) -> NDArray[np.float64]:
+def srgb(light):
     """Return IEC 61966-2-1's display values, 0 to 255, not rounded."""
     light = np.clip(light, 0, 1)
     return 255 * np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)

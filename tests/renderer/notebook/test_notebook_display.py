@@ -1,7 +1,5 @@
 """The display in notebooks: short texts, pictures, tables; nothing of a file's text as HTML."""
 
-from __future__ import annotations
-
 import base64
 import io
 import re
@@ -26,7 +24,7 @@ def frame():
         return tracer.render(scene.view.for_size(SIZE), SIZE)
 
 
-def opened(data: bytes) -> np.ndarray:
+def opened(data):
     return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
 
 

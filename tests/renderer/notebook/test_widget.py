@@ -1,10 +1,7 @@
 """The live widget without a browser: questions and answers over its comm, and its traitlets."""
 
-from __future__ import annotations
-
 import io
 import sys
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,11 +20,11 @@ MIDDLE = [30, 40]
 class Browser:
     """Play the browser: it asks until an image is ready, and keeps what is sent."""
 
-    def __init__(self, widget: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(self, widget, monkeypatch):
         self.widget, self.sent = widget, []
         monkeypatch.setattr(widget, "send", lambda told, data=(): self.sent.append((told, data)))
 
-    def asks(self, *moves: dict[str, Any], moving: bool = False) -> dict[str, Any]:
+    def asks(self, *moves, moving=False):
         problems = {}
         while True:
             content = {"ask": len(self.sent), "moves": moves, "moving": moving}
@@ -41,7 +38,7 @@ class Browser:
             moves = ()
 
     @property
-    def image(self) -> np.ndarray:
+    def image(self):
         return np.asarray(Image.open(io.BytesIO(self.sent[-1][1][0])))
 
 

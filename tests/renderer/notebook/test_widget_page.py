@@ -1,12 +1,9 @@
 """The widget's JavaScript in Chromium: a plain page whose model hands on to a real widget."""
 
-from __future__ import annotations
-
 import base64
 import json
 import shutil
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -76,7 +73,7 @@ def page(browser, monkeypatch):
     page.close()
 
 
-def shown(page: Any) -> str:
+def shown(page):
     """Return the full image, once nothing changes."""
     page.wait_for_timeout(300)
     page.locator(FULL).wait_for()

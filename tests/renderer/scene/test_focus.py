@@ -1,7 +1,5 @@
 """The focus of a scene, by hand: its middle, its extent, and what a picture holds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from lucida.renderer.scene.focus import Focus, object_corners, scene_focus
 from lucida.renderer.scene.model import Mesh, Scene, SceneObject, Sphere, View
 
 
-def balls(*spheres: tuple[float, float], eye: tuple[float, float, float] = (0, 0, 0)) -> Scene:
+def balls(*spheres, eye=(0, 0, 0)):
     """Spheres on the x axis, as (x, radius)."""
     objects = tuple(SceneObject(Sphere((x, 0, 0), radius)) for x, radius in spheres)
     return Scene(objects, view=View(Camera(eye=eye)))

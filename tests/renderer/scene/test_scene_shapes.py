@@ -1,13 +1,11 @@
 """Procedural meshes: closed, outward, of the volume and area that geometry gives them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 
-from lucida.renderer.scene import Mesh, shapes
+from lucida.renderer.scene import shapes
 from lucida.renderer.scene.normals import face_normals, merge_positions
 from lucida.renderer.system.errors import LucidaError
 
@@ -21,7 +19,7 @@ CLOSED = {
 }
 
 
-def volume(mesh: Mesh) -> float:
+def volume(mesh):
     a, b, c = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 

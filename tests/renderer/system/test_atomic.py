@@ -1,10 +1,7 @@
 """Atomic file writes: the old file or the new one, and nothing left behind."""
 
-from __future__ import annotations
-
 import os
 import time
-from pathlib import Path
 
 import pytest
 
@@ -12,12 +9,12 @@ from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
 
-def write(path: Path, content: bytes) -> None:
+def write(path, content):
     with atomic_write(path) as file:
         file.write(content)
 
 
-def names(folder: Path) -> list[str]:
+def names(folder):
     return sorted(entry.name for entry in folder.iterdir())
 
 

@@ -6,8 +6,6 @@ must give what one ray after another gives, in float64: the same triangle wherev
 is not on an edge, to what float32 can tell of edges.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +22,7 @@ from lucida.renderer.trace.threads.thread_pool import new_control
 SIZES = [(230, 170), (90, 70), (33, 47), (16, 16), (9, 5)]
 
 
-def rough(rows: int = 150, columns: int = 220) -> Mesh:
+def rough(rows=150, columns=220):
     """A closed ball of many small dents: 65,000 triangles, far denser at its poles."""
     mesh = ball(rows, columns)
     v = np.asarray(mesh.vertices, float)
@@ -58,7 +56,7 @@ def alone():
     pair.close()
 
 
-def outside(projection: str) -> Camera:
+def outside(projection):
     camera = Camera.look_at((2.6, 1.7, 3.1), (0.1, 0.1, 0.2), fov_y_deg=40)
     if projection == "parallel":
         return replace(camera, projection=projection, viewport=(-1.7, 1.7, -1.4, 1.4))

@@ -1,7 +1,5 @@
 """Shadows and mirrors against answers on paper."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -24,7 +22,7 @@ SIZE = (120, 120)
 CENTER, RADIUS = np.array([0.2, 1.3, -0.3]), 0.8
 
 
-def balls_distance(origin: np.ndarray, direction: np.ndarray) -> np.ndarray:
+def balls_distance(origin, direction):
     """Return the distance at which rays pass the ball's surface, ahead of their origins.
 
     It is negative for a hit.
@@ -35,7 +33,7 @@ def balls_distance(origin: np.ndarray, direction: np.ndarray) -> np.ndarray:
     return np.linalg.norm(to_center - ahead[..., None] * unit, axis=-1) - RADIUS
 
 
-def floor_points(depth: np.ndarray) -> np.ndarray:
+def floor_points(depth):
     origin, direction = CAMERA.rays(SIZE)
     return origin + depth[..., None] * direction
 

@@ -4,8 +4,6 @@ Packets are float32: a pixel may differ from the float64 reference only where a 
 pixel, in some direction, decides what is seen.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +15,6 @@ from trace_reference import ball, closest, random_basis, random_scene, scene_of
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import MODELS, Lens
-from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.trace import Tracer
@@ -43,7 +40,7 @@ FROM = Camera.look_at((1.2, 0.9, 1.7), (0.0, 0.2, 0.0))
 VISIBILITY = ("depth", "primitive")
 
 
-def seen_through(lens: Lens, camera: Camera = FROM) -> Camera:
+def seen_through(lens, camera=FROM):
     viewport = WIDE.get(lens.model, (-0.8, 0.75, -0.55, 0.6))
     return replace(camera, lens=lens, distance=1.0, viewport=viewport)
 
@@ -55,7 +52,7 @@ def both():
     pair.close()
 
 
-def check(pair: Both, camera: Camera, size: tuple[int, int]) -> Frame:
+def check(pair, camera, size):
     """Return the packets' image, which must be the reference's."""
     reference, packets = pair.frames(camera, size)
     same = packets.primitive == reference.primitive

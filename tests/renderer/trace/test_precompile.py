@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -64,7 +63,7 @@ def test_nothing_is_compiled_beyond_the_parts_of_a_task(options, scene, camera):
 class Children:
     """Replaces the compiling processes. Each ends with a status at once, or never (None)."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    def __init__(self, monkeypatch, folder):
         self.status: int | None = None
         self.started: list[subprocess.Popen[bytes]] = []
         self.notes: list[bool] = []
@@ -73,7 +72,7 @@ class Children:
         monkeypatch.setattr(precompile, "start_child", self.start)
         monkeypatch.setattr(precompile.compile_note, "begin", lambda kept: self.notes.append(kept))
 
-    def start(self, *arguments: str) -> subprocess.Popen[bytes]:
+    def start(self, *arguments):
         code = "input()" if self.status is None else f"exit({self.status})"
         child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE)
         self.started.append(child)
@@ -99,7 +98,7 @@ def test_a_part_is_marked_when_its_process_succeeds(children, tmp_path, status):
     assert children.notes == [True] * len(children.started)
 
 
-def no_child(*arguments: str) -> None:
+def no_child(*arguments):
     raise OSError
 
 

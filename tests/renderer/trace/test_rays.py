@@ -1,7 +1,5 @@
 """Single rays on the wide trees against the scalar reference."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scenes import crowd
@@ -27,7 +25,7 @@ def team():
     made.close()
 
 
-def stretched() -> Scene:
+def stretched():
     mesh = ball(20, 30)
     random = np.random.default_rng(5)
     objects = [SceneObject(Sphere((0, 2, 0), 0.5))]
@@ -39,12 +37,12 @@ def stretched() -> Scene:
     return Scene(tuple(objects))
 
 
-def alone() -> Scene:
+def alone():
     """One object where its mesh is, for which there is neither an upper tree nor a transform."""
     return Scene((SceneObject(ball(40, 60)),))
 
 
-def alone_and_moved() -> Scene:
+def alone_and_moved():
     return Scene(stretched().objects[2:3])
 
 

@@ -1,7 +1,5 @@
 """Lanes inside kernels against NumPy; and the same without the newest instructions."""
 
-from __future__ import annotations
-
 import os
 import platform
 import subprocess
@@ -54,7 +52,7 @@ def comparisons(x, y, masks):
     masks[6] = simd.bits(~(a < b) & simd.mask_of(0x0FF0))
 
 
-def as_bits(lanes: np.ndarray) -> int:
+def as_bits(lanes):
     return int(np.sum(lanes.astype(int) << np.arange(16)))
 
 

@@ -1,7 +1,5 @@
 """Frames' memory: used again, but never while anybody can see what is in it."""
 
-from __future__ import annotations
-
 import threading
 
 import numpy as np
@@ -16,7 +14,7 @@ from lucida.renderer.trace.arguments.buffers import Buffers
 LAYOUTS = [((20, 30, 3), np.float32), ((0, 0), np.int32), ((20, 30), np.int32)]
 
 
-def address(array: np.ndarray) -> int:
+def address(array):
     return array.ctypes.data
 
 

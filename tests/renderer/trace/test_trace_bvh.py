@@ -1,27 +1,25 @@
 """The tree: every primitive once, every box around what is below it, for any scene."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from trace_reference import cast, random_scene, scene_of, tree_of
 
-from lucida.renderer.scene.flat import FlatScene, flatten
-from lucida.renderer.scene.model import Mesh, Scene, Shape, Sphere
-from lucida.renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Mesh, Scene, Sphere
+from lucida.renderer.trace.bvh.binary import MAX_DEPTH, build
 from lucida.renderer.trace.threads.thread_pool import Team
 
 
-def binary(flat: FlatScene, team: Team, leaf_size: int = 4) -> Bvh:
+def binary(flat, team, leaf_size=4):
     """The tree over a scene whose meshes all stand at the origin."""
     spheres = flat.spheres.astype(np.float32)
     spheres.setflags(write=False)
     return build(flat.vertices, flat.faces, spheres, team, leaf_size)
 
 
-def primitive_boxes(flat: FlatScene) -> tuple[np.ndarray, np.ndarray]:
+def primitive_boxes(flat):
     corners = flat.vertices[flat.faces].astype(float).reshape(-1, 3, 3)
     spheres = flat.spheres.astype(np.float32).astype(float)
     centre, radius = spheres[:, :3], spheres[:, 3:]
@@ -29,7 +27,7 @@ def primitive_boxes(flat: FlatScene) -> tuple[np.ndarray, np.ndarray]:
     return low, np.concatenate([corners.max(axis=1), centre + radius])
 
 
-def check(flat: FlatScene, bvh: Bvh, leaf_size: int) -> None:
+def check(flat, bvh, leaf_size):
     count = len(flat.faces) + len(flat.spheres)
     assert sorted(bvh.order) == list(range(count))
     low, high = primitive_boxes(flat)
@@ -62,11 +60,11 @@ def check(flat: FlatScene, bvh: Bvh, leaf_size: int) -> None:
 RANDOM = random_scene(np.random.default_rng(1))
 
 
-def unmoved(shape: Shape) -> Shape:
+def unmoved(shape):
     return replace(shape, transform=np.eye(4)) if isinstance(shape, Mesh) else shape
 
 
-def soup(count: int, seed: int = 0, spread: float = 1.0) -> Scene:
+def soup(count, seed=0, spread=1.0):
     random = np.random.default_rng(seed)
     centres = random.normal(size=(count, 1, 3)) * spread
     vertices = (centres + 0.1 * random.normal(size=(count, 3, 3))).reshape(-1, 3)
@@ -115,7 +113,7 @@ def test_the_depth_is_bounded_where_sizes_explode():
     assert bvh.depth <= MAX_DEPTH + 32
 
 
-def nodes_of(bvh: Bvh) -> np.ndarray:
+def nodes_of(bvh):
     """Each node's box and, of a leaf, its primitives' places; sorted: not by place in memory."""
     leaves = np.where(bvh.links[:, 1:] > 0, bvh.links, 0)
     rows = np.concatenate([bvh.bounds, leaves], axis=1)

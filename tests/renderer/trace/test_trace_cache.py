@@ -1,7 +1,5 @@
 """The cache of compiled kernels: read-only installations, no folder at all, edits, two at once."""
 
-from __future__ import annotations
-
 import errno
 import os
 import shutil
@@ -51,7 +49,7 @@ def installation(tmp_path):
     return package
 
 
-def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.Popen:
+def start(installation, cache, script=SCRIPT):
     env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
     env |= {
         "PYTHONPATH": str(installation.parents[1]),
@@ -66,7 +64,7 @@ def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.P
     )  # fmt: skip
 
 
-def finish(process: subprocess.Popen) -> str:
+def finish(process):
     out, err = process.communicate(timeout=HANG_S)
     assert process.returncode == 0, err
     assert err == ""
@@ -118,7 +116,7 @@ def test_a_kernel_that_cannot_be_stored_is_reported(tmp_path, monkeypatch):
     assert compile_note.note() == compile_note.EACH_TIME
 
 
-def full(self: object, signature: object, data: object) -> None:
+def full(self, signature, data):
     raise OSError(errno.ENOSPC, "No space left on device")
 
 

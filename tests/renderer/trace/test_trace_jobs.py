@@ -10,7 +10,6 @@ import threading
 import time
 import weakref
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,10 +17,9 @@ from import_path import import_path
 from trace_reference import scene_of
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images.frame import Frame
-from lucida.renderer.scene.model import Mesh, Scene, Sphere
+from lucida.renderer.scene.model import Mesh, Sphere
 from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.trace import TraceJob, Tracer
+from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.arguments.image import BLOCK
 from lucida.renderer.trace.bvh import instances
 from lucida.renderer.trace.threads.thread_pool import Team
@@ -34,13 +32,13 @@ HANG_S = 60  # a failure, not a measurement
 class Gate:
     """Holds up the building of a mesh's tree. ends: how each one that was held up has ended."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(self, monkeypatch):
         self.reached, self.opened = threading.Event(), threading.Event()
         self.ends: list[str] = []
         self.build = instances.tree_of_mesh
         self.monkeypatch = monkeypatch
 
-    def hold(self, tracer: Tracer, scene: Scene) -> TraceJob:
+    def hold(self, tracer, scene):
         """Draw an image; then return a job that waits for the tree of another scene."""
         tracer.render(FRONT, SMALL)
         self.monkeypatch.setattr(instances, "tree_of_mesh", self)
@@ -49,7 +47,7 @@ class Gate:
         assert self.reached.wait(HANG_S)
         return job
 
-    def __call__(self, *arguments: Any) -> Any:
+    def __call__(self, *arguments):
         self.reached.set()
         assert self.opened.wait(HANG_S)
         self.ends.append("given up")
@@ -63,12 +61,12 @@ def gate(monkeypatch):
     return Gate(monkeypatch)
 
 
-def one_triangle(depth: float) -> Scene:
+def one_triangle(depth):
     vertices = np.array([[-9, -9, depth], [9, -9, depth], [0, 20, depth]], float)
     return scene_of(Mesh(vertices, np.array([[0, 1, 2]])))
 
 
-def nearest(frame: Frame) -> float:
+def nearest(frame):
     """The distance from the eye of the nearest hit, along the view's direction."""
     return float(frame.channel("depth").min()) * FRONT.distance
 
@@ -145,7 +143,7 @@ def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
         assert nearest(wanted.result()) == pytest.approx(4.5, rel=1e-3)
 
 
-def slow_scene() -> Scene:
+def slow_scene():
     """Each ray tries all of 5000 equal triangles: an image of LARGE takes minutes."""
     vertices = np.array([[-9, -9, 0], [9, -9, 0], [0, 20, 0]], float)
     return scene_of(Mesh(vertices, np.tile([0, 1, 2], (5000, 1))))
@@ -158,7 +156,7 @@ def slow():
         yield tracer
 
 
-def wait_until_tracing(job: TraceJob) -> None:
+def wait_until_tracing(job):
     deadline = time.monotonic() + HANG_S
     while job.progress == 0 and time.monotonic() < deadline:
         time.sleep(0.001)

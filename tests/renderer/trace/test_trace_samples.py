@@ -20,10 +20,10 @@ CAMERA = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=30, aspect=4 / 3)
 class Recorder:
     """Draws images whose colour is the camera's shift, in pixels."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.asked: list[tuple[str, ...]] = []
 
-    def __call__(self, camera, size, channels, progress) -> Frame:
+    def __call__(self, camera, size, channels, progress):
         self.asked.append(channels)
         left, right, bottom, top = camera.viewport
         columns = (left - CAMERA.viewport[0]) / (right - left) * size[0]

@@ -1,7 +1,5 @@
 """Single shapes whose image is known, and scenes at the limits."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -10,7 +8,6 @@ import pytest
 from trace_reference import cast, scene_of, tree_of
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
@@ -23,14 +20,12 @@ FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
 QUAD = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
 
 
-def quad(scale: float = 1.0, z: float = 0.0) -> Mesh:
+def quad(scale=1.0, z=0.0):
     vertices = np.array(QUAD, float) * scale + (0, 0, z)
     return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
 
 
-def draw(
-    scene: Scene, camera: Camera = FRONT, size: tuple[int, int] = (48, 48), method="packets"
-) -> Frame:
+def draw(scene, camera=FRONT, size=(48, 48), method="packets"):
     with Tracer(scene, threads=2, method=method) as tracer:
         frame = tracer.render(camera, size, ALL)
     assert frame.complete

@@ -1,24 +1,22 @@
 """No ray from inside a closed mesh gets out, wherever it is aimed."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from trace_reference import ball, cast, random_basis, scene_of, tree_of
 
-from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import Mesh
 from lucida.renderer.scene.positions import world_vertices
 
 
-def leaks(flat: FlatScene, eye: np.ndarray, targets: np.ndarray, scale: float = 1.0) -> int:
+def leaks(flat, eye, targets, scale=1.0):
     directions = (targets - eye) * scale
     origins = np.ascontiguousarray(np.broadcast_to(eye, directions.shape))
     _, primitive, _, _ = cast(tree_of(flat), origins, directions, 0.0, np.inf)
     return int((primitive < 0).sum())
 
 
-def closed_mesh(kind: str) -> Mesh:
+def closed_mesh(kind):
     mesh = ball()
     if kind == "ball":
         return mesh

@@ -1,7 +1,5 @@
 """The wide tree and the two levels: every triangle once, inside its boxes; what moves, moves."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 
@@ -17,7 +15,6 @@ from lucida.renderer.trace.bvh.bvh16 import (
     FIRST_LEAF,
     NO_CHILD,
     WIDTH,
-    WideTree,
     collapse,
     tree_of_boxes,
     tree_of_mesh,
@@ -26,7 +23,7 @@ from lucida.renderer.trace.bvh.instances import Instances
 from lucida.renderer.trace.threads.thread_pool import Team
 
 
-def wide(mesh: Mesh, threads: int = 2) -> WideTree:
+def wide(mesh, threads=2):
     team = Team(threads)
     try:
         return tree_of_mesh(mesh.vertices, mesh.faces, team)
@@ -34,12 +31,12 @@ def wide(mesh: Mesh, threads: int = 2) -> WideTree:
         team.close()
 
 
-def top_bounds(instances: Instances) -> np.ndarray:
+def top_bounds(instances):
     """Return the bounds of the upper tree, in the world."""
     return instances.bounds[-1] + instances.world_from_space[-1, :3, 3]
 
 
-def shards(count: int, seed: int = 1) -> Mesh:
+def shards(count, seed=1):
     random = np.random.default_rng(seed)
     corners = random.uniform(-1, 1, (count, 1, 3)) + random.normal(scale=0.03, size=(count, 3, 3))
     return Mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
@@ -145,11 +142,11 @@ def test_boxes_are_leaves_of_one(count):
     assert np.array_equal(found, np.concatenate([low[item], high[item]], axis=1))
 
 
-def scene_of(*shapes: Mesh | Sphere) -> Scene:
+def scene_of(*shapes):
     return Scene(tuple(SceneObject(shape) for shape in shapes))
 
 
-def placed(mesh: Mesh, x: float) -> Mesh:
+def placed(mesh, x):
     """The same arrays elsewhere."""
     transform = np.eye(4)
     transform[0, 3] = x

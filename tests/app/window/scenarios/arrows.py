@@ -1,8 +1,6 @@
 """The arrow keys: who gets them, wherever the mouse rests and whatever has been clicked before."""
 
-from __future__ import annotations
-
-from window_driver import RASTER, RAY, Driver, Key
+from window_driver import RASTER, RAY, Key
 
 from lucida.app.instruments.stepper.view import STEPPER, StepperView
 
@@ -11,18 +9,18 @@ F3, ESCAPE = Key.f3, Key.escape
 PALETTE = Key.mod_ctrl | Key.mod_shift | Key.p
 
 
-def enter(d: Driver, name: str) -> None:
+def enter(d, name):
     """A layout, with a pixel marked."""
     d.layout(name)
     d.change(marked=START)
     d.settle()
 
 
-def rest(d: Driver, name: str = RASTER) -> None:
+def rest(d, name=RASTER):
     d.move_to(d.point(name, 0.4, 0.4))
 
 
-def right(d: Driver) -> int:
+def right(d):
     """By how many columns one press moves the mark."""
     before = d.state.marked
     d.press(Key.right_arrow)
@@ -31,10 +29,10 @@ def right(d: Driver) -> int:
     return after[1] - before[1]
 
 
-def stands(d: Driver) -> tuple[int, int]:
+def stands(d):
     found = d.window.views[STEPPER]
     assert isinstance(found, StepperView)
-    return d.state.options.stepper.steps
+    return d.options.stepper.steps
 
 
 def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d):
@@ -53,13 +51,13 @@ def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d):
 
 def drive_a_box_over_the_views_keeps_its_keys(d):
     enter(d, "Side by side")
-    d.window.files.open_dialog()
+    d.files.open_dialog()
     d.frames(3)
-    assert d.window.files.dialog.is_open
+    assert d.files.dialog.is_open
     d.move_to(d.point(RASTER, 0.02, 0.02))
     assert [right(d), right(d)] == [0, 0]
     d.press(ESCAPE)
-    assert not d.window.files.dialog.is_open
+    assert not d.files.dialog.is_open
     assert [right(d), right(d)] == [1, 1]
 
 

@@ -1,10 +1,8 @@
 """Things that nobody does on purpose: windows without room, mistakes in a view, random events."""
 
-from __future__ import annotations
-
 import moderngl
 from imgui_bundle import imgui
-from window_driver import SIZE, Driver
+from window_driver import SIZE
 
 from lucida.app.cameras.camera_panel.view import CAMERA
 from lucida.app.images.pair.view import RAY
@@ -12,7 +10,7 @@ from lucida.app.ui import layout
 from lucida.app.window.platform import set_size
 
 
-def resize(d: Driver, size: tuple[int, int]) -> None:
+def resize(d, size):
     """Resize the window, in its own thread, and wait until that is drawn."""
     callbacks = d.run.params.callbacks
 

@@ -1,14 +1,11 @@
 """Cameras of other programs in the window: copied, pasted, dropped, saved; scenes exported; K, R
 and t in the panel."""
 
-from __future__ import annotations
-
 import threading
-from pathlib import Path
 
 import numpy as np
 from imgui_bundle import imgui
-from window_driver import PATIENT_S, Driver, Key
+from window_driver import PATIENT_S, Key
 
 from lucida.app.window import exporting
 from lucida.renderer.camera.camera import Camera
@@ -24,7 +21,7 @@ AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SI
 LENS = '{"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}'
 
 
-def only_sections(d: Driver, *names: str) -> None:
+def only_sections(d, *names):
     for other in ("Look at", "K, R and t"):
         d.ctx.item_close(f"{PANEL}/{other}")
     d.frames(2)
@@ -33,25 +30,25 @@ def only_sections(d: Driver, *names: str) -> None:
         d.frames(2)
 
 
-def said(d: Driver) -> str:
+def said(d):
     texts = d.window.shell.toasts.texts
     return texts[-1] if texts else ""
 
 
-def answer(d: Driver, words: str) -> None:
+def answer(d, words):
     d.click(f"//##message/{words}")
 
 
-def save_as(d: Driver, action: str, path: Path) -> None:
+def save_as(d, action, path):
     """Through the menu and the window's own dialog, until the file is there."""
     d.menu(f"File/{action}")
-    assert d.window.files.dialog.is_open
+    assert d.files.dialog.is_open
     d.ctx.key_chars_replace_enter(str(path))
-    d.until(lambda: path.exists() and not d.window.files.busy)
+    d.until(lambda: path.exists() and not d.files.busy)
     d.frames(3)
 
 
-def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> bool:
+def same_camera(one, other, size=SIZE):
     points = np.random.default_rng(1).uniform(-1, 1, (9, 3))
     seen, wanted = one.project(points, size), other.project(points, size)
     return np.allclose(seen.row, wanted.row) and np.allclose(seen.column, wanted.column)
@@ -71,7 +68,7 @@ def drive_a_pasted_matrix_asks_for_its_meaning(d):
     pose = np.linalg.inv(AIMED.camera_from_world) * (1, -1, -1, 1)
     imgui.set_clipboard_text(str(pose.tolist()))
     d.press(CTRL | Key.v)
-    question = d.window.files.question
+    question = d.files.question
     assert len(question.answers) == 4
     d.picture()
     opencv = "camera to world, y down"
@@ -91,7 +88,7 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d):
     d.frames(3)
     assert same_camera(d.state.camera, AIMED)
     assert said(d).startswith("The camera is plain.yml's: OpenCV's K, R and t")
-    assert d.window.files.question is None
+    assert d.files.question is None
     before = d.state
     d.drop([str(bent)])
     d.until(lambda: d.state.camera != before.camera)
@@ -127,7 +124,7 @@ def drive_the_camera_is_saved_in_every_format(d):
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
         d.until(lambda path=path: str(path) in said(d))
-        assert not d.window.files.message
+        assert not d.files.message
     for path in (d.folder / "saved.yml", d.folder / "model"):
         posed = read_cameras(path).cameras[0]
         assert posed.size == size
@@ -137,7 +134,7 @@ def drive_the_camera_is_saved_in_every_format(d):
 def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d):
     path = d.folder / "out.glb"
     d.press(CTRL | Key.e)
-    assert d.window.files.dialog.is_open
+    assert d.files.dialog.is_open
     d.ctx.key_chars_replace_enter(str(path))
     exports = d.window.shell.exports
     d.until(lambda: exports.listing is not None)
@@ -172,7 +169,7 @@ def drive_a_long_export_is_cancelled(d):
         d.frames(3)
         d.picture()
         d.press(CTRL | Key.e)  # one at a time
-        assert not d.window.files.dialog.is_open
+        assert not d.files.dialog.is_open
         assert "still being written" in said(d)
         d.press(Key.escape)
         gate.set()
@@ -188,10 +185,10 @@ def drive_a_long_export_is_cancelled(d):
 def drive_k_r_and_t_are_read_switched_and_copied(d):
     only_sections(d, "K, R and t")
     shown, size = d.renderers.camera(d.state), d.renderers.size
-    assert d.state.options.pixel_origin == "center"
+    assert d.options.pixel_origin == "center"
     for origin, button in (("corner", "corners"), ("center", "centres")):
         d.click(f"{PANEL}/{button}")
-        assert d.state.options.pixel_origin == origin
+        assert d.options.pixel_origin == origin
         d.click(f"{PANEL}/Copy K, R, t")
         names = {}
         exec(imgui.get_clipboard_text(), names)

@@ -1,23 +1,20 @@
 """The camera panel beyond its plain numbers: what is coupled, presets, lenses, passages."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from held_clock import Clock
 from imgui_bundle import imgui
-from window_driver import Driver, Key, changed
+from window_driver import Key, changed
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS
 from lucida.app.cameras.travel import DURATION_S
 from lucida.app.ui import typed
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
 
 SIZE = (400, 300)
 
 
-def size_at_focus(d: Driver, camera: Camera) -> float:
+def size_at_focus(d, camera):
     """Return the size in pixels at which a length at the focus is seen."""
     focus = np.asarray(d.window.focus.center)
     points = np.array([focus, focus + np.asarray(camera.u)])
@@ -25,18 +22,18 @@ def size_at_focus(d: Driver, camera: Camera) -> float:
     return float(np.hypot(np.diff(seen.row), np.diff(seen.column))[0])
 
 
-def open_section(d: Driver, name: str) -> None:
+def open_section(d, name):
     d.ctx.item_open(f"//Camera/{name}")
     d.frames(2)
 
 
-def close_sections(d: Driver) -> None:
+def close_sections(d):
     for name in ("Look at", "K, R and t", "Lens"):
         d.ctx.item_close(f"//Camera/{name}")
     d.frames(2)
 
 
-def right_click_menu(d: Driver, field: str, entry: str) -> None:
+def right_click_menu(d, field, entry):
     d.click(d.field(field), imgui.MouseButton_.right)
     d.click(f"//$FOCUSED/{entry}")
 
@@ -175,7 +172,7 @@ def drive_a_lens_is_chosen_dragged_and_taken_off(d):
     assert d.state.camera.is_parallel
     assert d.state.camera.lens is None
     assert any("The lens is off" in text for text in d.window.shell.toasts.texts)
-    d.window.undo()
+    d.undo()
     d.menu("Camera/Lens/No lens")
     camera = d.state.camera
     assert (camera.lens, camera.distance) == (None, d.start.camera.distance)

@@ -1,37 +1,33 @@
 """The compare view: false colours, wipe, counts, steps. The ray image is tampered with."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import imgui
-from window_driver import SIZE, Driver, Key
+from window_driver import SIZE, Key
 
 from lucida.app.images.compare import comparing
 from lucida.app.images.compare.view import waiting
 from lucida.app.images.progressive_ray import RayImage
-from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, SHADING, Comparison
+from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, SHADING
 from lucida.renderer.images.difference import false_color, signed_difference
 from lucida.renderer.images.frame import Frame
 
 NAME = "Compare"
-WORST: Pixel = (40, 60)
+WORST = (40, 60)
 SHIFT = Key.mod_shift
 
 
-def brightened(color: np.ndarray) -> None:
+def brightened(color):
     """A block that is brighter than it should be, and one pixel that is much brighter."""
     color[20:60, 30:90] += 0.05
     color[WORST] += 3.0
 
 
 @contextmanager
-def tampered(d: Driver, change: Callable[[np.ndarray], None]) -> Iterator[None]:
+def tampered(d, change):
     """As if the tracer had made a mistake, in full images only."""
     live, take = d.renderers.live, d.renderers.live.poll
 
@@ -52,7 +48,7 @@ def tampered(d: Driver, change: Callable[[np.ndarray], None]) -> Iterator[None]:
         trace_again(d)
 
 
-def trace_again(d: Driver) -> None:
+def trace_again(d):
     """Another camera, which differs by nothing that can be seen."""
     x, y, z = d.state.camera.eye
     camera = replace(d.state.camera, eye=(x + 1e-5, y, z))
@@ -60,7 +56,7 @@ def trace_again(d: Driver) -> None:
     d.settle()
 
 
-def show(d: Driver, **options: object) -> None:
+def show(d, **options):
     """The layout with the view in its middle, in some state of its options; absolute, if they do
     not say."""
     d.layout(NAME)
@@ -68,7 +64,7 @@ def show(d: Driver, **options: object) -> None:
     d.settle()
 
 
-def shown(d: Driver) -> np.ndarray:
+def shown(d):
     """The pixels of the view's image, int16, where they stand for the image's one to one."""
     if not d.stay:
         d.move_to((3, SIZE[1] - 3))
@@ -81,12 +77,12 @@ def shown(d: Driver) -> np.ndarray:
     return cut
 
 
-def comparison(d: Driver) -> Comparison:
+def comparison(d):
     verdict = d.renderers.verdict(d.state)
     return verdict.comparison
 
 
-def pictures(d: Driver) -> tuple[np.ndarray, np.ndarray]:
+def pictures(d):
     """Both images as they must appear, uint8, from the numbers that were compared."""
     from lucida.renderer.images import to_srgb8
 
@@ -94,12 +90,12 @@ def pictures(d: Driver) -> tuple[np.ndarray, np.ndarray]:
     return to_srgb8(both.raster.color), to_srgb8(both.ray.color)
 
 
-def close(one: np.ndarray, two: np.ndarray, part: float = 0.001) -> bool:
+def close(one, two, part=0.001):
     """Return True if two pictures are the same, up to rounding and labels over them."""
     return bool((np.abs(one - two.astype(np.int16)).max(axis=-1) > 2).mean() <= part)
 
 
-def below_labels(image: np.ndarray) -> np.ndarray:
+def below_labels(image):
     """The part of a picture over which no label is written."""
     return image[60:]
 
@@ -147,7 +143,7 @@ def check_counts(d):
     assert pane_low.x < low.x < high.x < pane_high.x, "it is in sight"
     assert pane_low.y < low.y < high.y < pane_high.y
     assert d.steps == count + 1
-    d.window.undo()
+    d.undo()
     assert d.state.marked is None
 
 
@@ -163,7 +159,7 @@ def check_steps(d):
         d.press(keys)
         assert d.state.marked == expected
     for _ in range(3):
-        d.window.undo()
+        d.undo()
     assert d.state.marked is None
     d.settle()
 
@@ -171,10 +167,10 @@ def check_steps(d):
 def check_causes(d):
     d.press(Key.k)
     d.settle()
-    assert d.state.options.compare.causes
+    assert d.options.compare.causes
     assert (shown(d)[25:55, 35:55] == LABEL_COLORS[SHADING]).all()
     d.click("//###Compare/causes")
-    assert not d.state.options.compare.causes
+    assert not d.options.compare.causes
     assert (shown(d)[25:55, 35:55] != LABEL_COLORS[SHADING]).any(axis=2).all()
 
 
@@ -201,11 +197,11 @@ def check_wipe(d, raster, ray):
     d.drag(start, (start[0] - 0.3 * (high.x - low.x), start[1]))
     d.settle()
     assert d.state.camera == d.window.history.past[-1].camera, "the divider was dragged"
-    assert abs(d.state.options.compare.divider - 0.2) < 0.01
+    assert abs(d.options.compare.divider - 0.2) < 0.01
     assert d.steps == count + 1, "a drag is one step"
-    check(round(d.state.options.compare.divider * width))
-    d.window.undo()
-    assert d.state.options.compare.divider == 0.5
+    check(round(d.options.compare.divider * width))
+    d.undo()
+    assert d.options.compare.divider == 0.5
     for divider, expected in ((0.0, ray), (1.0, raster)):
         show(d, mode="wipe", divider=divider)
         seen = below_labels(shown(d))
@@ -216,17 +212,17 @@ def drive_modes_have_keys_and_can_be_undone(d):
     show(d)
     for key, mode in ((Key.f5, "wipe"), (Key.f6, "absolute")):
         d.press(key)
-        assert d.state.options.compare.mode == mode
-        d.window.undo()
+        assert d.options.compare.mode == mode
+        d.undo()
         d.window.redo()
     d.click("//###Compare/Wipe")
-    assert d.state.options.compare.mode == "wipe"
-    d.window.undo()
+    assert d.options.compare.mode == "wipe"
+    d.undo()
     count = d.steps
     slider = d.box("//###Compare/##gain")
     at = slider.get_center()
     d.drag((at.x, at.y), (slider.max.x - 10, at.y))
-    assert d.state.options.compare.gain > 200
+    assert d.options.compare.gain > 200
     assert d.steps == count + 1
 
 

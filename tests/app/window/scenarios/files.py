@@ -1,11 +1,8 @@
 """Files and failures: dialogs, what is opened, what is broken, what takes long."""
 
-from __future__ import annotations
-
 import os
 import sys
 import threading
-from typing import Any
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Key, changed
@@ -117,7 +114,7 @@ def drive_no_frame_waits_for_the_tracer(d):
 
 
 def drive_the_windows_own_dialog_opens_and_saves(d):
-    files = d.window.files
+    files = d.files
     folder = d.folder / "scenes"
     folder.mkdir()
     (folder / "mine.toml").write_text('name = "mine"\n[[objects]]\ntype = "sphere"\n')
@@ -145,7 +142,7 @@ def drive_the_windows_own_dialog_opens_and_saves(d):
     assert "objects" in (folder / "copy.toml").read_text()
     d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["copy.toml"])
     d.menu("File/Recent files/###recent1")
-    d.until(lambda: d.window.files.loading == "" and d.state.scene.origin is not None)
+    d.until(lambda: d.files.loading == "" and d.state.scene.origin is not None)
     d.menu("File/Recent files/Clear the list")
     assert files.recent.entries == ()
 
@@ -153,14 +150,14 @@ def drive_the_windows_own_dialog_opens_and_saves(d):
 def drive_loading_is_told_and_cancelled(d):
     for _ in range(2):
         gate = threading.Event()
-        d.window.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))
+        d.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))
         d.until(lambda: loading_box() is not None)
         d.frames(2)
         box, pad = loading_box(), imgui.get_style().window_padding
         low_right = box.pos.x + box.size.x - 2 * pad.x, box.pos.y + box.size.y - 2 * pad.y
         d.ctx.mouse_move_to_pos(ImVec2(*low_right))  # the button
         d.ctx.mouse_click()
-        d.until(lambda: not d.window.files.busy)
+        d.until(lambda: not d.files.busy)
         assert "cancelled" in d.window.shell.toasts.texts[-1]
         gate.set()
     d.window.open("spheres")  # a new thread does it
@@ -193,7 +190,7 @@ def drive_a_scene_taken_back_is_drawn_without_being_prepared_again(d):
     d.agreeing_images()
 
 
-def loading_box() -> Any:
+def loading_box():
     """ImGui's window, while it is shown. The test engine does not find it a second time."""
     windows = imgui.get_current_context().windows
     return next((one for one in windows if one.name == messages.LOADING and one.active), None)

@@ -1,14 +1,12 @@
 """Go to pixel: the box, by the keyboard alone; the rows and columns counted as the user says."""
 
-from __future__ import annotations
-
 from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 OPEN = Key.mod_ctrl | Key.g
 
 
-def typed(d: Driver, row: str, column: str) -> None:
+def typed(d, row, column):
     """Ctrl+G, a row, Tab, a column, Enter; nothing is clicked."""
     d.press(OPEN)
     for key, text in ((None, row), (Key.tab, column)):

@@ -1,17 +1,15 @@
 """Type in a lecture hall: what is read grows with it, and is not cut."""
 
-from __future__ import annotations
-
 from capitals import capital_heights
 from imgui_bundle import imgui
 from views_in_turn import views_in_turn
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.view import LECTURE
 
 
-def overflow(d: Driver) -> float:
+def overflow(d):
     """How far the step's text can be scrolled."""
     found = []
     end_child = imgui.end_child
@@ -66,7 +64,7 @@ def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d):
         assert not scrolled, (size, scrolled)
 
 
-def below(heights: dict[float, str], least: float) -> dict[float, str]:
+def below(heights, least):
     return {height: letters for height, letters in heights.items() if height < least}
 
 

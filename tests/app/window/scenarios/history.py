@@ -63,8 +63,8 @@ def drive_shadows_and_mirrors_are_the_ray_images_alone(d):
     assert np.abs(d.images()[1] - shaded).max() > 30
     verdict = d.renderers.verdict(d.state)
     assert verdict.text.startswith("not compared")
-    d.window.undo()
-    d.window.undo()
+    d.undo()
+    d.undo()
     d.agreeing_images()
 
 

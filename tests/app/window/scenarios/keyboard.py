@@ -1,11 +1,9 @@
 """Everything by keys alone: Tab reaches every control, a frame shows where, Alt opens the menus."""
 
-from __future__ import annotations
-
 import numpy as np
 from imgui_bundle import imgui
 from views_in_turn import views_in_turn, with_content
-from window_driver import FRAME_S, Driver, Key
+from window_driver import FRAME_S, Key
 
 from lucida.app.ui import theme
 from lucida.app.window.menu_keys import BAR
@@ -16,7 +14,7 @@ OTHERS = int(imgui.ItemFlags_.disabled)
 Box = tuple[int, int, int, int]  # left, top, right, bottom
 
 
-def controls(d: Driver) -> dict[int, Box]:
+def controls(d):
     """Return the visible controls of the view in use, by their ids. ImGui counts inner windows
     among a window's items, and ImPlot its axes, without flags."""
     context, found = imgui.get_current_context(), imgui.test_engine.TestItemList()
@@ -31,7 +29,7 @@ def controls(d: Driver) -> dict[int, Box]:
     return items
 
 
-def walked(d: Driver) -> set[int]:
+def walked(d):
     """Return the ids that Tab, held, goes to until it finds nothing new."""
     context, ids, old = imgui.get_current_context(), set[int](), 0
     d.ctx.key_down(Key.tab)
@@ -94,7 +92,7 @@ def drive_alt_leads_into_the_menus_and_back(d):
     d.press(Key.down_arrow)
     d.press(Key.enter)  # Open...
     d.frames(5)
-    assert d.window.files.dialog.is_open
+    assert d.files.dialog.is_open
     d.press(Key.escape)
     assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
     assert d.state.marked is None  # the arrows were the menus', not the image's

@@ -179,7 +179,7 @@ def drive_undo_walks_back_over_steps(d):
     assert shown(d) == {LECTURE, "Ray"}
     # Before the lecture there is no step: the text stays where it is.
     while d.window.can_undo():
-        d.window.undo()
+        d.undo()
         d.frames(2)
     d.settle()
     begun = with_options(d.start, preferences={"presentation": True})  # which undo leaves alone
@@ -294,7 +294,7 @@ def drive_a_lecture_is_opened_and_dropped(d):
     path, broken = d.folder / "mine.toml", d.folder / "broken.toml"
     path.write_text(SMALL.replace('"Small"', '"Mine"'))
     broken.write_text(SMALL.replace('"canonical"', '"canonicle"'))
-    lecture, files = d.window.lecture, d.window.files
+    lecture, files = d.window.lecture, d.files
     lecture.session = None
     d.menu("Lecture/Open lecture...")
     assert files.dialog.is_open
@@ -323,5 +323,5 @@ def drive_a_lecture_is_opened_and_dropped(d):
     d.settle()
     assert lecture.session.lecture.title == "Dropped"
     assert shown(d) == {LECTURE, "Raster"}
-    d.window.undo()  # what was there before is one step of undo away
+    d.undo()  # what was there before is one step of undo away
     assert d.state == with_options(d.start, preferences={"presentation": True})

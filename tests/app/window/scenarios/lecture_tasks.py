@@ -95,7 +95,7 @@ def drive_an_object_is_moved_until_it_hides_another(d):
     d.click(item(d, "Put it there"))
     d.settle()
     assert said().right, said()
-    d.window.undo()
+    d.undo()
     d.settle()
     assert d.state.scene is moved and not said().right
     d.window.change(replace(d.state, scene=task.solved(moved)))

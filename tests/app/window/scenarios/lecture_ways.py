@@ -1,43 +1,40 @@
 """Every step of the built-in lecture shows its own state and views, whichever way leads to it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.lecture.view import LECTURE, LectureView
+from lucida.app.lecture.view import LECTURE
 from lucida.app.ui import layout
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.app.window.capture import Rect
 
 SPOILED = (1, 9, 21, 30)  # steps with images, without, and with a resolution
 JUMPS = (0, 33, 3, 29, 1, 22, 12, 21, 2, 19)
 STILL = 6  # frames in which a mark finds its image's size
 
 
-def _begin(d: Driver) -> LectureView:
+def _begin(d):
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     _rest(d)
     return d.window.lecture
 
 
-def _rest(d: Driver) -> None:
+def _rest(d):
     d.settle()
     d.frames(2 * STILL)
     d.settle()
 
 
-def _go(d: Driver, number: int) -> None:
+def _go(d, number):
     d.window.lecture.go(d.window, number)
     _rest(d)
 
 
-def _facts(d: Driver) -> tuple[object, ...]:
+def _facts(d):
     """Return a step's state, its images' size and camera, and the places of its views."""
     state, both = d.state, d.renderers
     return (
@@ -48,7 +45,7 @@ def _facts(d: Driver) -> tuple[object, ...]:
     )
 
 
-def _views(d: Driver, picture: np.ndarray) -> dict[str, np.ndarray]:
+def _views(d, picture):
     """Return what the views show, without their tabs, which show who has the keyboard, and without
     the status line, which reports work in the background.
     """
@@ -59,16 +56,16 @@ def _views(d: Driver, picture: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def _rects(d: Driver) -> dict[str, Rect]:
+def _rects(d):
     return dict(sorted(d.stage.rects.items()))
 
 
-def _leave(d: Driver) -> None:
+def _leave(d):
     d.window.lecture.leave(d.window)
     d.settle()
 
 
-def _spoil(d: Driver) -> None:
+def _spoil(d):
     """Do what a user may do between two steps."""
     state = d.state
     changed = with_options(
@@ -100,7 +97,7 @@ def drive_a_step_does_not_depend_on_the_way(d):
             is_over = step.full and name == LECTURE  # the text, if there is one
             assert is_over or (min(view.shape[:2]) > 80 and view.std() > 5), (step.title, name)
         assert not number or np.abs(picture.astype(int) - before).max() > 30, step.title
-        assert d.renderers.failure is None and not d.window.files.message, step.title
+        assert d.renderers.failure is None and not d.files.message, step.title
         before = picture
     for number in (*reversed(range(0, count, 5)), *JUMPS):
         _go(d, number)

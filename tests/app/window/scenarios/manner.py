@@ -1,11 +1,9 @@
 """The surroundings of the views: palette, sheet, layouts, looks, bookmarks, pictures."""
 
-from __future__ import annotations
-
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 from PIL import Image
-from window_driver import SIZE, Driver, Key
+from window_driver import SIZE, Key
 
 from lucida.app.cameras.camera_panel.view import CAMERA
 from lucida.app.images.pair.boxes import ask_pixel, ask_resolution
@@ -17,7 +15,7 @@ SIDE = layout.LAYOUTS[0].name
 CTRL, SHIFT = Key.mod_ctrl, Key.mod_shift
 
 
-def into(d: Driver, name: str) -> None:
+def into(d, name):
     """Shows a layout as it was made, and waits for it."""
     layout.switch(name)
     d.until(lambda: layout.current().name == name)
@@ -118,7 +116,7 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d):
     d.settle()
 
 
-def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
+def boxes(d):
     rects = d.stage.rects
     return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
 
@@ -195,9 +193,9 @@ def drive_bookmarks_bring_views_back(d):
     d.press(CTRL | Key.z)
     d.until(lambda: d.state.view == away)
     d.menu("Camera/Bookmarks/Forget all bookmarks")
-    assert d.state.options.bookmarks == ()
+    assert d.options.bookmarks == ()
     d.press(CTRL | Key.z)
-    assert [mark.number for mark in d.state.options.bookmarks] == [3, 9]
+    assert [mark.number for mark in d.options.bookmarks] == [3, 9]
 
 
 def drive_pictures_show_what_the_window_shows(d):
@@ -237,7 +235,7 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
         assert not d.window.shell.help
     d.reset()
     d.menu("View/Shadows (ray image only)")
-    assert d.state.options.shadows
+    assert d.options.shadows
 
 
 def drive_a_framebuffer_out_of_scale_makes_no_letters(d):

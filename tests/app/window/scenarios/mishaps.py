@@ -1,20 +1,17 @@
 """Renderers and views that fail: told in the window, survived, tried again."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import moderngl
-from window_driver import Driver
 
 from lucida.renderer.system.errors import LucidaError
 
 
-def is_told(d: Driver) -> bool:
+def is_told(d):
     return d.ctx.item_exists("//##message/Try again")
 
 
-def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
+def fail_until_retried(d, error, told):
     """The tracer fails; the window tells it, goes on, and tries again when asked."""
     renderers = d.renderers
     live = renderers.live
@@ -24,7 +21,7 @@ def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
         raise error
 
     live.make_tracer = bad
-    d.change(shadows=not d.state.options.shadows)
+    d.change(shadows=not d.options.shadows)
     # The full image of a camera at rest is a request of its own, which fails once more.
     d.until(lambda: live.error is not None and not renderers.unfinished(d.state))
     d.until(lambda: live.error is not None and is_told(d))

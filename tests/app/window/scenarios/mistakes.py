@@ -1,29 +1,25 @@
 """The mistakes: lines made wrong by the mouse, their pictures on the screen."""
 
-from __future__ import annotations
-
 import numpy as np
 from maximised import Maximised
-from window_driver import Driver
 
 from lucida.app.instruments.mistakes.view import MISTAKES, MistakesView
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
-from lucida.app.state.options.mistakes import MistakesOptions
 from lucida.renderer.images import to_srgb8
 
 ALONE = Maximised(MistakesView, "mistakes")
 
 
-def _options(d: Driver) -> MistakesOptions:
-    return d.state.options.mistakes
+def _options(d):
+    return d.options.mistakes
 
 
-def _item(name: str) -> str:
+def _item(name):
     """In any of the view's parts."""
     return ALONE.item(f"**/{name}")
 
 
-def _on_screen(d: Driver, name: str, size: tuple[int, int]) -> np.ndarray:
+def _on_screen(d, name, size):
     """The middles of a picture's pixels as the window shows them, (H, W, 3)."""
     box = d.box(_item(name))
     d.move_to((3, 3))
@@ -32,13 +28,13 @@ def _on_screen(d: Driver, name: str, size: tuple[int, int]) -> np.ndarray:
     return d.picture()[y][:, x]
 
 
-def _is_shown(d: Driver, name: str, light: np.ndarray, size: tuple[int, int]) -> bool:
+def _is_shown(d, name, light, size):
     wanted = to_srgb8(light, d.state.images.exposure_ev).astype(int)
     seen = _on_screen(d, name, size)
     return bool((np.abs(seen.astype(int) - wanted).max(axis=2) <= 6).mean() > 0.95)
 
 
-def _choose(d: Driver, line: str, mistake: str) -> None:
+def _choose(d, line, mistake):
     d.click(_item(f"line {line}"))
     d.click(f"//$FOCUSED/{mistake}")
     d.settle()
@@ -55,7 +51,7 @@ def drive_lines_are_made_wrong_and_right_again(d):
     assert _options(d).chosen == ("rows count upwards", "along +w")
     again = view.made
     assert len(again.mistakes) == 2
-    d.window.undo()
+    d.undo()
     d.settle()
     assert _options(d).chosen == ("rows count upwards",)
     _choose(d, "y", "correct")

@@ -139,7 +139,7 @@ def drive_a_checkbox_hides_from_both_images(d):
     assert all(
         (np.abs(a - b).max(axis=2) > 8).mean() > 0.01 for a, b in zip(before, after, strict=True)
     )
-    d.window.undo()
+    d.undo()
     d.settle()
 
 

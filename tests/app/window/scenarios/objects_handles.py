@@ -1,7 +1,5 @@
 """The scene in hand: its handles in the views."""
 
-from __future__ import annotations
-
 import numpy as np
 from objects_window import (
     arrow,
@@ -14,7 +12,7 @@ from objects_window import (
     now,
 )
 from option_changes import with_options
-from window_driver import RASTER, Driver, Key
+from window_driver import RASTER, Key
 
 from lucida.app.instruments.objects.choosing import choose
 from lucida.app.instruments.outside.view import OUTSIDE
@@ -69,7 +67,7 @@ def drive_escape_and_undo_end_the_drag_of_a_handle(d):
         d.settle()
 
 
-def choose_to(d: Driver, handle: str, name: str) -> None:
+def choose_to(d, handle, name):
     """An object with handles that do this."""
     enter(d)
     state = with_options(d.state, objects={"handle": handle})

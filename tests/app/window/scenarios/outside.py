@@ -1,14 +1,11 @@
 """The outside view: its handles, its switches, and the pixels that it shares."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
 from imgui_bundle.imguizmo import im_guizmo
 from outside_window import enter, place, press, scope, strokes, view
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.instruments.outside import gizmo as outside_gizmo
 from lucida.app.instruments.outside import tint as outside_tint
@@ -89,7 +86,7 @@ def drive_the_legend_switches(d):
     rays = {" ".join(p.name.split()[:3]) for p in view(d).primitives if "bundle" in p.name}
     assert len(rays) == rows * columns
     assert view(d).settled
-    d.window.undo()
+    d.undo()
     assert window.state.options.outside.bundle == (0, 0)
 
 
@@ -199,7 +196,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d):
 
 
 @contextmanager
-def _watched() -> Iterator[tuple[list[str], list[int], set[int]]]:
+def _watched():
     """Watch a dragged handle: the motion's texts, the numbers of hidden vertices, the colours."""
     texts = []
     hidden = []
@@ -226,11 +223,11 @@ def _watched() -> Iterator[tuple[list[str], list[int], set[int]]]:
         outside_gizmo.motion, outside_gizmo.hide_text = motion, hide_text
 
 
-def packed(red: int, green: int, blue: int) -> int:
+def packed(red, green, blue):
     return red | green << 8 | blue << 16
 
 
-def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
+def _turn_by(d, middle, angle):
     """Drags the ring of handles at an angle; whether there was one."""
     before = d.state.camera
     radius = 0.5 * LENGTH * scope(d).extent.x

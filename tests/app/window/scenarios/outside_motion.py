@@ -1,24 +1,21 @@
 """The outside view in motion: by mouse and keys, in smooth transitions, each one undo step."""
 
-from __future__ import annotations
-
 import numpy as np
 from held_clock import Clock
 from outside_window import empty_place, enter, press, scope, view
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.cameras.travel import DURATION_S
-from lucida.app.instruments.outside.ground import Ground
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE
 
 
-def ground(d: Driver) -> Ground:
+def ground(d):
     tools = view(d).tools
     return tools.ground
 
 
-def looks_from(d: Driver) -> np.ndarray:
+def looks_from(d):
     """The unit vector from what is looked at to the camera that looks."""
     at = view(d).scope
     back = np.asarray(at.camera.w)
@@ -137,7 +134,7 @@ def drive_the_mouse_moves_the_camera_that_looks(d):
     assert window.state.camera == inner  # the other camera stays
     press(d, "fit all")
     assert window.state.options.outside.camera is None
-    d.window.undo()
+    d.undo()
     assert window.state.options.outside.camera == closer
 
 

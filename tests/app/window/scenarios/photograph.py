@@ -1,48 +1,42 @@
 """A photograph over the images: opened, laid over, followed, compared with, closed."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 from option_changes import with_options
 from PIL import Image
-from window_driver import SIZE, Driver, Key
+from window_driver import SIZE, Key
 
 from lucida.app.images.pair.view import RasterView, RayView
-from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.photograph.model import closed
-from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored
 
 
-def layers(d: Driver) -> list[PhotographLayer]:
+def layers(d):
     return [d.window.view(kind).photograph for kind in (RasterView, RayView)]
 
 
-def held(layer: PhotographLayer) -> bool:
+def held(layer):
     return layer._photograph is not None
 
 
-def laid(d: Driver, **changes: object) -> AppState:
+def laid(d, **changes):
     return with_options(d.state, photograph=changes)
 
 
-def saved(d: Driver, pixels: np.ndarray, name: str = "photo.png") -> Path:
+def saved(d, pixels, name="photo.png"):
     path = d.folder / name
     Image.fromarray(pixels).save(path)
     return path
 
 
-def noise(d: Driver) -> np.ndarray:
+def noise(d):
     """As many pixels as the images have, each of another colour."""
     width, height = d.renderers.size
     return np.random.default_rng(1).integers(0, 256, (height, width, 3), dtype=np.uint8)
 
 
-def opened(d: Driver, path: Path) -> None:
+def opened(d, path):
     d.drop([str(path)])
-    d.until(lambda: restored(d.state.options.photograph.file) == str(path))
+    d.until(lambda: restored(d.options.photograph.file) == str(path))
     d.frames(2)
     d.window.shell.toasts.clear()  # one of them is in an image's place
     d.settle()
@@ -75,13 +69,13 @@ def drive_it_is_switched_with_a_key_undone_and_closed(d):
     opened(d, saved(d, np.full((30, 40, 3), 200, np.uint8)))
     assert d.steps == steps + 1
     d.press(Key.mod_alt | Key.p)
-    assert not d.state.options.photograph.shown
+    assert not d.options.photograph.shown
     d.press(Key.mod_alt | Key.p)
-    assert d.state.options.photograph.shown
+    assert d.options.photograph.shown
     d.window.change(closed(d.state))
     d.settle()
     assert not any(map(held, layers(d)))
-    d.window.undo()
+    d.undo()
     d.settle()
     assert all(map(held, layers(d)))
 

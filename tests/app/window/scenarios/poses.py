@@ -1,18 +1,15 @@
 """Sets of cameras and their photographs: opened, listed, walked, pointed at, framed, left."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 from imgui_bundle import imgui
 from outside_window import place, scope, strokes
 from outside_window import view as outside_view
 from PIL import Image
-from window_driver import RASTER, Driver, Key, changed
+from window_driver import RASTER, Key, changed
 
-from lucida.app.instruments.poses.model import PoseSet, frusta
+from lucida.app.instruments.poses.model import frusta
 from lucida.app.instruments.poses.photographs import photo_path
 from lucida.app.instruments.poses.view import POSES, PosesView
 from lucida.app.state.paths import restored
@@ -25,11 +22,11 @@ COUNT = 12
 DOWN, UP, HOME, END = (key for key in (Key.down_arrow, Key.up_arrow, Key.home, Key.end))
 
 
-def view(d: Driver) -> PosesView:
+def view(d):
     return d.window.view(PosesView)
 
 
-def ring(count: int, reach: float = 5.0) -> list[PosedCamera]:
+def ring(count, reach=5.0):
     posed = []
     for k in range(count):
         angle = 2 * np.pi * k / count
@@ -39,7 +36,7 @@ def ring(count: int, reach: float = 5.0) -> list[PosedCamera]:
     return posed
 
 
-def transforms(d: Driver, count: int = COUNT) -> Path:
+def transforms(d, count=COUNT):
     """With photographs of all but the last one."""
     folder = d.folder / f"set{count}"
     (folder / "images").mkdir(parents=True, exist_ok=True)
@@ -53,7 +50,7 @@ def transforms(d: Driver, count: int = COUNT) -> Path:
     return path
 
 
-def colmap(d: Driver, points: int) -> Path:
+def colmap(d, points):
     folder = d.folder / f"model{points}" / "sparse" / "0"
     folder.mkdir(parents=True, exist_ok=True)
     for name, data in written(ring(COUNT), "colmap").items():
@@ -64,20 +61,20 @@ def colmap(d: Driver, points: int) -> Path:
     return folder
 
 
-def opened(d: Driver, path: Path) -> PoseSet:
+def opened(d, path):
     d.drop([str(path)])
-    d.until(lambda: restored(d.state.options.poses.file) == str(path))
+    d.until(lambda: restored(d.options.poses.file) == str(path))
     d.until(lambda: POSES in d.stage.rects and view(d).poses is not None)
     d.until(lambda: view(d).poses.path == path)
     d.settle()
     return view(d).poses
 
 
-def chosen(d: Driver) -> int:
-    return d.state.options.poses.pose
+def chosen(d):
+    return d.options.poses.pose
 
 
-def stands_at(d: Driver, poses: PoseSet, number: int) -> bool:
+def stands_at(d, poses, number):
     return d.state.view == poses.view(number)
 
 
@@ -87,13 +84,13 @@ def drive_a_set_is_dropped_closed_and_hidden(d):
     d.until(lambda: POSES in stage.rects)
     d.frames(5)
     d.click(f"{WINDOW}/Open cameras...")
-    dialog = d.window.files.dialog
+    dialog = d.files.dialog
     assert dialog.is_open and ".json" in dialog.question.endings
     dialog.cancel()
     poses = opened(d, transforms(d))
     # In a world of its own, seen by its first camera.
     assert chosen(d) == 0 and stands_at(d, poses, 0) and not d.state.scene.objects
-    d.window.undo()
+    d.undo()
     assert d.state.scene is d.start.scene and view(d).chosen(d.state) == -1
     d.window.redo()
     d.until(lambda: view(d).poses is poses)
@@ -108,8 +105,8 @@ def drive_a_set_is_dropped_closed_and_hidden(d):
     left, top, right, bottom = (round(edge) for edge in stage.rects["Outside"])
     cut = (slice(top, bottom), slice(left, right))
     assert changed(bare[cut].astype(int), shown[cut].astype(int)) > 0.005
-    assert view(d).poses is None and d.state.options.poses.file == ""
-    d.window.undo()
+    assert view(d).poses is None and d.options.poses.file == ""
+    d.undo()
     d.until(lambda: view(d).poses is poses and outside.cloud is not None)  # at once, it is kept
     stage.show(POSES, False)
     d.until(lambda: outside.cloud is None)
@@ -129,7 +126,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d):
     assert d.steps == steps + 1
     (lines,) = strokes(d, "other pose")[:1]
     assert len(lines.points)
-    d.window.undo()
+    d.undo()
     d.frames(2)
     assert d.state.view == before.view and chosen(d) == 0
     d.window.redo()
@@ -158,7 +155,7 @@ def drive_cameras_are_taken_by_click_key_search_and_double_click(d):
         d.ctx.mouse_double_click(imgui.MouseButton_.left)
         d.frames(3)
         assert chosen(d) == number and stands_at(d, poses, number)
-        assert not d.state.options.objects.chosen  # of what lies behind it
+        assert not d.options.objects.chosen  # of what lies behind it
         d.settle()
     d.move_to((3, 700))
     assert view(d).hovered is None and not strokes(d, "mark pose")
@@ -183,10 +180,10 @@ def drive_a_passage_is_one_step_with_the_choice(d):
         d.frames(2)
         assert chosen(d) == 6 and stands_at(d, poses, 6)
         assert d.steps == steps + 2
-        d.window.undo()
+        d.undo()
         d.frames(2)
         assert chosen(d) == 5 and stands_at(d, poses, 5)
-        d.window.undo()
+        d.undo()
         d.frames(2)
         assert d.state == start
     finally:
@@ -200,7 +197,7 @@ def drive_points_are_framed_drawn_and_left_out(d):
     d.click(f"{WINDOW}/###frame")
     d.move_to((3, 700))
     d.settle()
-    assert d.state.options.outside.camera is not None
+    assert d.options.outside.camera is not None
     at = scope(d)
     for eye in poses.origins.mean(axis=1):
         x, y = place(d, eye)
@@ -217,19 +214,19 @@ def drive_points_are_framed_drawn_and_left_out(d):
     d.click(f"{WINDOW}/points")
     d.move_to((3, 700))
     d.settle()
-    assert magenta() < 100 and not d.state.options.poses.points
-    d.window.undo()
+    assert magenta() < 100 and not d.options.poses.points
+    d.undo()
     d.settle()
     assert magenta() > 1000
-    d.window.undo()
-    assert d.state.options.outside.camera is None
+    d.undo()
+    assert d.options.outside.camera is None
 
 
 def drive_the_photograph_follows_the_set(d):
     poses = opened(d, transforms(d))
 
     def file():
-        return d.state.options.photograph
+        return d.options.photograph
 
     def take(number):
         view(d).take(d.window, number)
@@ -245,7 +242,7 @@ def drive_the_photograph_follows_the_set(d):
     toasts.clear()
     take(COUNT - 1)  # its file is not there
     assert f"{COUNT - 1:03}.png: does not exist" in toasts.texts[0]
-    d.window.undo()
+    d.undo()
     d.settle()
     assert restored(file().file) == str(photo_path(poses, 1))
     view(d).lay(d.window, poses)
@@ -259,22 +256,22 @@ def drive_a_mistake_is_reported_and_a_set_follows_its_file(d):
     d.change(poses={"file": str(away), "pose": -1})
     d.until(lambda: view(d).poses is None and str(away) in view(d).problem)
     assert outside_view(d).cloud is None
-    d.window.undo()
+    d.undo()
     d.until(lambda: view(d).poses is poses)
     broken.write_text("{")
     d.drop([str(broken)])
-    d.until(lambda: "line 1, column 2" in d.window.files.message)
+    d.until(lambda: "line 1, column 2" in d.files.message)
     assert view(d).poses is poses  # the old one stays
-    d.window.files.message = ""
+    d.files.message = ""
     view(d).take(d.window, 2)
     table = json.loads(path.read_text())
     table["frames"] = table["frames"][1:]
     path.write_text("{")
-    d.until(lambda: "line 1, column 2" in d.window.files.message)
+    d.until(lambda: "line 1, column 2" in d.files.message)
     assert chosen(d) == 2
     path.write_text(json.dumps(table))
     d.until(lambda: view(d).poses is not None and len(view(d).poses.names) == COUNT - 1)
-    d.until(lambda: chosen(d) == 1 and not d.window.files.message)  # the same camera, by its name
+    d.until(lambda: chosen(d) == 1 and not d.files.message)  # the same camera, by its name
 
 
 def drive_a_lecture_shows_a_set(d):
@@ -284,7 +281,7 @@ def drive_a_lecture_shows_a_set(d):
         'title = "Poses"\n[[steps]]\ntitle = "a set"\nviews = ["poses", "outside"]\n'
         f'options.poses.file = "set{COUNT}/transforms.json"\noptions.poses.pose = 2\n'
     )
-    d.window.files.open_lecture(str(path))
+    d.files.open_lecture(str(path))
     d.until(lambda: chosen(d) == 2)
     d.until(lambda: POSES in d.stage.rects and view(d).poses is not None)
     d.settle()

@@ -1,36 +1,33 @@
 """The pixel probe in the window: its numbers, live; the keys, the pins, the copies, the rays."""
 
-from __future__ import annotations
-
 import numpy as np
-from window_driver import RASTER, Driver, Key
+from window_driver import RASTER, Key
 
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
-from lucida.app.instruments.probe.reading import Reading
-from lucida.app.instruments.probe.view import PROBE, ProbeView
+from lucida.app.instruments.probe.view import PROBE
 from lucida.app.ui import formula
 from lucida.renderer.images.display import to_srgb8
 
 WINDOW = f"//###{PROBE}"
 
 
-def view(d: Driver) -> ProbeView:
+def view(d):
     return d.window.views[PROBE]
 
 
-def enter(d: Driver) -> None:
+def enter(d):
     """The probe, both images and the outside view."""
     d.layout("Probe")
 
 
-def reading(d: Driver) -> Reading:
+def reading(d):
     d.settle()
     d.until(lambda: view(d).reading is not None)
     return view(d).reading
 
 
-def check(d: Driver, found: Reading) -> None:
+def check(d, found):
     """Compare with the traced image; test_probe_agrees.py has all numbers."""
     image = d.renderers.ray_image
     assert image.factor == 1
@@ -75,16 +72,16 @@ def drive_keys_walk_and_pins_stay(d):
         assert d.state.marked == pixel
         assert reading(d).pixel == pixel
     d.click(f"{WINDOW}/Pin")
-    assert d.state.options.probe.pins == ((51, 71),)
+    assert d.options.probe.pins == ((51, 71),)
     d.change(marked=(5, 6))
     d.settle()
     d.click(f"{WINDOW}/###pin0")
     assert d.state.marked == (51, 71)
     d.ctx.item_uncheck(f"{WINDOW}/from 1")
     d.frames(2)
-    assert not d.state.options.one_based
+    assert not d.options.one_based
     d.click(f"{WINDOW}/###pin0", 1)
-    assert d.state.options.probe.pins == ()
+    assert d.options.probe.pins == ()
 
 
 def drive_pins_are_framed_in_both_images(d):
@@ -99,11 +96,11 @@ def drive_pins_are_framed_in_both_images(d):
         near = differs[max(0, row - 40) : row + 40, max(0, column - 40) : column + 40]
         assert near.sum() > 30  # the frame and its number
         assert differs.sum() == near.sum()  # and nothing for the pixel that is not there
-    d.window.undo()
+    d.undo()
     d.settle()
 
 
-def lines(d: Driver, name: str) -> int:
+def lines(d, name):
     """Return the number of stretches of line of a name that the outside view shows."""
     outside = d.window.views[OUTSIDE]
     assert isinstance(outside, OutsideView)

@@ -1,10 +1,8 @@
 """Nothing stale is shown: no ray image of another scene or size, no name, no time, no mark."""
 
-from __future__ import annotations
-
 import numpy as np
 from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.state.app_state import History
@@ -14,7 +12,7 @@ from lucida.renderer.camera.navigation import orbited
 COMPARE = "Compare"
 
 
-def middle(d: Driver, name: str) -> np.ndarray:
+def middle(d, name):
     """The pixels in the middle of a view, away from what is written at its edges."""
     left, top, right, bottom = d.stage.rects[name]
     wide, high = right - left, bottom - top
@@ -60,7 +58,7 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
         d.settle()
 
 
-def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
+def seen_at(d, pixel):
     """Return the status line's words for a pixel, from the window's thread, which has OpenGL."""
     callbacks, said = d.run.params.callbacks, []
 

@@ -1,42 +1,39 @@
 """The loop stepper in the window: its buttons, keys and sliders; the image it ends in."""
 
-from __future__ import annotations
-
 import numpy as np
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
-from lucida.app.instruments.stepper.model import Moment
 from lucida.app.instruments.stepper.recording import Order
-from lucida.app.instruments.stepper.view import STEPPER, StepperView
+from lucida.app.instruments.stepper.view import STEPPER
 from lucida.app.window.palette_entries import entries
 from lucida.app.window.shortcut_sheet import sections
 
 WINDOW = f"//###{STEPPER}"
 
 
-def view(d: Driver) -> StepperView:
+def view(d):
     return d.window.views[STEPPER]
 
 
-def enter(d: Driver, **options: object) -> None:
+def enter(d, **options):
     d.layout("Loops")
     d.change(stepper=options)
     d.settle()
     d.until(lambda: len(view(d).moments) > 0)
 
 
-def press(d: Driver, name: str) -> None:
+def press(d, name):
     d.click(f"{WINDOW}/###{name}")
 
 
-def moments(d: Driver) -> tuple[Moment, Moment]:
+def moments(d):
     both = view(d).moments
     return both[Order.RASTER], both[Order.IMAGE]
 
 
-def strokes(d: Driver, name: str) -> int:
+def strokes(d, name):
     outside = d.window.views[OUTSIDE]
     assert isinstance(outside, OutsideView)
     found = [p for p in outside.primitives if isinstance(p, Strokes) and p.name == name]
@@ -112,15 +109,15 @@ def drive_the_palette_and_the_keys_step(d):
         entry = offered[name]
         assert entry.enabled and entry.keys == keys
         assert (keys, name.removeprefix("Stepper: ")) in rows
-        before = d.state.options.stepper.steps
+        before = d.options.stepper.steps
         entry.run()
         d.frames(3)
-        assert d.state.options.stepper.steps == steps
+        assert d.options.stepper.steps == steps
         d.change(stepper={"steps": before})
         d.ctx.window_focus(WINDOW)
         d.frames(2)
         d.press(int(getattr(Key, key)))
-        assert d.state.options.stepper.steps == steps
+        assert d.options.stepper.steps == steps
     d.press(Key.down_arrow)
     assert moments(d)[1].pixel == (0, 0)
     d.press(Key.end)
@@ -138,4 +135,4 @@ def drive_the_same_lines_in_julia_and_the_depth_buffer(d):
     assert view(d).moments[Order.IMAGE].step == 3
     d.click(f"{WINDOW}/Julia")
     d.click(f"{WINDOW}/depth")
-    assert d.state.options.language == "python"
+    assert d.options.language == "python"

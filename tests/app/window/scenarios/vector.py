@@ -1,26 +1,23 @@
 """The outside view as a figure in a file."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
-from window_driver import Driver, Key
+from window_driver import Key
 
 SPACE = "{http://www.w3.org/2000/svg}"
 
 
-def _store(d: Driver, path: Path) -> ElementTree.Element:
+def _store(d, path):
     """Answers the window's own dialog and reads what was written."""
-    dialog = d.window.files.dialog
+    dialog = d.files.dialog
     d.until(lambda: dialog.is_open)
     question = dialog.question
     assert question.saves and question.endings == (".svg",)
     dialog.cancel()
     question.chosen([str(path)])
-    d.until(lambda: not d.window.files.busy)
+    d.until(lambda: not d.files.busy)
     d.settle()
-    assert d.window.files.message == ""
+    assert d.files.message == ""
     return ElementTree.parse(f"{path}.svg").getroot()
 
 

@@ -1,8 +1,5 @@
 """No text is cut off: in every layout, view and box, in small windows with large type."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import chain
 
@@ -10,7 +7,7 @@ from cut_texts import cut_texts
 from imgui_bundle import imgui
 from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.ui import layout
@@ -20,9 +17,9 @@ MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
 CTRL, SHIFT, ESCAPE = (key for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
 
 
-def boxes(d: Driver) -> Iterator[str]:
+def boxes(d):
     """Open every box and menu in turn."""
-    files, shell = d.window.files, d.window.shell
+    files, shell = d.files, d.window.shell
     answers = {"Add it to the scene": lambda: None, "Open it instead": lambda: None}
     opened = {
         "palette": shell.toggle_palette,
@@ -47,7 +44,7 @@ def boxes(d: Driver) -> Iterator[str]:
 
 
 @contextmanager
-def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str], None]]:
+def looking(d, cut):
     """Provide a function that notes what a frame cuts, and tooltips that would be cut."""
     set_item_tooltip, wide = imgui.set_item_tooltip, dict[str, str]()
 
@@ -69,7 +66,7 @@ def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str
         imgui.set_item_tooltip = set_item_tooltip
 
 
-def layouts(d: Driver) -> Iterator[str]:
+def layouts(d):
     """Show every layout of views in turn."""
     for one in layout.LAYOUTS:
         if one.name != layout.LECTURE:

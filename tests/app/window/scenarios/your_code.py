@@ -1,13 +1,11 @@
 """The view "Your code": a student's file is run, shown, told, run again, stopped."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.checking.tasks import Limits
 from lucida.app.checking.your_code import model, panel
@@ -40,13 +38,13 @@ projection = "both"
 """
 
 
-def view(d: Driver) -> YourCodeView:
+def view(d):
     found = d.window.views[YOUR_CODE]
     assert isinstance(found, YourCodeView) and found.runs is not None
     return found
 
 
-def write(d: Driver, text: str, name: str = "rays.py") -> Path:
+def write(d, text, name="rays.py"):
     """As an editor does that puts a new file in the old one's place: its time is always another."""
     path, new = d.folder / name, d.folder / f"{name}.new"
     new.write_text(text)
@@ -54,19 +52,19 @@ def write(d: Driver, text: str, name: str = "rays.py") -> Path:
     return path
 
 
-def told(d: Driver) -> list[str]:
+def told(d):
     """Return what the view reports now."""
     return [line.text for line in view(d).told]
 
 
-def until_told(d: Driver, *parts: str) -> None:
+def until_told(d, *parts):
     d.until(lambda: all(part in "\n".join(told(d)) for part in parts))
 
 
-def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
+def opened(d, text, name="rays.py"):
     path = write(d, text, name)
     d.drop([str(path)])
-    d.until(lambda: d.state.options.your_code.file == stored(str(path)))
+    d.until(lambda: d.options.your_code.file == stored(str(path)))
     d.until(lambda: YOUR_CODE in d.stage.rects)
     return path
 
@@ -77,11 +75,11 @@ def drive_without_a_file_it_helps_to_begin(d):
     d.frames(8)
     d.picture()
     d.click(f"{WINDOW}/Write a file to begin with...")
-    dialog = d.window.files.dialog
+    dialog = d.files.dialog
     if dialog.is_open:  # the window's own: there is no system's here
         dialog.cancel()
     view(d).write_starter(str(d.folder / "begun.py"))
-    d.until(lambda: d.state.options.your_code.file == stored(str(d.folder / "begun.py")))
+    d.until(lambda: d.options.your_code.file == stored(str(d.folder / "begun.py")))
     until_told(d, "viewing_ray returns nothing yet")
     d.picture()
 
@@ -210,7 +208,7 @@ def drive_a_course_s_tasks_are_asked(d):
     opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
     d.drop([str(course)])
-    d.until(lambda: d.state.options.your_code.tasks == stored(str(course)))
+    d.until(lambda: d.options.your_code.tasks == stored(str(course)))
     until_told(d, "Every ray is correct.", "counting: correct in all of")
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
@@ -219,7 +217,7 @@ def drive_a_course_s_tasks_are_asked(d):
     until_told(d, "hw2.toml", "tasks")
     d.click(f"{WINDOW}/###tasks")
     d.click("//$FOCUSED/built-in tasks")
-    d.until(lambda: d.state.options.your_code.tasks == "")
+    d.until(lambda: d.options.your_code.tasks == "")
     until_told(d, "768 of 768 rays are wrong.")
 
 
@@ -262,15 +260,15 @@ def drive_the_verdict_is_read_from_afar(d):
 def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     ran = d.folder / "ran"
     ran.unlink(missing_ok=True)
-    d.window.files.recent.clear()  # it was opened where the folder has been used before
+    d.files.recent.clear()  # it was opened where the folder has been used before
     write(d, f"open({str(ran)!r}, 'w').close()\n{RIGHT}", "theirs.py")
     lecture = d.folder / "lecture.toml"
     lecture.write_text(
         'title = "Code"\n[[steps]]\ntitle = "yours"\nviews = ["your-code"]\n'
         'options.your_code.file = "theirs.py"\noptions.your_code.canvas = [16, 12]\n'
     )
-    d.window.files.open_lecture(str(lecture))
-    d.until(lambda: d.state.options.your_code.file == stored(str(d.folder / "theirs.py")))
+    d.files.open_lecture(str(lecture))
+    d.until(lambda: d.options.your_code.file == stored(str(d.folder / "theirs.py")))
     d.until(lambda: YOUR_CODE in d.stage.rects)
     d.settle()
     assert not view(d).runs.busy and view(d).report is None and not ran.exists()
@@ -285,7 +283,7 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     d.settle()
 
 
-def children() -> set[int]:
+def children():
     """The processes that this one has begun, where that can be known."""
     found = set()
     for entry in Path("/proc").glob("[0-9]*/stat"):
