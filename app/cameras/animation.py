@@ -6,9 +6,9 @@ camera. From perspective to parallel, the tangent of half the field of view goes
 eye recedes and the distance grows (a dolly zoom), until parallel rays make no visible difference.
 
 The basis B = R S (polar decomposition): R turns uniformly about one axis (slerp; Shoemake 1985),
-and the stretch S = V exp(L) V^T is interpolated in its logarithm, so that no intermediate basis is
-singular. Cameras of opposite handedness cannot turn into one another without a singular basis:
-there is no transition, and the caller jumps (`possible`).
+and the stretch S goes evenly: symmetric positive definite matrices are a convex set, so that no
+intermediate basis is singular. Cameras of opposite handedness cannot turn into one another without
+a singular basis: there is no transition, and the caller jumps (`possible`).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _PINHOLE = Lens("brown")  # the same as none
 class Pose(NamedTuple):
     """A camera as seen from the focus, in units of u, v and w.
 
-    turn, stretch: B = turn @ expm(stretch), (3, 3).
+    turn, stretch: B = turn @ stretch, (3, 3).
     at: the focus, from the eye: to the right, up, ahead (3,).
     window: the part of the plane through the focus that is in the picture: left, right, bottom,
     top.
@@ -92,7 +92,7 @@ class Passage:
 
     def _between(self, s: float) -> Camera:
         (one, two), (first, last) = self._poses, self._cameras
-        basis = _slerp(one.turn, two.turn, s) @ _expm(_lerp(one.stretch, two.stretch, s))
+        basis = _slerp(one.turn, two.turn, s) @ _lerp(one.stretch, two.stretch, s)
         right, up, depth = _lerp(one.at, two.at, s).tolist()
         parallel = first.is_parallel
         viewports: Floats = np.array([first.viewport, last.viewport])
@@ -150,14 +150,9 @@ def _pose(camera: Camera, focus: Floats) -> Pose:
 
 
 def _polar(basis: Floats) -> tuple[Floats, Floats]:
-    """Return (R, L) with basis = R expm(L): orthogonal, and symmetric; by singular values."""
+    """Return the polar decomposition: an orthogonal and a symmetric matrix, by singular values."""
     left, values, right = np.linalg.svd(basis)
-    return left @ right, right.T @ (np.log(values)[:, None] * right)
-
-
-def _expm(symmetric: Floats) -> Floats:
-    values, vectors = np.linalg.eigh(symmetric)
-    return vectors @ (np.exp(values)[:, None] * vectors.T)
+    return left @ right, right.T @ (values[:, None] * right)
 
 
 def _slerp(start: Floats, end: Floats, s: float) -> Floats:

@@ -6,7 +6,7 @@ Pure; for the command line.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -19,31 +19,27 @@ from lucida.renderer.files.cameras.distortion import effect, shift_px
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import one_line
 
-TOLD = 3  # cameras in a file, and sizes, to list
+LISTED = 3  # cameras in a file, and sizes
 ROUNDING = 1e-14  # of a vector's largest component: less is rounding
-EXACT, NEARLY = 1e-12, 1e-4  # errors of an orthonormal basis's dot products
+ORTHONORMAL = 1e-4  # the largest error of a basis's dot products
 
-
-class Fact(NamedTuple):
-    """A line. name: of a quantity, "" if it continues the previous one. text: its numbers, in
-    words.
-    """
-
-    name: str
-    text: str
+Fact = tuple[str, str]  # the name of a quantity, "" if it continues the previous one; its text
 
 
 def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
     """Return the lines on a file: on the selected camera, else on all together."""
-    told = [Fact("format", f"{found.format}: {format_named(found.format).what}")]
-    told += [Fact("taken" if not i else "", phrase) for i, phrase in enumerate(found.taken)]
+    told = [("format", f"{found.format}: {format_named(found.format).what}")]
+    told += [("" if number else "taken", phrase) for number, phrase in enumerate(found.taken)]
+    cameras = found.cameras if chosen is None else (chosen,)
     told += _of_all(found) if chosen is None else _of_one(chosen)
-    return [Fact(name, one_line(text)) for name, text in told]
+    lenses = {"lens": lens_text(cameras), "distortion": lens_text(cameras, ignored=True)}
+    told += [(name, text) for name, text in lenses.items() if text]
+    return [(name, one_line(text)) for name, text in told]
 
 
 def as_text(told: Sequence[Fact]) -> str:
     """Return one line per fact, in two columns."""
-    width = max(len(fact.name) for fact in told) + 2
+    width = max(len(name) for name, _ in told) + 2
     return "\n".join(f"{name:{width}}{text}" for name, text in told)
 
 
@@ -63,71 +59,52 @@ def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
 
 
 def _of_all(found: CameraSet) -> list[Fact]:
-    cameras = found.cameras
-    names = [camera.name for camera in cameras if camera.name]
-    told = [Fact("cameras", f"{len(cameras)}: {_listed(names)}" if names else str(len(cameras)))]
-    sizes = dict.fromkeys(camera.size for camera in cameras)
-    told.append(Fact("size", _listed([_size_text(size) for size in sizes])))
+    names = [camera.name for camera in found.cameras if camera.name]
+    sizes = [_size_text(size) for size in dict.fromkeys(camera.size for camera in found.cameras)]
+    count = str(len(found.cameras))
+    told = [("cameras", f"{count}: {_listed(names)}" if names else count), ("size", _listed(sizes))]
     if found.points is not None and len(found.points):
-        told.append(Fact("points", f"{len(found.points)} of a reconstruction"))
-    return told + _lens_facts(cameras)
+        told.append(("points", f"{len(found.points)} of a reconstruction"))
+    return told
 
 
 def _listed(names: list[str]) -> str:
-    return ", ".join(names[:TOLD]) + (", ..." if len(names) > TOLD else "")
-
-
-def _lens_facts(cameras: Sequence[PosedCamera]) -> list[Fact]:
-    found = {"lens": lens_text(cameras), "distortion": lens_text(cameras, ignored=True)}
-    return [Fact(name, text) for name, text in found.items() if text]
+    return ", ".join(names[:LISTED]) + (", ..." if len(names) > LISTED else "")
 
 
 def _of_one(posed: PosedCamera) -> list[Fact]:
     """Return a line for each value of the camera that the file has; see as_data()."""
     values = _camera_data(posed) | {"size": _size_text(posed.size)}
     told = [
-        Fact(name, _text(value))
+        (name, _text(value))
         for name, value in values.items()
-        if value not in (None, "", False)
-        and name not in ("lens", "ignored")
-        and (name != "image" or value != posed.name)
+        if value not in (None, "", False) and name not in ("lens", "ignored")
     ]
     if values["K"] is not None:
-        told.append(Fact("", "K, R and t count pixels from the centre of the first one"))
-    return told + _lens_facts([posed])
+        told.append(("", "K, R and t count pixels from the centre of the first one"))
+    return told
 
 
 def _text(value: Any) -> str:
     """Return a flag, a text, a number, a vector or a matrix as text."""
-    if value is True:
-        return "true"
-    if isinstance(value, str):
-        return value
-    if not isinstance(value, list):
-        return _number(value)
-    if isinstance(value[0], list):
+    if isinstance(value, list) and isinstance(value[0], list):
         return ", ".join(map(_text, value))
-    numbers = np.array(value)
-    numbers[np.abs(numbers) < ROUNDING * np.abs(numbers).max()] = 0.0
-    return "(" + ", ".join(map(_number, numbers.tolist())) + ")"
+    if isinstance(value, list):
+        least = ROUNDING * max(map(abs, value))
+        return "(" + ", ".join(_text(one if abs(one) >= least else 0.0) for one in value) + ")"
+    if isinstance(value, bool | str):
+        return str(value)
+    return f"{value + 0.0:.7g}"  # + 0.0: no negative zero
 
 
 def basis_text(camera: Camera) -> str:
-    """Describe whether a basis is orthonormal, and its handedness."""
+    """Describe a basis by its handedness and, if it is not orthonormal, lengths and angles."""
     hand = "right-handed" if camera.determinant > 0 else "left-handed: the picture is mirrored"
-    error = float(np.abs(camera.basis.T @ camera.basis - np.eye(3)).max())
-    if error <= NEARLY:
-        within = "" if error <= EXACT else f" within {error:.1g}"
-        return f"orthonormal{within}, {hand}"
+    if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() <= ORTHONORMAL:
+        return f"orthonormal, {hand}"
     found = measures(camera.u, camera.v, camera.w)
-    pairs = zip(("u and v", "v and w", "w and u"), found.angles_deg, strict=True)
-    skewed = [
-        f"{pair} at {_number(angle)} degrees" for pair, angle in pairs if abs(angle - 90) > 1e-4
-    ]
-    lengths = zip("uvw", found.lengths, strict=True)
-    scaled = [f"|{name}| = {_number(length)}" for name, length in lengths if abs(length - 1) > 1e-6]
-    what = "skewed" if skewed else "orthogonal"
-    return f"{what}, {', '.join([*skewed, *scaled])}, {hand}"
+    lengths, angles = _text(list(found.lengths)), _text(list(found.angles_deg))
+    return f"lengths {lengths}, angles uv, vw, wu {angles} degrees, {hand}"
 
 
 def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, Any]:
@@ -146,16 +123,17 @@ def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, An
 
 
 def _camera_data(posed: PosedCamera) -> dict[str, Any]:
-    camera, size = _for_own_size(posed), posed.size
-    pixels = None if size is None or camera.is_parallel else camera.intrinsics(size)
+    size, view = posed.size, View(posed.camera, posed.fit)
+    camera = view.camera if size is None else view.for_size(size)
+    matrices: dict[str, Any] = dict.fromkeys("KRt")
+    if size is not None and not camera.is_parallel:
+        parts = zip("KRt", camera.intrinsics(size), strict=True)
+        matrices = {name: part.tolist() for name, part in parts}
     return {
         "name": posed.name,
         "image": posed.image,
         "size": None if size is None else list(size),
-        "eye": list(camera.eye),
-        "u": list(camera.u),
-        "v": list(camera.v),
-        "w": list(camera.w),
+        **{name: list(getattr(camera, name)) for name in ("eye", "u", "v", "w")},
         "distance": camera.distance,
         "viewport": list(camera.viewport),
         "fit": posed.fit,
@@ -164,9 +142,7 @@ def _camera_data(posed: PosedCamera) -> dict[str, Any]:
         "far": camera.far,
         "fov_deg": None if camera.is_parallel else [camera.fov_x_deg, camera.fov_y_deg],
         "basis": basis_text(camera),
-        "K": None if pixels is None else pixels.K.tolist(),
-        "R": None if pixels is None else pixels.R.tolist(),
-        "t": None if pixels is None else pixels.t.tolist(),
+        **matrices,
         "lens": _lens_data(posed, camera.lens),
         "ignored": _lens_data(posed, posed.ignored),
     }
@@ -180,14 +156,5 @@ def _lens_data(posed: PosedCamera, lens: Lens | None) -> dict[str, Any] | None:
     return {"model": lens.model, **moved, **lens.coefficients}
 
 
-def _for_own_size(posed: PosedCamera) -> Camera:
-    view = View(posed.camera, posed.fit)
-    return view.camera if posed.size is None else view.for_size(posed.size)
-
-
 def _size_text(size: Size | None) -> str:
     return "of any size" if size is None else f"{size[0]}x{size[1]}"
-
-
-def _number(value: float) -> str:
-    return f"{value + 0.0:.7g}"  # + 0.0: no negative zero

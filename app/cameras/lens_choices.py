@@ -19,12 +19,11 @@ NO_LENS = "none: a pinhole"
 
 @dataclass(frozen=True)
 class Kind:
-    """A model. name: as photographers say. note: what it is. latex, text: its formula."""
+    """A model. name: as photographers say. note: what it is. latex: its formula."""
 
     name: str
     note: str
     latex: str
-    text: str
 
 
 RADIUS = """\
@@ -41,61 +40,51 @@ KINDS = {
         "The usual model of calibrations (OpenCV, COLMAP). Files may also hold s (thin prism).",
         r"r' = r\,\frac{1 + k_1 r^2 + k_2 r^4 + k_3 r^6}{1 + k_4 r^2 + k_5 r^4 + k_6 r^6},"
         r"\quad r = \tan\theta",
-        "r' = r (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6), r = tan(theta)",
     ),
     "fisheye": Kind(
         "Fisheye lens",
         "Kannala and Brandt: a fisheye with a distortion of its own (OpenCV's fisheye model).",
         r"r' = \theta\,(1 + k_1 \theta^2 + k_2 \theta^4 + k_3 \theta^6 + k_4 \theta^8)",
-        "r' = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)",
     ),
     "fov": Kind(
         "Wide-angle lens (FOV)",
         "Devernay and Faugeras: one number, omega, in radians: the angle that the lens sees.",
         r"r' = \frac{1}{\omega} \arctan(2\,\tan\theta\,\tan\frac{\omega}{2})",
-        "r' = atan(2 tan(theta) tan(omega / 2)) / omega",
     ),
     "thin_prism_fisheye": Kind(
         "Fisheye lens, thin prism",
         "COLMAP's thin prism fisheye: the angle theta is distorted as a photographic lens does it.",
         r"r' = \theta\,(1 + k_1 \theta^2 + k_2 \theta^4 + k_3 \theta^6 + k_4 \theta^8) + \ldots",
-        "r' = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) + ...",
     ),
     "equidistant": Kind(
         "Fisheye, equidistant",
         "Equal angles are equally far apart in the image.",
         r"r' = \theta",
-        "r' = theta",
     ),
     "stereographic": Kind(
         "Fisheye, stereographic",
         "Small shapes keep their shape: circles stay circles.",
         r"r' = 2\,\tan\frac{\theta}{2}",
-        "r' = 2 tan(theta / 2)",
     ),
     "equisolid": Kind(
         "Fisheye, equal area",
         "Equisolid angle: equal solid angles have equal areas in the image.",
         r"r' = 2\,\sin\frac{\theta}{2}",
-        "r' = 2 sin(theta / 2)",
     ),
     "orthographic": Kind(
         "Fisheye, orthographic",
         "The hemisphere in front, as a globe looks from afar. It ends at 90 degrees.",
         r"r' = \sin\theta",
-        "r' = sin(theta)",
     ),
     "equirectangular": Kind(
         "Panorama, 360 degrees",
         "Equirectangular: across is longitude, upwards is latitude, as on a map of the world.",
         r"a' = \mathrm{longitude},\quad b' = \mathrm{latitude}",
-        "a' = longitude, b' = latitude",
     ),
     "cylindrical": Kind(
         "Panorama, cylindrical",
         "Across is longitude; upright lines stay straight.",
         r"a' = \mathrm{longitude},\quad b' = \tan(\mathrm{latitude})",
-        "a' = longitude, b' = tan(latitude)",
     ),
 }
 

@@ -6,13 +6,12 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats, listed
+from lucida.renderer.camera.checks import Floats, listed, three
 from lucida.renderer.files.cameras import opencv
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.rigid import rigid
@@ -62,8 +61,6 @@ def meanings(matrix: Floats, now: View, center: ArrayLike) -> list[Meaning]:
     """
     found: dict[tuple[float, ...], tuple[list[str], View]] = {}
     transposed = matrix.reshape(4, -1).T
-    if matrix.size == 12 and _is_rotation(linear := matrix.ravel()[:9].reshape(3, 3)):
-        matrix = np.column_stack([linear, matrix[2, 1:]])  # R and t, one after the other
     for order, rows in (("", matrix), (TRANSPOSED, transposed)):
         for words, make in _ways(rows, now):
             try:
@@ -83,17 +80,14 @@ def _ways(rows: Floats, now: View) -> Iterator[tuple[str, Callable[[], View]]]:
     if not np.allclose(last, (0, 0, 0, 1), atol=1e-5):
         depth, distance = rows[2:, :3]
         lengths = np.linalg.norm(depth) * np.linalg.norm(distance)
-        if np.linalg.norm(np.cross(depth, distance)) > PARALLEL * lengths:
-            return  # depth does not grow along the view direction
-        yield "projection times view (MVP)", partial(_product, rows)
-        if np.allclose(last, (0, 0, -1, 0)):
-            yield "projection alone, from the present eye", partial(_projection, rows, now)
+        if np.linalg.norm(np.cross(depth, distance)) <= PARALLEL * lengths:
+            yield "projection times view (MVP)", partial(_product, rows, "perspective")
     elif _is_rotation(rows[:3, :3]):
         for axes, signs in AXES.items():
             yield f"camera to world, {axes}", partial(_pose, rows, signs, now, inverse=False)
             yield f"world to camera, {axes}", partial(_pose, rows, signs, now, inverse=True)
     elif len(rows) == 4:
-        yield "parallel projection times view (MVP)", partial(_parallel, rows)
+        yield "parallel projection times view (MVP)", partial(_product, rows, "parallel")
     else:
         yield "P = K [R | t], in pixels", partial(_pixels, rows)
 
@@ -112,30 +106,19 @@ def _pose(rows: Floats, axes: tuple[int, ...], now: View, inverse: bool) -> View
     return replace(now, camera=replace(now.camera, eye=pose[:3, 3].tolist(), u=u, v=v, w=w))
 
 
-def _product(rows: Floats) -> View:
+def _product(rows: Floats, projection: str) -> View:
     """Read clip_from_world: the corners of clip space are those of the viewport."""
-    seen = rows[[0, 1, 3]]
-    across, up, ahead = (basis := np.linalg.inv(seen[:, :3])).T
-    return _corners(-basis @ seen[:, 3], across, up, -ahead, "perspective")
-
-
-def _parallel(rows: Floats) -> View:
-    across, up, along, middle = np.linalg.inv(rows)[:3].T
-    return _corners(middle - along, across, up, -along, "parallel")
-
-
-def _corners(eye: Floats, u: Floats, v: Floats, w: Floats, projection: str) -> View:
-    """Return the camera with the viewport -1 to 1. Left-handed u, v, w: y points down (Vulkan)."""
-    v = v * np.sign(np.linalg.det([u, v, w]))
-    numbers: tuple[Any, Any, Any, Any] = (eye.tolist(), u.tolist(), v.tolist(), w.tolist())
-    camera = Camera(*numbers, 1.0, (-1, 1, -1, 1), projection)
+    if projection == "parallel":
+        u, v, along, middle = np.linalg.inv(rows)[:3].T
+        eye, w = middle - along, -along
+    else:
+        seen = rows[[0, 1, 3]]
+        u, v, ahead = (basis := np.linalg.inv(seen[:, :3])).T
+        eye, w = -basis @ seen[:, 3], -ahead
+    v = v * np.sign(np.linalg.det([u, v, w]))  # left-handed: y points down (Vulkan)
+    viewport = (-1, 1, -1, 1)
+    camera = Camera(three(eye), three(u), three(v), three(w), 1.0, viewport, projection)
     return View(rigid(camera, "a camera"), fit=True)
-
-
-def _projection(rows: Floats, now: View) -> View:
-    own = _product(rows).camera
-    now_camera = replace(now.camera, distance=own.distance, viewport=own.viewport, lens=None)
-    return View(now_camera, fit=True)
 
 
 def _pixels(rows: Floats) -> View:

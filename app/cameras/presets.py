@@ -17,12 +17,10 @@ from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side
 MARGIN = 1.1  # of the picture around the framed points
-FOV_Y_DEG = 35.0  # of the presets in perspective
 SMALLEST = 1e-9  # smallest extent, relative to the distance to the world's origin
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -30,16 +28,12 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 @dataclass(frozen=True)
 class Preset:
-    """A basis with a name.
-
-    oblique: w is not perpendicular to u and v, which is meant for parallel rays only.
-    """
+    """A basis with a name."""
 
     name: str
     u: Vector
     v: Vector
     w: Vector
-    oblique: bool = False
 
 
 def _looking_along(w: Vector) -> tuple[Vector, Vector, Vector]:
@@ -81,14 +75,12 @@ PRESETS = (
         AXES["x"],
         AXES["y"],
         _receding(1.0),
-        oblique=True,
     ),
     Preset(
         "Cabinet",
         AXES["x"],
         AXES["y"],
         _receding(0.5),
-        oblique=True,
     ),
 )
 
@@ -99,26 +91,16 @@ def preset_view(
     framed_points: ArrayLike,
     everything: ArrayLike,
     aspect: float,
-    perspective: bool = False,
 ) -> View:
-    """Return the preset's camera with the scene in the picture, in place of the view's.
+    """Return the preset's camera, in parallel projection, with the scene in the picture.
 
     framed_points, everything: (n, 3), world space, as in Focus.
     aspect: the image's, width over height.
-    perspective: not parallel, if the preset allows that. Then a lens stays.
 
     Raises LucidaError if the scene is too large for a camera.
     """
-    perspective = perspective and not preset.oblique
-    camera = Camera(
-        u=preset.u,
-        v=preset.v,
-        w=preset.w,
-        distance=0.5 / math.tan(math.radians(FOV_Y_DEG) / 2) if perspective else 1.0,
-        viewport=(-aspect / 2, aspect / 2, -0.5, 0.5),
-        projection="perspective" if perspective else "parallel",
-        lens=view.camera.lens if perspective else None,
-    )
+    viewport = (-aspect / 2, aspect / 2, -0.5, 0.5)
+    camera = Camera(u=preset.u, v=preset.v, w=preset.w, viewport=viewport, projection="parallel")
     return replace(view, camera=framed(camera, framed_points, everything))
 
 
@@ -128,12 +110,15 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
     The basis and the viewport's shape stay. In perspective the eye moves; in parallel projection
     the viewport is resized. Without points, the camera is unchanged.
     everything: points that must also be in front of a parallel camera.
-    A lens is taken as the pinhole that sees as much, up to WIDEST.
+    A lens is taken as the pinhole with its viewport, up to WIDEST.
 
     Raises LucidaError.
     """
     if camera.lens is not None:
-        return replace(camera, eye=framed(_ideal(camera, camera.lens), points).eye)
+        most = WIDEST * camera.distance
+        left, right, bottom, top = np.clip(camera.viewport, -most, most).tolist()
+        frame = replace(camera.pinhole, viewport=(left, right, bottom, top))
+        return replace(camera, eye=framed(frame, points).eye)
     world = np.asarray(points, float).reshape(-1, 3)
     if not len(world):
         return camera
@@ -160,22 +145,6 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
     z = max(float(needed.max()), float(high[2]) + 0.05 * float(high[2] - low[2]) + least)
     at = np.append(middle[:2] - center / camera.distance * (z - middle[2]), z)
     return replace(camera, eye=(camera.basis @ at).tolist())
-
-
-def _ideal(camera: Camera, lens: Lens) -> Camera:
-    """Return the pinhole whose viewport's edges are where the lens's are ideally, up to WIDEST."""
-    left, right, bottom, top = camera.viewport
-    middle = (left + right) / 2, (bottom + top) / 2
-    x = np.array([left, right, middle[0], middle[0]])
-    y = np.array([middle[1], middle[1], bottom, top])
-    to_right, down, ahead = lens.direction(x / camera.distance, -y / camera.distance)
-    across = np.append(to_right[:2], -down[2:])
-    seen = across / np.where(ahead > 0, ahead, 1e-9)
-    edges = np.where(np.isnan(seen), np.sign(camera.viewport) * WIDEST, seen)
-    edges = np.clip(edges, -WIDEST, WIDEST) * camera.distance
-    if not (edges[0] < edges[1] and edges[2] < edges[3]):  # far off-axis
-        return camera.pinhole
-    return replace(camera.pinhole, viewport=tuple(edges.tolist()))
 
 
 def look_at(view: View, eye: Iterable[float], target: Iterable[float], up: Iterable[float]) -> View:

@@ -1,4 +1,4 @@
-"""The starter file for students, and diagnoses in the task's words, whose code runs in that file.
+"""The starter file for students, and diagnoses in the task's words.
 
 A starter file has an empty function with a description of the task.
 """
@@ -12,34 +12,19 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
-from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, PAIRS, Conventions
+from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, Conventions
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.programs import programs
-from lucida.app.checking.mistakes.rays import LETTERS
 from lucida.app.checking.mistakes.vectors import FUNCTIONS
 from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.words import PARTS
 from lucida.app.ui.explaining.symbols import arguments, program
 from lucida.renderer.system.errors import visible
 
 AS_IF = "As if it read"
-# The parts of a word's value, by their names in the programs.
-_PARTS: Mapping[str, Mapping[str, str]] = {
-    **{pair: {part: f"[{k}]" for k, part in enumerate(parts)} for pair, parts in PAIRS.items()},
-    "size": {"width": "[0]", "height": "[1]"},
-    "viewport": {"left": "[0]", "right": "[1]", "bottom": "[2]", "top": "[3]"},
-    "point": {"X": "[0]", "Y": "[1]", "Z": "[2]"},
-    "rgb": {"red": "[..., 0]", "green": "[..., 1]", "blue": "[..., 2]"},
-    "scene": {"objects": ".objects", "background": ".background"},
-}
 _NAME = re.compile(r"(?<![\w.'])[A-Za-z_]\w*")
 _PIXEL = re.compile(r" ?\b([ij])\b")  # in the words of a hint
 _PYTHON = {*dir(builtins), *keyword.kwlist}
-
-
-def functions(task: CheckTask) -> set[str]:
-    """Return the names of the functions in the correct lines; the starter defines them."""
-    names = {name for its in programs(task) for name in _NAME.findall(its.source())}
-    return names & FUNCTIONS.keys()
 
 
 def shown_name(task: CheckTask, name: str, word: str) -> str:
@@ -59,7 +44,7 @@ def own_names(task: CheckTask) -> dict[str, str]:
     }
     computed |= {"i", "j"} if task.kind == "render" else set()
     given = {name: text for name, text in _given(task) if name not in computed}
-    taken = {_NAME.findall(text)[0] for text in given.values()} | functions(task)
+    taken = {_NAME.findall(text)[0] for text in given.values()} | FUNCTIONS.keys()
     own: dict[str, str] = {}
     letters = {name: program(name, task.notation).removeprefix("cam.") for name in computed}
     for name in sorted(computed, key=lambda name: (letters[name] != name, name)):
@@ -79,19 +64,18 @@ def _given(task: CheckTask) -> Iterator[tuple[str, str]]:
 
 
 def _parts(word: str, text: str) -> Iterator[tuple[str, str]]:
-    yield LETTERS.get(word, word), text
-    for part, at in _PARTS.get(word, {}).items():
+    yield {"row": "i", "column": "j"}.get(word, word), text
+    for part, at in PARTS.get(word, {}).items():
         yield part, text + at
 
 
 def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
     """Return sentences in the task's names and notation.
 
-    A formula is shown only if it runs in the starter: if the task passes all of its values, and the
-    correct lines have its functions.
+    A formula is shown only if the task passes all of its values.
     """
     own = own_names(task)
-    known = _PYTHON | functions(task) | own.keys()
+    known = _PYTHON | FUNCTIONS.keys() | own.keys()
     told = []
     for sentence in sentences:
         if sentence.startswith(AS_IF):
@@ -129,32 +113,13 @@ def _of_k(conventions: Conventions, sentence: str) -> str:
 
 
 _WIDTH = 96
-_NUMPY = {"atan2": "arctan2 as atan2"}  # names that NumPy has only from version 2 on
-# The functions of formulas that NumPy lacks, with those that they use.
-_WRITTEN = {
-    "normalized": ("array(a) / sqrt(dot(a, a))", "a", {"array", "dot", "sqrt"}),
-    "vector": ("array((x, y, z), float)", "x, y, z", {"array"}),
-    "inverse": ("linalg.inv(matrix)", "matrix", {"linalg"}),
-    "times_point": ("(array(matrix) @ (*a, 1))[:3]", "matrix, a", {"array"}),
-    "times_vector": ("(array(matrix) @ (*a, 0))[:3]", "matrix, a", {"array"}),
-}
 
 
 def starter(tasks: Sequence[CheckTask]) -> str:
-    """Return the text of a Python file: the tasks' functions, and those that formulas of reports
-    use. Tasks with the same function share it.
+    """Return the text of a Python file with the tasks' functions. Tasks with the same function
+    share it.
     """
     parts = ['"""What is to be written; `lucida check` with this file\'s name tries it."""']
-    used = set().union(*map(functions, tasks))
-    written = [name for name in _WRITTEN if name in used]
-    used = used.union(*(_WRITTEN[name][2] for name in written)) - set(written)
-    if used:
-        parts[0] += (
-            f"\n\nfrom numpy import {', '.join(_NUMPY.get(name, name) for name in sorted(used))}"
-        )
-    parts += [
-        f"def {name}({_WRITTEN[name][1]}):\n    return {_WRITTEN[name][0]}" for name in written
-    ]
     for function in dict.fromkeys(task.function for task in tasks):
         parts.append(_function([task for task in tasks if task.function == function]))
     return "\n\n\n".join(parts) + "\n"

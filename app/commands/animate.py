@@ -25,12 +25,12 @@ NAME = "animate"
 DESCRIPTION = "Draw a film: a scene, seen by a camera that moves."
 
 EPILOG = """\
-OUT is a film (.mp4 with H.264, .gif or .webp), or a folder of PNGs if it has no ending or ends with
-a slash. Run the same command again after a break: it continues where it stopped.
+OUT is a film (.mp4 with H.264), or a folder of PNGs if it has no ending or ends with a slash. Run
+the same command again after a break: it continues where it stopped.
 
 examples:
   lucida animate still-life --orbit -o orbit.mp4
-  lucida animate spheres --dolly-zoom --seconds 3 -o vertigo.gif --size 480x270 --fps 25
+  lucida animate spheres --dolly-zoom --seconds 3 -o vertigo.mp4
   lucida animate bunny.obj --path keys.toml -o frames --renderer ray --samples 16 --workers 4
   lucida animate scene.toml --photographs transforms.json -o set.mp4
   lucida animate scene.toml --orbit -o orbit.mp4 --scheduler tcp://cluster:8786
@@ -53,7 +53,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="back, and longer: the subject keeps its size",
     )
-    path.add_argument("--to-parallel", action="store_true", help="from perspective to parallel")
     path.add_argument(
         "--path", metavar="KEYS", help="through the cameras of this file (docs/animation.md)"
     )
@@ -80,10 +79,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="number of frames (default: seconds times fps); with --seconds, fps follows",
     )
     parser.add_argument(
-        "--renderer",
-        choices=("raster", "ray", "both"),
-        default="raster",
-        help="both: side by side (default: raster)",
+        "--renderer", choices=("raster", "ray"), default="raster", help="(default: raster)"
     )
     common.add_size_option(parser)
     common.add_drawing_options(parser)
@@ -103,20 +99,19 @@ def run(arguments: argparse.Namespace) -> int:
     scene, view = common.scene_and_view(arguments)
     look, path = look_of(arguments), Path(arguments.output)
     cameras = _cameras(arguments, view, scene_focus(scene))
-    width, height = look.frame_size(arguments.size)
     is_folder = arguments.output.endswith(("/", os.sep))
-    write = None if is_folder else film_writer(path, (width, height), arguments.fps)
+    write = None if is_folder else film_writer(path, arguments.size, arguments.fps)
     shots = [Shot(camera, arguments.size) for camera in cameras]
     make_film(Film(path, scene, shots, look, write), arguments, "frames")
     print(
         f"{one_line(arguments.output)}: {common.counted((len(cameras), 'frame'))}, "
-        f"{width}x{height}, {len(cameras) / arguments.fps:.4g} s"
+        f"{arguments.size[0]}x{arguments.size[1]}, {len(cameras) / arguments.fps:.4g} s"
     )
     return 0
 
 
 def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Camera]:
-    from lucida.app.cameras.films.paths import around, dolly_zoom, through, to_parallel
+    from lucida.app.cameras.films.paths import around, dolly_zoom, through
 
     size, keys = arguments.size, None
     if arguments.path is not None:
@@ -133,7 +128,7 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
         raise LucidaError("--fps", f"{count} frames are too many", f"stay within {LONGEST}")
     if keys is not None:
         return through(keys, focus, size, count)
-    make = around if arguments.orbit else dolly_zoom if arguments.dolly_zoom else to_parallel
+    make = around if arguments.orbit else dolly_zoom
     return make(view, focus, size, count)
 
 

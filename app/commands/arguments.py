@@ -170,15 +170,7 @@ def add_from_option(parser: argparse.ArgumentParser) -> None:
 
 
 def check_is_scene(source: str) -> None:
-    """Raise LucidaError if the source is a lecture's file or a class's answers instead of a
-    scene.
-    """
-    if source.lower().endswith((".json", ".jsonl")):
-        from lucida.app.checking.results.model import is_results
-
-        if is_results(source):
-            remedy = f"lucida lecture --results {source} -o class.html"
-            raise LucidaError("", "holds a class's answers, not a scene", remedy, source)
+    """Raise LucidaError if the source is a lecture's file instead of a scene."""
     if not source.lower().endswith(".toml"):
         return
     from lucida.app.lecture.reading import is_lecture

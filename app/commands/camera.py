@@ -6,6 +6,7 @@ It is quick to import.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -21,7 +22,7 @@ from lucida.app.commands.given_camera import (
     source_of,
     with_remedy,
 )
-from lucida.renderer.system.errors import LucidaError, errors_as, not_together, one_line, visible
+from lucida.renderer.system.errors import LucidaError, errors_as, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,14 +42,14 @@ formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr)
 gltf (for Blender, three.js and engines), opengl. docs/cameras.md says what each holds, and has the
 formulas.
 
-If a file has several cameras, --frame or --image selects one, or INPUT#12, INPUT#IMG_7.jpg.
+If a file has several cameras, INPUT#12 or INPUT#IMG_7.jpg selects one.
 Otherwise all are written, if the format holds several, and none if it cannot hold one of them.
 exit status: 0 done, 2 a mistake or a failure (one line says which), 130 interrupted
 
 examples:
   lucida camera transforms.json                     what it holds
   lucida camera transforms.json#12                  one of its cameras, with all numbers
-  lucida camera transforms.json --frame 12 -o corner.toml
+  lucida camera transforms.json#12 -o corner.toml
   lucida camera sparse/0 --to nerf -o transforms.json
   lucida camera corner.toml --to opencv --size 1280x720"""
 
@@ -67,14 +68,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="OUT", help="into this file or folder (default: print it)"
     )
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--image", metavar="NAME", help="the camera of this name, or photograph")
-    which.add_argument(
-        "--frame",
-        type=common.whole(0, 10**9, "is not a camera index; give e.g. 12"),
-        metavar="N",
-        help="the camera of this number, from 0",
-    )
     parser.add_argument(
         "--size",
         type=common.size,
@@ -92,12 +85,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.renderer.files.cameras import Options, read_chosen
+    from lucida.renderer.files.cameras import Options, read_chosen, without_choice
     from lucida.renderer.files.cameras.saving import save_files
 
     # Check for quick mistakes first.
     target = _target(arguments)
-    file, which = _input(arguments)
+    file, which = without_choice(arguments.input)
     if arguments.source_format:
         _format("--from", arguments.source_format)
     source = source_of(file)
@@ -130,15 +123,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCamera | None) -> str:
-    from lucida.app.cameras.described import Fact, as_data, as_text, facts
+    from lucida.app.cameras.described import as_data, as_text, facts
 
     if arguments.json:
         return json.dumps(as_data(found, chosen), indent=2, allow_nan=False)
     told = facts(found, chosen)
     if chosen is None:
         name = next((camera.name for camera in found.cameras if camera.name), "")
-        by_name = f", or --image NAME, such as {name!r}" if name else ""
-        told.append(Fact("to choose", f"--frame N, 0 to {len(found.cameras) - 1}{by_name}"))
+        by_name = f", or INPUT#NAME, such as {name!r}" if name else ""
+        told.append(("to choose", f"INPUT#N, 0 to {len(found.cameras) - 1}{by_name}"))
     return as_text(told)
 
 
@@ -156,15 +149,12 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     output = arguments.output
     if arguments.to is None and output is None:
         return None
-    if arguments.json:
-        raise not_together("--json", "--to or -o", "it describes INPUT")
     if arguments.to is None:
         ending = Path(output).suffix.lower()
         names = [entry.name for entry in FORMATS if ending in entry.endings]
         if len(names) != 1:
-            problem = f"is missing: {_of_ending(ending)} {'several formats' if names else 'none'}"
-            all_names = [entry.name for entry in FORMATS]
-            raise LucidaError("--to", problem, f"give one of {', '.join(names or all_names)}")
+            names = names or [entry.name for entry in FORMATS]
+            raise LucidaError("--to", "is missing", f"give one of {', '.join(names)}")
         return _format("--to", names[0])
     target = _format("--to", arguments.to)
     if output is None:
@@ -174,23 +164,6 @@ def _target(arguments: argparse.Namespace) -> Format | None:
         problem = f"{output!r} does not end as a file of {target.name} does"
         raise LucidaError("-o", problem, f"give {' or '.join(target.endings)}")
     return target
-
-
-def _of_ending(ending: str) -> str:
-    return f"of the ending {ending} are" if ending else "of folders are"
-
-
-def _input(arguments: argparse.Namespace) -> tuple[str, str | int]:
-    """Return INPUT's file, and the name or number of its camera."""
-    from lucida.renderer.files.cameras import without_choice
-
-    file, which = without_choice(arguments.input)
-    for option, value in (("--image", arguments.image), ("--frame", arguments.frame)):
-        if value is not None:
-            if which:
-                raise not_together(option, f"#{which}")
-            return file, value
-    return file, which
 
 
 def _sized(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
@@ -211,23 +184,7 @@ def _written(
 
 
 def _check_is_another(output: str, source: Given) -> None:
-    """Raise LucidaError if OUT is INPUT, the folder that contains it, or inside it."""
-    if source.path is None:
-        return
-    what = ""
-    if _is_same(source.path, output):
-        what = "INPUT itself"
-    elif _is_same(source.path.parent, output):
-        what = "INPUT's own folder"
-    elif source.is_folder and os.path.lexists(output):
-        above = Path(os.path.abspath(output)).parents
-        what = "a part of INPUT" if any(_is_same(source.path, str(one)) for one in above) else ""
-    if what:
-        raise LucidaError("-o", f"{output!r} is {what}", "give another name")
-
-
-def _is_same(path: Path, other: str) -> bool:
-    try:
-        return os.path.samefile(path, other)
-    except (OSError, ValueError):  # it does not exist, or cannot
-        return False
+    """Raise LucidaError if OUT is INPUT."""
+    with contextlib.suppress(OSError):  # it does not exist
+        if source.path is not None and os.path.samefile(source.path, output):
+            raise LucidaError("-o", f"{output!r} is INPUT itself", "give another name")

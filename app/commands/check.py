@@ -6,24 +6,25 @@ It is quick to import: it loads the modules that a check of rays needs, and no t
 from __future__ import annotations
 
 import argparse
+import contextlib
+import json
 import os
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lucida.app.commands import arguments as common
-from lucida.app.commands.asked_tasks import SIZE, all_tasks, asked_for, named, possible
-from lucida.app.commands.check_reports import pictures_of, write_json, write_page
-from lucida.app.commands.given_camera import add_view_option
-from lucida.renderer.system.errors import LucidaError, not_together, one_line, visible
+from lucida.app.commands.asked_tasks import all_tasks, named
+from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
     from lucida.app.checking.checked import TaskResult
-    from lucida.app.checking.reports.picture import Pictured
     from lucida.app.checking.running.account import Account
     from lucida.app.checking.running.command import CommandStudent
     from lucida.app.checking.running.file import FileStudent
+    from lucida.app.checking.running.program import ProgramStudent
     from lucida.app.checking.tasks import CheckTask, Limits
 
 NAME = "check"
@@ -46,19 +47,19 @@ examples:
   lucida check --starter viewing-ray -o rays.py    a file to begin with
   lucida check rays.py                             all tasks whose functions the file has
   lucida check rays.py --tasks hw2.toml --json results.json
-  lucida check rays.py --view corner.toml --size 64x48
   lucida check --command "julia rays.jl" --task viewing-ray"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
-    parser.add_argument(
+    which = parser.add_mutually_exclusive_group(required=True)
+    which.add_argument(
         "file",
         nargs="?",
         metavar="FILE",
         help="a Python file",
     )
-    parser.add_argument(
+    which.add_argument(
         "--command", metavar="COMMAND", help="a program: one JSON object a line in, one a line out"
     )
     parser.add_argument(
@@ -69,30 +70,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--task", metavar="NAME", help="this task alone")
     parser.add_argument(
         "--json", metavar="OUT", help="write the results as Gradescope reads them; -: print them"
-    )
-    parser.add_argument(
-        "--html", metavar="OUT.html", help="write the results as a page, with pictures"
-    )
-    add_view_option(parser, "try this camera alone: a file as `lucida camera` reads it")
-    parser.add_argument(
-        "--size",
-        type=common.size,
-        metavar="WxH",
-        help=f"of the images that are tried (with --view: {SIZE[0]}x{SIZE[1]}, or as much of it\n"
-        "as the camera's own aspect ratio allows)",
-    )
-    parser.add_argument(
-        "--seed",
-        type=common.whole(0, 10**18, "is not a seed; give a whole number, e.g. 7"),
-        metavar="N",
-        help="other cameras, other numbers",
-    )
-    parser.add_argument(
-        "--from",
-        dest="indexing",
-        type=common.indexing,
-        metavar="0|1",
-        help="count pixels from 0 or from 1 (default: 0, or as the task file says)",
     )
     parser.add_argument(
         "--time-limit",
@@ -117,7 +94,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--python", metavar="PATH", help="run a Python file by this interpreter (default: Lucida's)"
     )
-    parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; or `all`")
+    which.add_argument("--starter", metavar="TASK", help="write a file to begin with; or `all`")
     parser.add_argument("-o", dest="output", metavar="FILE", help="the file of --starter")
 
 
@@ -127,52 +104,50 @@ def run(arguments: argparse.Namespace) -> int:
     begin = time.perf_counter()
     tasks: list[CheckTask] = []
     results: list[TaskResult] = []
-    pictures: dict[str, Pictured] = {}
-    from lucida.app.checking.checked import check
+    from lucida.app.checking.checked import check, status_of
+    from lucida.app.checking.reports import summary
     from lucida.app.checking.running.program import DISHONEST
+
+    def write(problem: str = "") -> None:
+        _write_json(arguments.json, results, tasks, time.perf_counter() - begin, problem)
 
     try:
         _check_arguments(arguments)
-        tasks, limits = asked_for(arguments)
+        tasks, limits = _asked_for(arguments)
         student = _student(arguments, limits)
-        # Results to find if the student's program ends this process.
-        if arguments.json != "-":
-            write_json(arguments, [], tasks, 0.0, NOT_ENDED)
-        write_page(arguments, [], tasks, {}, NOT_ENDED)
+        if arguments.json != "-":  # results to find if the student's program ends this process
+            write(NOT_ENDED)
         try:
-            tasks = possible(arguments, student, tasks)
+            tasks = _possible(arguments, student, tasks)
             if arguments.user is None:
                 print(f"lucida: {DISHONEST}", file=sys.stderr)
             for result in check(student, tasks):
                 results.append(result)
                 _tell(arguments, result)
-                if arguments.html is not None:
-                    pictures |= pictures_of(student, result)
         finally:
             student.close()
         if student.survived:
             results.clear()
             problem = "something that the program started could not be ended"
-            raise LucidaError("", problem, "its answers do not count", _checked(arguments))
+            checked = str(arguments.file or arguments.command)
+            raise LucidaError("", problem, "its answers do not count", checked)
     except LucidaError as error:
-        seconds = time.perf_counter() - begin
         lines = _why(error)
-        problem = "\n".join([str(error), *lines])
-        write_json(arguments, results, tasks, seconds, problem)
-        write_page(arguments, results, tasks, pictures, problem)
+        write("\n".join([str(error), *lines]))
         if lines:
             print("\n".join(lines), file=sys.stderr)
         raise
-    write_json(arguments, results, tasks, time.perf_counter() - begin)
-    write_page(arguments, results, tasks, pictures)
-    return _end(arguments, results, tasks)
+    write()
+    if arguments.json != "-" and len(results) > 1:
+        print(summary(results, tasks))
+    return status_of(results)
 
 
 def _why(error: LucidaError) -> list[str]:
     """Return the student's own lines for a file that does not run, and its output up to that
     point.
     """
-    from lucida.app.checking.reports.told import failure_lines
+    from lucida.app.checking.reports import failure_lines
     from lucida.app.checking.running.file import NotRunnableError
 
     if not isinstance(error, NotRunnableError):
@@ -181,29 +156,68 @@ def _why(error: LucidaError) -> list[str]:
     return [*printed, *failure_lines(error.failure)]
 
 
-def _end(arguments: argparse.Namespace, results: list[TaskResult], tasks: list[CheckTask]) -> int:
-    from lucida.app.checking.checked import status_of
-    from lucida.app.checking.reports.told import summary
+def _asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
+    """Return the tasks of the arguments, even if the code lacks their functions, and the limits."""
+    tasks, limits = all_tasks(arguments.tasks)
+    if arguments.task is not None:
+        tasks = [named(tasks, arguments.task)]
+    if arguments.time_limit is not None:
+        limits = replace(limits, seconds=arguments.time_limit)
+    if arguments.memory_limit is not None:
+        limits = replace(limits, memory_mb=arguments.memory_limit)
+    return tasks, limits
 
-    if arguments.json != "-" and len(results) > 1:
-        print(summary(results, tasks))
-    return status_of(results)
+
+def _possible(
+    arguments: argparse.Namespace, student: ProgramStudent, tasks: list[CheckTask]
+) -> list[CheckTask]:
+    """Return the tasks to try: all that a lecturer or the user has named; of the built-in ones,
+    those whose functions exist.
+    """
+    functions = student.functions()
+    if functions is None or arguments.tasks is not None or arguments.task is not None:
+        return tasks
+    found = [task for task in tasks if task.function in functions]
+    if not found:
+        problem = "it has none of the functions that are asked for"
+        names = dict.fromkeys(task.function for task in tasks)
+        raise LucidaError("", problem, f"define one of {', '.join(names)}", arguments.file)
+    return found
+
+
+def _write_json(
+    path: str | None,
+    results: list[TaskResult],
+    tasks: list[CheckTask],
+    seconds: float,
+    problem: str,
+) -> None:
+    from lucida.app.checking.reports import gradescope
+    from lucida.renderer.system.atomic import atomic_write
+
+    if path is None:
+        return
+    values = gradescope(results, tasks, seconds, problem)
+    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+    if path == "-":
+        sys.stdout.write(text)
+        return
+    try:
+        with atomic_write(path) as file:
+            file.write(text.encode())
+    except LucidaError:
+        with contextlib.suppress(OSError):  # an earlier check's must not pass for this one's
+            Path(path).unlink()
+        raise
 
 
 def _check_arguments(arguments: argparse.Namespace) -> None:
     from lucida.renderer.system.atomic import check_writable
 
-    if (arguments.file is None) == (arguments.command is None):
-        if arguments.file is not None:
-            raise not_together("FILE", "--command")
-        raise LucidaError("FILE", "is missing", "give a Python file, or --command")
     if arguments.file is not None:
         _check_link(Path(arguments.file))
-    for path in (arguments.json, arguments.html):
-        if path not in (None, "-"):
-            check_writable(path)
-    if arguments.python is not None and arguments.command is not None:
-        raise LucidaError("--python", "is for Python files", "name it in --command")
+    if arguments.json not in (None, "-"):
+        check_writable(arguments.json)
     if arguments.output is not None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
@@ -220,10 +234,6 @@ def _check_link(path: Path) -> None:
         raise LucidaError("", "is a link out of its folder", "give the file itself", str(path))
 
 
-def _checked(arguments: argparse.Namespace) -> str:
-    return str(arguments.command if arguments.file is None else arguments.file)
-
-
 def _account(arguments: argparse.Namespace) -> Account | None:
     """Return the user of the student's program, who can reach neither results nor tasks; None
     without `--as`.
@@ -234,7 +244,7 @@ def _account(arguments: argparse.Namespace) -> Account | None:
     if arguments.user is None:
         return None
     user = account(arguments.user)
-    results = [Path(path) for path in (arguments.json, arguments.html) if path not in (None, "-")]
+    results = [Path(arguments.json)] if arguments.json not in (None, "-") else []
     own_tasks = arguments.tasks is not None and Path(arguments.tasks).is_file()
     user.check_reach([Path(task_path(arguments.tasks))] if own_tasks else [], results)
     return user
@@ -255,11 +265,11 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from lucida.app.checking.reports.told import is_colored, terminal_lines
+    from lucida.app.checking.reports import terminal_lines
 
     if arguments.json == "-":
         return
-    print("\n".join(terminal_lines(result, is_colored(sys.stdout))), flush=True)
+    print("\n".join(terminal_lines(result)), flush=True)
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
 STILLS_SIZE = (1600, 900)
+PRINT_SIZE = (1600, 1040)  # the pictures fill a landscape page
 PAGES = (".html", ".htm", ".pdf")
 
 DESCRIPTION = """\
@@ -102,7 +103,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=window_size,
         metavar="WxH",
         help="the window's size in pixels (--export: "
-        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]})",
+        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]}; "
+        f"a print: {PRINT_SIZE[0]}x{PRINT_SIZE[1]})",
     )
 
 
@@ -182,7 +184,8 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
     from lucida.app.window.lecturing import lecture_stills
 
     with common.progress_bar("export") as progress:
-        stills = lecture_stills(lecture, path, arguments.size or STILLS_SIZE, progress)
+        size = arguments.size or (PRINT_SIZE if is_pdf else STILLS_SIZE)
+        stills = lecture_stills(lecture, path, size, progress)
     html = page(lecture, stills, not arguments.no_answers, for_print=is_pdf)
     content = pdf.pdf(html, program) if is_pdf else html.encode()
     with atomic_write(target) as file:
@@ -194,8 +197,7 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     """Write a page about a class's answers."""
-    from lucida.app.checking.results.model import class_results, read_answers
-    from lucida.app.checking.results.page import page
+    from lucida.app.checking.results import page, read_answers, summary
     from lucida.renderer.system.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
@@ -204,10 +206,10 @@ def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
         raise LucidaError("--results", "; ".join(problems) or "have no answers", remedy)
     for problem in problems:
         print(f"lucida: {problem}", file=sys.stderr)
-    results = class_results(answers, [step.title for step in lecture.steps], problems)
+    html = page(answers, [step.title for step in lecture.steps])
     with atomic_write(arguments.output) as file:
-        file.write(page(results).encode())
-    common.say(one_line(f"{arguments.output}: {results.summary}"))
+        file.write(html.encode())
+    common.say(one_line(f"{arguments.output}: {summary(answers)}"))
     return 0
 
 

@@ -45,11 +45,6 @@ class RayImage:
     factor: int
     mean: NDArray[np.float32] | None = None
 
-    @property
-    def is_last(self) -> bool:
-        """True if nothing finer will come for its request."""
-        return self.factor == 1 and (self.request.samples == 1 or self.mean is not None)
-
     def is_beside(self, raster: ImageRequest) -> bool:
         """Return True if it may be shown next to the raster image of a request: both have the same
         camera.
@@ -87,7 +82,6 @@ class LiveTrace:
         self._finished: Wanted | None = None  # the last one whose image came, or failed
         self._arrived: RayImage | None = None
         self._job: TraceJob | None = None
-        self._passes, self._passes_done = 1, 0  # of an image with several samples per pixel
         self._cancels = False  # whether a newer request cancels the job at once
         self._closed = False
         self._error: Exception | None = None
@@ -134,15 +128,6 @@ class LiveTrace:
                 self._newest = self._newest[0], self._newest[1]  # another object: not served yet
                 self._error = None
                 self._changed.notify()
-
-    @property
-    def progress(self) -> float:
-        """The finished part of the image under way, 0 to 1, all its samples taken together."""
-        with self._changed:
-            if self._job is None and self._passes == 1:
-                return 1.0
-            part = 0.0 if self._job is None else self._job.progress
-            return (self._passes_done + part) / self._passes
 
     @property
     def preparing_s(self) -> float:
@@ -203,7 +188,6 @@ class LiveTrace:
                 tracer, self._ready = None, None
                 with self._changed:
                     self._job, self._began_s = None, 0.0
-                    self._passes, self._passes_done = 1, 0
                     self._error, self._finished = _as_exception(error), wanted
                 self._wake()
         if tracer is not None:
@@ -253,17 +237,11 @@ class LiveTrace:
             channels: tuple[str, ...],
             progress: Progress | None,
         ) -> Frame:
-            frame = self._finish(tracer.start(camera, size, channels), wanted, 0.0)
-            with self._changed:
-                self._job, self._passes_done = None, self._passes_done + 1
-            return frame
+            return self._finish(tracer.start(camera, size, channels), wanted, 0.0)
 
-        with self._changed:
-            self._passes = request.samples
         of_all = supersampled(draw, request.camera, request.size, ("color",), request.samples)
         with self._changed:
             self._job = None
-            self._passes, self._passes_done = 1, 0
             if not of_all.complete:
                 return
             self._arrived = RayImage(request, centres, 1, of_all.color)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.outside.growing import stage_at, stages_of
+from lucida.app.instruments.outside.growing import stage_at
 from lucida.app.lecture.answer_log import AnswerLog
 from lucida.app.lecture.answer_note import note
 from lucida.app.lecture.exercise import exercise
@@ -89,10 +89,9 @@ class Column:
         """Draw the text and the exercise. height: the room for the longest text of the step."""
         step, options = session.step, host.state.options
         blocks, width = step.blocks, imgui.get_content_region_avail().x
-        stages = stages_of(host.renderers.camera(host.state))
-        formula = options.outside.formula
+        camera = host.renderers.camera(host.state)
         self._slides.notation = options.notation
-        self._slides.lit = "" if formula is None else stage_at(formula, stages)
+        self._slides.lit = stage_at(options.outside.formula, camera)
         self._fit(session, ImVec2(width, height))
         alpha = self._alpha(host)  # also without a text, so that the fading ends
         if blocks:

@@ -13,8 +13,7 @@ from lucida.app.lecture.notation import in_notation
 from lucida.app.lecture.text import Block
 from lucida.app.state.options.shared import Notation
 from lucida.app.ui import theme
-from lucida.app.ui.formula import lit, vector_colors
-from lucida.app.ui.inline_math import inline_math
+from lucida.app.ui.formula import inline_math, lit, vector_colors
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 

@@ -41,6 +41,8 @@ QUIZ = "there is no quiz of wrong lines any more; a lecture asks by exercises"
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
 REMOVED: dict[str, Removed] = {
     "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
+    "presets_in_perspective": Removed("presets are parallel; P switches the projection", False),
+    "stepper.order": Removed("both algorithms are always side by side", "both"),
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),
     "costs.recorded": Removed("the cost plot always shows recorded images", False),

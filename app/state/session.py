@@ -43,15 +43,14 @@ class NewerVersionError(LucidaError):
 class Arrangement:
     """The arrangement of the windows inside the window.
 
-    layout: its name. visible: the names of the shown views. windows: places and docks, as ImGui
-    writes them. sections: the unfolded parts of a view, by the view's name. maximised: the name of
-    the view that covers all others, focused: of the one that has the keyboard, or "". parts: the
-    docks' shares of their room, by layout and space.
+    layout: its name. visible: the names of the shown views. sections: the unfolded parts of a
+    view, by the view's name. maximised: the name of the view that covers all others, focused: of
+    the one that has the keyboard, or "". parts: the docks' shares of their room, by layout and
+    space.
     """
 
     layout: str = ""
     visible: tuple[str, ...] = ()
-    windows: str = ""
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
     maximised: str = ""
     focused: str = ""

@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 import functools
-import math
 
-from lucida.renderer.images.shared_numbers import (
-    LUMINANCE,
-    SRGB_GAMMA,
-    SRGB_LINEAR_SHOWN,
-    SRGB_SCALE,
-    SRGB_SHIFT,
-    SRGB_SLOPE,
-)
+import numpy as np
+
+from lucida.renderer.images.display import LUMINANCE, from_srgb
 
 Rgb = tuple[float, float, float]  # sRGB, 0..1
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (1.4.3)
@@ -39,13 +33,4 @@ def contrast(one: Rgb, other: Rgb) -> float:
 
 
 def _luminance(color: Rgb) -> float:
-    return sum(w * _linear(c) for w, c in zip(LUMINANCE, color, strict=True))
-
-
-def _linear(value: float) -> float:
-    """Return the linear light of an sRGB value: display.from_srgb() without arrays, for frequent
-    calls.
-    """
-    if value <= SRGB_LINEAR_SHOWN:
-        return value / SRGB_SLOPE
-    return math.pow((value + SRGB_SHIFT) / SRGB_SCALE, SRGB_GAMMA)
+    return float(from_srgb(np.rint(255 * np.array(color)).astype(np.uint8)) @ LUMINANCE)

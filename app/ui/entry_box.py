@@ -19,6 +19,7 @@ class EntryBox:
     button: the label of its button.
     rule: the line below the fields.
     entered: called with the texts; raises LucidaError if they are wrong, and the box stays.
+    field_em: the width of a field, in type sizes.
     problem: the last error.
     focused: True if the box has the keyboard, even before one of its fields has taken it.
     """
@@ -30,9 +31,10 @@ class EntryBox:
         button: str,
         rule: str,
         entered: Callable[[tuple[str, ...]], None],
+        field_em: float = 5.0,
     ) -> None:
         self._title, self._fields, self._button = title, fields, button
-        self._rule, self._entered = rule, entered
+        self._rule, self._entered, self._field_em = rule, entered, field_em
         self._appearing = True
         self.problem = ""
         self.focused = True
@@ -53,7 +55,7 @@ class EntryBox:
         # The field that is typed into takes Escape for itself; the box is left all the same.
         left = imgui.shortcut(int(imgui.Key.escape))
         left = left or (self.focused and imgui.is_key_pressed(imgui.Key.escape))
-        width = (10 if len(self._fields) == 1 else 5) * imgui.get_font_size()
+        width = self._field_em * imgui.get_font_size()
         done = False
         for name, text in self._fields.items():
             imgui.align_text_to_frame_padding()

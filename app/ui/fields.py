@@ -1,5 +1,5 @@
 """Number fields: dragged like a slider, or typed; with a level that shows the position of the
-value, and a menu to reset, copy and paste it.
+value, and a menu to reset it.
 """
 
 from __future__ import annotations
@@ -11,17 +11,13 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.ui import pending, theme, typed
 from lucida.app.ui.explaining import notation
-from lucida.app.ui.explaining.arithmetic import number
 from lucida.app.ui.rows import tip
-from lucida.renderer.system.errors import LucidaError
 
 LEAST = 1e-3  # where dragging a logarithmic value ends
 FLT_MAX = 3.4e38
 WIDTH = 8  # characters of a number
-HINT = (
-    "drag, or double-click to type (1/3, sqrt(2)/2); Shift: faster, Alt: slower; "
-    "right-click: reset, copy, paste"
-)
+DECIMALS = 4
+HINT = "drag, or double-click to type (1/3, sqrt(2)/2); Shift: faster, Alt: slower"
 
 
 class Scale(NamedTuple):
@@ -64,77 +60,17 @@ class Scale(NamedTuple):
         return (0.0, 0.0) if self.least == -FLT_MAX else (self.least, self.most)
 
 
-def number_format(value: float, scale: Scale) -> str:
-    """Return a format of eight characters for all but extreme values, so that nothing moves."""
-    return f"%{WIDTH}.{_usual_decimals(value, scale)}f"
-
-
-def _usual_decimals(value: float, scale: Scale) -> int:
-    small_scene = scale.high - scale.low < 1.5 and abs(value) < 100
-    return 4 if small_scene else 3
-
-
-def is_extreme(value: float, scale: Scale) -> bool:
-    """Return True if a number is too large or too small for the usual decimals."""
-    return abs(value) >= 1000 or (scale.logarithmic and 0 < value < 0.01)
-
-
-def fitting_format(value: float, scale: Scale, characters: int, tight: int = 0) -> str:
-    """Return the usual format if it fits, otherwise one with as many digits as fit.
-
-    A number with only a few more decimals gets all of them: -0.15625. For an extreme value, return
-    its text.
-    tight: the number of characters without a margin, for such decimals.
+def shown_number(value: float, characters: int, decimals: int = DECIMALS) -> str:
+    """Return a number with its usual decimals, or with as many digits as fit; a pixel's fraction is
+    complete, so that it matches calculations by hand. It ends at the last of the characters.
     """
-    if scale.whole and value == round(value) and len(f"{value:.0f}") <= characters:
-        return f"%{min(characters, WIDTH)}.0f"
-    if is_extreme(value, scale):
-        most = WIDTH + (value < 0)
-        return densest(value, min(characters, most)).rjust(min(characters, WIDTH))
-    # Most numbers have more decimals than that, which is quickly seen.
-    whole = notation.number(value) if math.isclose(round(value, 6), value) else ""
-    room = min(max(characters, tight), WIDTH)
-    if whole and len(whole) <= room and math.isclose(float(whole), value):
-        decimals = len(whole.partition(".")[2])
-        if "e" not in whole and decimals > _usual_decimals(value, scale):
-            return f"%{min(characters, room)}.{decimals}f"
-    if characters >= WIDTH:
-        return number_format(value, scale)
-    for decimals in (3, 2, 1, 0):
-        if len(f"{value:.{decimals}f}") <= characters:
-            return f"%{characters}.{decimals}f"
-    return densest(value, characters)
-
-
-def unsigned_zero(form: str, value: float) -> str:
-    """Return a format that shows 0.000 in place of -0.000."""
-    if math.copysign(1.0, value) > 0 or "%" not in form:
-        return form
-    return form if any(digit in form % value for digit in "123456789") else form % 0.0
-
-
-def densest(value: float, characters: int) -> str:
-    """Return the number with as many digits as fit in these characters: 5400000, 1.235e-3."""
-    if not math.isfinite(value):
-        return str(value)
-    fixed = (f"{value:.{decimals}f}" for decimals in range(characters, -1, -1))
-    powers = (f"{value:.{decimals}e}" for decimals in range(characters, -1, -1))
-    short = (f"{digits}e{int(power)}" for digits, _, power in (t.partition("e") for t in powers))
-    texts = [text for text in (*fixed, *short) if len(text) <= characters]
-    return max(texts, key=_digit_count, default=f"{value:.0e}".replace("e+0", "e"))
-
-
-def _digit_count(text: str) -> int:
-    """Return the number of significant digits."""
-    return len(text.partition("e")[0].lstrip("-0.").replace(".", ""))
-
-
-def short_number(value: float) -> str:
-    """Return seven characters for all but extreme values; the first one is a space or a sign."""
-    for limit, digits in ((10, 3), (100, 2), (1000, 1)):
-        if abs(value) < limit - 0.5 * 10**-digits:
-            return f"{value:7.{digits}f}"
-    return densest(value, 6 + (value < 0)).rjust(7)
+    text, usual = notation.number(value), f"{value:z.{decimals}f}"
+    if len(text) < len(usual) <= WIDTH:
+        text = usual
+    for digits in range(6, 0, -1):
+        if len(text) > characters:
+            text = f"{value:.{digits}g}".replace("e+0", "e").replace("e-0", "e-")
+    return text.rjust(min(characters, WIDTH))
 
 
 def number_field(
@@ -163,8 +99,8 @@ def number_field(
     characters = int(room_px / character_px + 0.05)
     if characters < WIDTH + len(unit):
         unit = unit[:1].strip()
-    tight = int(width_px / character_px) - len(unit)
-    shown = unsigned_zero(fitting_format(value, scale, characters - len(unit), tight), value) + unit
+    decimals = 0 if scale.whole else DECIMALS
+    shown = shown_number(value, characters - len(unit), decimals) + unit
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)
@@ -190,37 +126,12 @@ def number_field(
     if not is_active or not imgui.get_io().want_text_input:
         _draw_level(value, scale, color)
     if tooltip and not marked and not is_active:  # an error has its own tooltip
-        whole = f"{value:.10g}\n" if is_extreme(value, scale) else ""
-        tip(f"{whole}{tooltip}\n{HINT}")
-    chosen = _menu(label, value, reset)
-    if chosen is not None:
-        return chosen != value, chosen
-    return changed, new
-
-
-def pasted_number() -> float | None:
-    """Return the clipboard's text as one finite number; None if it is not one."""
-    try:
-        return number(imgui.get_clipboard_text())
-    except (LucidaError, RuntimeError):  # RuntimeError: there is no clipboard
-        return None
-
-
-def _menu(label: str, value: float, reset: float | None) -> float | None:
-    """Draw the field's context menu. Return the selected entry."""
-    chosen = None
-    if imgui.begin_popup_context_item(f"menu##{label}"):
-        imgui.text_disabled(f"{label} = {value:.7g}")
-        imgui.separator()
-        if reset is not None and imgui.menu_item(f"Reset to {reset:.7g}###reset", "", False)[0]:
-            chosen = reset
-        if imgui.menu_item("Copy", "", False)[0]:
-            imgui.set_clipboard_text(repr(value))
-        held = pasted_number()
-        if imgui.menu_item("Paste", "", False, held is not None)[0]:
-            chosen = held
+        tip(f"{tooltip}\n{HINT}")
+    if reset is not None and imgui.begin_popup_context_item(f"menu##{label}"):
+        if imgui.menu_item(f"Reset to {reset:.7g}###reset", "", False)[0]:
+            changed, new = reset != value, reset
         imgui.end_popup()
-    return chosen
+    return changed, new
 
 
 def _draw_level(value: float, scale: Scale, color: ImVec4) -> None:

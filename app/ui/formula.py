@@ -7,9 +7,8 @@ en_US.UTF-8; without it the formulas are plain text.
 from __future__ import annotations
 
 import functools
-import math
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import imgui_bundle
@@ -17,6 +16,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
 from lucida.app.ui import theme
 from lucida.app.ui.explaining.breaking import breakable
+from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.theme import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
@@ -24,22 +24,29 @@ MOST_EXTENTS = 500
 _extents: dict[tuple[str, float, float], ImVec2] = {}  # the room that formulas took last
 
 
-@dataclass(frozen=True)
-class Formula:
-    """A formula as LaTeX, without dollar signs, and as text."""
-
-    latex: str
-    text: str
-
-
-@dataclass(frozen=True)
-class _Piece:
-    """A part of a row. baseline: below its upper edge."""
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A typeset formula. width, ascent, descent: in ImGui's pixels. text: used in place of a
+    picture.
+    """
 
     width: float
-    height: float
-    baseline: float
-    draw: Callable[[ImVec2], None]
+    ascent: float
+    descent: float
+    picture: imgui_microtex.FormulaTexture | None = None
+    text: str = ""
+
+    def draw(self, x: float, baseline: float, color: ImVec4) -> None:
+        """Draw the formula. color: of plain text; a picture has its own."""
+        draw = imgui.get_window_draw_list()
+        if self.picture is None:
+            draw.add_text((x, baseline - self.ascent), theme.u32(color), self.text)
+            return
+        scale = framebuffer_scale()
+        corner = ImVec2(round(x * scale), round((baseline - self.ascent) * scale)) / scale
+        far = corner + ImVec2(self.width, self.ascent + self.descent)
+        texture = imgui.ImTextureRef(self.picture.texture_id())
+        draw.add_image(texture, corner, far, (0, 0), (1, 1), theme.u32(ImVec4(1, 1, 1, 1)))
 
 
 @functools.cache
@@ -61,41 +68,56 @@ def release() -> None:
         imgui_microtex.release()
 
 
-def formula(
-    parts: Iterable[Formula], size_px: float, key: str = "", color: ImVec4 | None = None
-) -> None:
+def inline_math(latex: str, size_px: float, color: ImVec4, display: bool = False) -> Setting:
+    """Typeset a formula in text of size_px. Call it every frame.
+
+    If MicroTeX rejects it, it is plain text in the current font.
+    display: set it as between $$.
+    """
+    scale = framebuffer_scale()
+    if available():
+        style = imgui_microtex.TexStyle.display if display else imgui_microtex.TexStyle.text
+        try:
+            made = imgui_microtex.render_to_texture(tinted(latex), size_px * scale, color, style)
+        except RuntimeError:
+            made = None
+        if made is not None and made.width > 0:
+            ascent = made.baseline_y / scale
+            return Setting(made.width / scale, ascent, made.height / scale - ascent, made)
+    text = plain_math(latex)
+    extent = imgui.calc_text_size(text)
+    return Setting(extent.x, 0.8 * extent.y, 0.2 * extent.y, None, text)
+
+
+def formula(parts: Iterable[str], size_px: float, key: str) -> None:
     """Draw formulas one after another, as many in a row as fit.
 
     size_px: of the type.
     key: a name for the formulas that stays the same while their numbers change. When out of sight,
     they keep their last size.
-    color: for uncoloured symbols; None for the text's.
     """
-    color = theme.TEXT if color is None else color
     room = max(1.0, imgui.get_content_region_avail().x)
     place = (key, room, size_px)
-    if key and (known := _extents.get(place)) is not None and not imgui.is_rect_visible(known):
+    if (known := _extents.get(place)) is not None and not imgui.is_rect_visible(known):
         imgui.dummy(known)
         return
-    rows: list[list[_Piece]] = [[]]
+    rows: list[list[Setting]] = [[]]
     gap = 0.22 * size_px
     for part in parts:
-        pieces = _pieces(part, size_px, color, room)
+        pieces = _pieces(part, size_px, room)
         whole = sum(piece.width for piece in pieces) + gap * (len(pieces) - 1)
         # A part that has room in a row of its own is not broken for the sake of the last one; one
         # that does not go on with an equals sign begins a row.
         full = _width(rows[-1], gap) + gap + whole > room >= whole
-        if rows[-1] and (full or not part.text.startswith("=")):
+        if rows[-1] and (full or not part.startswith("=")):
             rows.append([])
         for piece in pieces:
             if rows[-1] and _width(rows[-1], gap) + gap + piece.width > room:
                 rows.append([])
             rows[-1].append(piece)
-    extent = _draw_rows(rows, gap, ROW_GAP * size_px)
-    if key:
-        if len(_extents) >= MOST_EXTENTS:
-            _extents.clear()
-        _extents[place] = extent
+    if len(_extents) >= MOST_EXTENTS:
+        _extents.clear()
+    _extents[place] = _draw_rows(rows, gap, ROW_GAP * size_px)
 
 
 def lit(latex: str, part: str) -> str:
@@ -125,79 +147,43 @@ def _tinted(latex: str, _look: theme.WindowLook) -> str:
     return latex
 
 
-def _pieces(part: Formula, size_px: float, color: ImVec4, room: float) -> list[_Piece]:
-    """Return a formula's pieces, none wider than the room: broken at sums, and at products if
-    necessary.
+def _pieces(latex: str, size_px: float, room: float) -> list[Setting]:
+    """Return a formula's pieces: broken at sums, and at products if necessary. A piece that is
+    still wider than the room is scaled down.
     """
-    whole = part.latex if available() else part.text
-    pieces: list[_Piece] = []
-    for cut in breakable(whole):
-        piece = _piece(cut, size_px, color)
-        if piece.width > room and len(factors := _factors(cut)) > 1:
-            pieces += [_piece(factor, size_px, color, room) for factor in factors]
-        else:
-            pieces.append(_piece(cut, size_px, color, room))
-    return pieces
+    pieces: list[Setting] = []
+    for cut in breakable(latex):
+        piece = _piece(cut, size_px)
+        factors = cut.replace(r")\,", ")\n").split("\n") if piece.width > room else [cut]
+        pieces += [_piece(factor, size_px) for factor in factors]
+    shrunk = [min(1.0, room / max(1.0, piece.width)) for piece in pieces]
+    return [
+        replace(piece, width=k * piece.width, ascent=k * piece.ascent, descent=k * piece.descent)
+        for piece, k in zip(pieces, shrunk, strict=True)
+    ]
 
 
-def _factors(product: str) -> list[str]:
-    """Split a product of bracketed terms between them."""
-    space = r"\," if available() else " "
-    return product.replace(f"){space}", ")\n").split("\n")
+def _piece(latex: str, size_px: float) -> Setting:
+    if latex[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
+        latex = rf"{latex[0]}\;{latex[2:]}"
+    return inline_math(latex, size_px, theme.TEXT, display=True)
 
 
-def _piece(text: str, size_px: float, color: ImVec4, room: float = math.inf) -> _Piece:
-    """Return a piece, scaled down if it does not fit."""
-    if not available():
-        return _text_piece(text, color)
-    scale = framebuffer_scale()
-    if text[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
-        text = rf"{text[0]}\;{text[2:]}"
-    picture = imgui_microtex.render_to_texture(
-        tinted(text), size_px * scale, color, imgui_microtex.TexStyle.display
-    )
-    shrunk = min(1.0, room * scale / max(1, picture.width)) / scale
-    width, height = picture.width * shrunk, picture.height * shrunk
-    number = picture.texture_id()
-
-    def draw(at: ImVec2) -> None:
-        corner = ImVec2(round(at.x * scale) / scale, round(at.y * scale) / scale)
-        imgui.get_window_draw_list().add_image(
-            imgui.ImTextureRef(number), corner, ImVec2(corner.x + width, corner.y + height)
-        )
-
-    return _Piece(width, height, picture.baseline_y * shrunk, draw)
-
-
-def _text_piece(text: str, color: ImVec4) -> _Piece:
-    size = imgui.calc_text_size(text)
-
-    def draw(at: ImVec2) -> None:
-        imgui.get_window_draw_list().add_text(at, theme.u32(color), text)
-
-    return _Piece(size.x, size.y, 0.8 * size.y, draw)
-
-
-def _width(row: list[_Piece], gap: float) -> float:
+def _width(row: list[Setting], gap: float) -> float:
     return sum(piece.width for piece in row) + gap * (len(row) - 1)
 
 
-def _draw_rows(rows: list[list[_Piece]], gap: float, row_gap: float) -> ImVec2:
+def _draw_rows(rows: list[list[Setting]], gap: float, row_gap: float) -> ImVec2:
     """Draw the rows. Return the size they take."""
-    corner = imgui.get_cursor_screen_pos()
-    y = corner.y
-    widest = 0.0
-    for row in rows:
-        if not row:
-            continue
-        above = max(piece.baseline for piece in row)
-        x = corner.x
+    corner, y, widest = imgui.get_cursor_screen_pos(), 0.0, 0.0
+    for row in filter(None, rows):
+        x, baseline = corner.x, corner.y + y + max(piece.ascent for piece in row)
         for piece in row:
-            piece.draw(ImVec2(x, y + above - piece.baseline))
+            piece.draw(x, baseline, theme.TEXT)
             x += piece.width + gap
-        y += above + max(piece.height - piece.baseline for piece in row) + row_gap
+        y = baseline - corner.y + max(piece.descent for piece in row) + row_gap
         widest = max(widest, x - gap - corner.x)
-    extent = ImVec2(widest, max(0.0, y - row_gap - corner.y))
+    extent = ImVec2(widest, max(0.0, y - row_gap))
     imgui.dummy(extent)
     return extent
 

@@ -28,8 +28,8 @@ class Instrument:
     name: unique; the window's id in ImGui.
     title: on its tab.
     padding, flags: of the ImGui window; None and 0 for the style's.
-    space: where it is docked in layouts that do not place it and have that space; "": where the
-    largest view is.
+    space: where it is docked in layouts that do not place it and have that space; "": as a tab of
+    the main view.
     actions: for menus, keys and the palette, in the order of the menus.
     synonyms: other names that people use, by the names of actions, pages and views.
     pages: what the palette finds in the view, by name: the options that show it, as in

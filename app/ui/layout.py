@@ -1,7 +1,7 @@
 """The layouts: where the windows are docked.
 
 A layout is one table: its splits, and the space of each view that it shows. The others are docked,
-hidden, in their own space if the layout has that, otherwise in its INSTRUMENTS space. HelloImGui
+hidden, in their own space, or INSTRUMENTS if the layout does not have that. HelloImGui
 keeps the user's changes of each layout, also between runs.
 """
 
@@ -25,8 +25,6 @@ INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 OUTSIDE, LOOPS = "Outside view", "Loops"
-LEAST_WIDTH_PX = 200.0  # of a window whose views are stacked
-UPRIGHT_CAMERA = 0.3  # the height of its panel in windows that are taller than wide
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
 
@@ -149,39 +147,10 @@ def docking(
     return [_docking(layout, views, draw, splits(layout)) for layout in LAYOUTS]
 
 
-def turn(window_px: tuple[float, float], em_px: float) -> None:
-    """Divide all layouts for a window of another shape: one that is taller than wide stacks its
-    views. The current one is made again.
-    """
-    params = hello_imgui.get_runner_params()
-    others = list(params.alternative_docking_layouts)
-    by_name = {one.name: one for one in LAYOUTS}
-    for one in (params.docking_params, *others):
-        one.docking_splits = _splits(by_name[one.layout_name], window_px, em_px)
-    params.alternative_docking_layouts = others
-    reset()
-
-
-def is_upright(window_px: tuple[float, float]) -> bool:
-    """Return True if views are stacked in a window of this size; not in one without room."""
-    return window_px[1] > window_px[0] > LEAST_WIDTH_PX
-
-
 def window_px() -> tuple[float, float]:
     """Return the size of the present window."""
     size = imgui.get_io().display_size
     return size.x, size.y
-
-
-def largest(views: Iterable[Instrument]) -> int:
-    """Return ImGui's id of the largest dock of these views; 0 if none is docked."""
-    sizes = {}
-    for view in views:
-        window = imgui.internal.find_window_by_name(view.label)
-        node = window.dock_node if window is not None else None
-        if node is not None:
-            sizes[int(node.id_)] = node.size.x * node.size.y
-    return max(sizes, key=lambda number: round(sizes[number], -4), default=0)  # the first of equals
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
@@ -270,10 +239,11 @@ def _docking(
     params = hello_imgui.DockingParams()
     params.layout_name = layout.name
     params.docking_splits = splits
-    windows = []
+    windows, spaces = [], {MAIN, *(new for _, new, _, _ in layout.splits)}
     for view in views:
-        has_space = any(new == view.space for _, new, _, _ in layout.splits)
-        space = layout.places.get(view.name, view.space if has_space else INSTRUMENTS)
+        space = layout.places.get(view.name, view.space or MAIN)
+        if space not in spaces:
+            space = INSTRUMENTS
         window = hello_imgui.DockableWindow(view.label, _own(layout, space), draw(view))
         window.is_visible = view.name in layout.places
         window.call_begin_end = False
@@ -289,11 +259,9 @@ def _docking(
 def _splits(
     layout: Layout, window_px: tuple[float, float], em_px: float
 ) -> list[hello_imgui.DockingSplit]:
-    turned, camera = {}, camera_width_px(window_px[0], em_px) / window_px[0]
-    if is_upright(window_px):
-        turned, camera = {LEFT: UP, RIGHT: DOWN}, UPRIGHT_CAMERA
+    camera = camera_width_px(window_px[0], em_px) / window_px[0]
     return [
-        _split(_own(layout, space), _own(layout, new), turned.get(to, to), part or camera)
+        _split(_own(layout, space), _own(layout, new), to, part or camera)
         for space, new, to, part in layout.splits
     ]
 

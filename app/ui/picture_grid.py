@@ -16,9 +16,8 @@ from lucida.app.ui.lettering import fitting_words, lettering
 from lucida.app.ui.rows import tip
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 
-HEADING_EM = 1.3  # of each line
+HEADING_EM = 1.3
 GAP_EM = 0.7
-LEAST_PART = 0.8  # of their width that captions below titles may leave to pictures
 
 
 @dataclass(frozen=True)
@@ -26,7 +25,8 @@ class GridPicture:
     """A picture of the grid.
 
     name: ImGui's id.
-    title, caption: the heading; the title is bold. The caption is next to it, or below.
+    title, caption: the heading; the title is bold. The caption is next to it,
+    as far as it fits, and in a tooltip.
     texture: None while there is none.
     frame: a colour for its frame; None for the usual line.
     pixel: the marked one.
@@ -86,44 +86,30 @@ def picture_grid(
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
     with lettering(fonts.bold):
         titles = [float(imgui.calc_text_size(f"{picture.title} ").x) for picture in pictures]
-    widest, heading = max(titles), HEADING_EM * em
-    columns, extent = _extent(len(pictures), size, room, heading, gap, widest)
-    if any(
-        picture.caption and title + imgui.calc_text_size(picture.caption).x > max(extent.x, widest)
-        for picture, title in zip(pictures, titles, strict=True)
-    ):
-        below = _extent(len(pictures), size, room, 2 * heading, gap, widest)
-        if below[1].x >= LEAST_PART * extent.x:
-            heading *= 2
-            columns, extent = below
+    heading, widest = HEADING_EM * em, max(titles)
+    scale = framebuffer_scale()
+    columns, across = columns_for(
+        len(pictures), size[0] / size[1], (room.x, room.y), heading, gap, widest
+    )
+    unit = across * scale / size[0]  # framebuffer pixels of a picture's pixel
+    unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
+    extent = ImVec2(*size) * unit / scale
     corner, answer = imgui.get_cursor_screen_pos(), None
     width = max(extent.x, min(widest, (room.x - gap * (columns - 1)) / columns))
     pitch = ImVec2(width, extent.y) + ImVec2(gap, heading + gap)
-    draw, is_below = imgui.get_window_draw_list(), heading > HEADING_EM * em
+    draw = imgui.get_window_draw_list()
     for number, picture in enumerate(pictures):
         row, column = divmod(number, columns)
         at = corner + pitch * (column, row)
         with lettering(fonts.bold):
             draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
-        shift = ImVec2(0, HEADING_EM * em) if is_below else ImVec2(titles[number], 0)
-        caption = fitting_words(picture.caption, width - shift.x)
-        draw.add_text(at + shift, theme.u32(theme.DIM), caption)
+        caption = fitting_words(picture.caption, width - titles[number])
+        draw.add_text(at + ImVec2(titles[number], 0), theme.u32(theme.DIM), caption)
         pixel = _picture(picture, size, at, extent, heading)
         answer = answer if pixel is None else GridAnswer(number, pixel)
     imgui.set_cursor_screen_pos(corner)
     imgui.dummy((room.x, -(-len(pictures) // columns) * pitch.y - gap))
     return answer
-
-
-def _extent(
-    count: int, size: tuple[int, int], room: ImVec2, heading: float, gap: float, least: float
-) -> tuple[int, ImVec2]:
-    """Return the number of columns and the size of each picture. least: the width of a column."""
-    scale = framebuffer_scale()
-    columns, width = columns_for(count, size[0] / size[1], (room.x, room.y), heading, gap, least)
-    unit = width * scale / size[0]  # framebuffer pixels of a picture's pixel
-    unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
-    return columns, ImVec2(*size) * unit / scale
 
 
 def _picture(

@@ -107,29 +107,9 @@ class Halves:
 
 
 def tip(text: str) -> None:
-    """Show a tooltip on the last item, in lines that fit the window: beside the item's window, or
-    above the item if there is no room, where it covers no value of the next lines.
-    """
-    if not imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
-        return
-    padding, gap = imgui.get_style().window_padding, 0.4 * imgui.get_font_size()
-    item, view = imgui.get_item_rect_min(), imgui.get_main_viewport()
-    most = max(view.work_size.x - 2 * padding.x - gap, 1.0)
-    size = imgui.calc_text_size(text, wrap_width=most) + padding + padding
-    panel = imgui.internal.get_current_window().root_window
-    low, high = view.work_pos, view.work_pos + view.work_size
-    right, left = panel.pos.x + panel.size.x + gap, panel.pos.x - gap - size.x
-    if right + size.x <= high.x or left >= low.x:
-        x = right if right + size.x <= high.x else left
-        y = max(low.y, min(item.y, high.y - size.y))
-    else:
-        x = max(low.x, min(item.x, high.x - size.x))
-        y = item.y - gap - size.y
-        if y < low.y:
-            y = imgui.get_item_rect_max().y + gap
-    imgui.set_next_window_pos((x, y))
-    if imgui.begin_tooltip():
-        imgui.push_text_wrap_pos(padding.x + most)
+    """Show a tooltip on the last item, in lines that fit the window."""
+    if imgui.begin_item_tooltip():
+        imgui.push_text_wrap_pos(0.9 * imgui.get_main_viewport().work_size.x)
         imgui.text_unformatted(text)
         imgui.pop_text_wrap_pos()
         imgui.end_tooltip()

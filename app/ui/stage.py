@@ -9,13 +9,12 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from lucida.app.state.session import Arrangement
-from lucida.app.ui import docks, layout, theme
+from lucida.app.ui import layout
 from lucida.app.ui.failing import FailedViews
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
-NARROW = ("Camera", "Lecture")  # whose columns no other view is opened in
 LAID_OUT = 3  # frames that it takes until every window has its place
 
 
@@ -43,9 +42,6 @@ class Stage:
         self._keyboard_for: str | None = None  # who gets it once all have their places
         self._frames = 0
         self._layout = ""  # that of the frame before
-        self._opened: set[tuple[str, str]] = set()  # layouts, and views that were opened in them
-        self._to_dock: set[str] = set()  # views that get the largest area
-        self._upright: dict[str, bool] = {}  # whether a layout's views are stacked
         self._placing = LAID_OUT  # frames until the windows have their places
 
     @property
@@ -78,17 +74,8 @@ class Stage:
         return layout.window_of(self.views[name]).is_visible
 
     def show(self, name: str, shown: bool = True) -> None:
-        """Show a view and focus it; or hide it.
-
-        A view that the layout has no space for gets the largest area, when it is first opened.
-        """
-        view, now = self.views[name], layout.current()
-        is_opened = shown and not self.is_shown(name)
-        has_space = bool(view.space or name in now.places)
-        if is_opened and not has_space and (now.name, name) not in self._opened:
-            self._opened.add((now.name, name))
-            self._to_dock.add(name)
-        layout.window_of(view).is_visible = shown
+        """Show a view and focus it; or hide it."""
+        layout.window_of(self.views[name]).is_visible = shown
         if shown:
             self._next_focus = name
         elif self.maximised == name:
@@ -124,12 +111,9 @@ class Stage:
         self._next_focus = self.maximised or was
 
     def follow(self) -> None:
-        """Follow the shape of the window, and move the focus. Call once a frame, before the
-        views.
-        """
+        """Follow what was asked for, and move the focus. Call once a frame, before the views."""
         self._frames += 1
         self._restore()
-        self._turn()
         self._show_next()
         self._give_keyboard()
         self._begin_tab()
@@ -158,16 +142,6 @@ class Stage:
             self.focus_next(1)
         elif is_lost:
             self._next_focus, self._by_key = self._keyboard, True
-
-    def _turn(self) -> None:
-        """Divide the layout for a window that has become taller than wide, or wider."""
-        size_px, name = layout.window_px(), layout.current().name
-        upright = layout.is_upright(size_px)
-        if self._upright.setdefault(name, self._frames > 1 and upright) == upright:
-            return
-        if self._restoring is None and not layout.is_to_be_made():
-            self._upright[name] = upright
-            layout.turn(size_px, theme.type_px())
 
     @property
     def keyboard(self) -> str:
@@ -202,9 +176,8 @@ class Stage:
         visible = tuple(view.name for view in self.shown)
         views = self.views.values()
         sections = {view.name: view.sections for view in views if view.sections}
-        windows = imgui.save_ini_settings_to_memory()
-        name, large = layout.current().name, self.maximised
-        return Arrangement(name, visible, windows, sections, large, self._keyboard)
+        name = layout.current().name
+        return Arrangement(name, visible, sections, self.maximised, self._keyboard)
 
     def restore(self, arrangement: Arrangement) -> None:
         """Restore an arrangement, in the next frames."""
@@ -239,14 +212,6 @@ class Stage:
             self.give_keyboard(focused if focused in visible else "")
         self._restoring = None
 
-    def before_frame(self) -> None:
-        """Prepare a frame. Call between two frames, when ImGui accepts settings."""
-        waiting = self._restoring
-        if waiting is not None and self._frames == 2:
-            own = imgui.save_ini_settings_to_memory()
-            if docks.are_sound(waiting.windows, own):
-                imgui.load_ini_settings_from_memory(waiting.windows)
-
     # Drawing.
 
     def leave_out_hidden(self, host: Host) -> None:
@@ -264,11 +229,6 @@ class Stage:
         padding = view.padding
         if padding is not None:
             imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
-        if view.name in self._to_dock:
-            self._to_dock.discard(view.name)
-            around = [one for one in self.shown if one is not view and one.name not in NARROW]
-            if dock := layout.largest(around):
-                imgui.set_next_window_dock_id(dock, imgui.Cond_.always)
         opened, visible = imgui.begin(view.label, True, view.flags | view.placed(host))
         if not visible:  # closed; does not overrule a simultaneous hide
             window.is_visible = False

@@ -226,7 +226,8 @@ def _set_style() -> None:
         (colors.FRAME_ACTIVE, (col.frame_bg_active, col.button_active, col.header_active)),
         (colors.FRAME_ACTIVE, (col.scrollbar_grab,)),
         (colors.PLAIN, (col.scrollbar_grab_hovered, col.scrollbar_grab_active)),
-        (colors.ACCENT, (col.tab_selected_overline, col.slider_grab)),
+        (colors.ACCENT, (col.tab_selected_overline,)),
+        (colors.FILL, (col.slider_grab, col.slider_grab_active)),
         (accent, (col.text_selected_bg,)),
         (colors.RAY * (1, 1, 1, 0), (col.nav_cursor,)),  # focus_frame.py draws one
     ):

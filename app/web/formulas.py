@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from latex2mathml.converter import convert
 
-from lucida.app.instruments.probe.lens_formulas import ANGLES, PANORAMAS
+from lucida.app.instruments.probe.lens_formulas import DIRECTIONS
 from lucida.renderer.camera.pixels import Indexing
 
 _ACROSS = r"u\,\mathbf{u} + v\,\mathbf{v}"
@@ -21,16 +21,9 @@ RAY = {
     "normal": r"\mathbf{n}",
 }
 
-_WAY = r"(X, Y, Z) = \left(\sin\theta\,A,\ \sin\theta\,B,\ \cos\theta\right),\ \theta = "
-_IDEAL = _WAY.replace("A", r"\frac{a'}{r'}").replace("B", r"\frac{b'}{r'}")
-_FISHEYE = _WAY.replace("A", r"\frac{U}{\theta}").replace("B", r"\frac{V}{\theta}")
 LENS = {
     "lens-plane": r"(a', b') = \left(\frac{u}{d},\ -\frac{v}{d}\right)",
-    "lens-brown": "(X, Y, Z) = (a, b, 1)",
-    "lens-fisheye": _FISHEYE + r"\sqrt{U^2 + V^2}",
-    "lens-thin_prism_fisheye": _FISHEYE + r"\sqrt{U^2 + V^2}",
-    **{f"lens-{model}": _IDEAL + angle for model, (angle, _) in ANGLES.items()},
-    **{f"lens-{model}": f"(X, Y, Z) = {way}" for model, (way, _) in PANORAMAS.items()},
+    **{f"lens-{model}": f"(X, Y, Z) = {latex}" for model, latex in DIRECTIONS.items()},
 }
 
 

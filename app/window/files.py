@@ -1,6 +1,6 @@
 """Opening and saving from the window: dialogs, dropped files, loading in the background.
 
-The dialogs are the system's, or the window's own if there is none. Threads load and save.
+The dialogs are the system's, or a box for a path if there is none. Threads load and save.
 """
 
 from __future__ import annotations
@@ -276,7 +276,6 @@ class Files:
         self._loading.close()
         self._rereading.close()
         self._saving.close(5.0)
-        self.dialog.close()
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long

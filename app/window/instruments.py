@@ -17,7 +17,7 @@ from lucida.app.instruments.objects.view import InspectorView, ObjectsView
 from lucida.app.instruments.outside.instrument import Outside
 from lucida.app.instruments.poses.view import PosesView
 from lucida.app.instruments.probe.view import ProbeView
-from lucida.app.instruments.stepper.instrument import Stepper
+from lucida.app.instruments.stepper.view import StepperView
 from lucida.app.lecture.instrument import LectureInstrument
 from lucida.app.ui.instrument import Instrument
 
@@ -30,7 +30,7 @@ INSTRUMENTS: tuple[type[Instrument], ...] = (
     ObjectsView,
     InspectorView,
     ProbeView,
-    Stepper,
+    StepperView,
     CostsView,
     LaboratoryView,
     MistakesView,

@@ -6,7 +6,6 @@ decides where the spaces are and what is in them.
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 
@@ -91,9 +90,9 @@ class Proportion:
 
     def restore(self, parts: dict[str, float]) -> None:
         """Restore a session's shares, before the first frame. Invalid ones are ignored."""
-        for one, upright in itertools.product(layout.LAYOUTS, (False, True)):
+        for one in layout.LAYOUTS:
             for _, space, _, _ in one.splits:
-                key = _key(one, space, upright)
+                key = one.name, space
                 part = parts.get("/".join(key), 0.0)
                 if 0.0 < part < 1.0:
                     self._shares[key] = _Share(part, known=True)
@@ -112,11 +111,10 @@ class Proportion:
         self._restoring = max(0, self._restoring - 1)
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._keep_camera(shown.name, anew)
-        upright = layout.is_upright(layout.window_px())
         for whole, space, direction, _ in shown.splits:
             if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
-            across = direction in (layout.LEFT, layout.RIGHT) and not upright
+            across = direction in (layout.LEFT, layout.RIGHT)
             axis = imgui.internal.Axis.x if across else imgui.internal.Axis.y
             node = _side(layout.node_of(space), axis)
             parent = node.parent_node if node is not None else None
@@ -124,8 +122,7 @@ class Proportion:
                 continue
             if tuple(node.size) == tuple(parent.size):  # nothing is next to it
                 continue
-            key = _key(shown, space, upright)
-            share = self._shares.setdefault(key, _Share())
+            share = self._shares.setdefault((shown.name, space), _Share())
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
             other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
@@ -154,11 +151,6 @@ class Proportion:
             imgui.internal.dock_builder_set_node_size(node.id_, (wanted, node.size.y))
             width = wanted
         self._camera_px = width
-
-
-def _key(shown: layout.Layout, space: str, upright: bool) -> tuple[str, str]:
-    """Return a layout's name and a space; in a window that is taller than wide, another name."""
-    return f"{shown.name}{', upright' * upright}", space
 
 
 def _child(

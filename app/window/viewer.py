@@ -232,7 +232,6 @@ class WindowRun:
         self.window.begin(context)
 
     def _before_frame(self) -> None:
-        self.window.shell.stage.before_frame()
         self._focusing.before_frame()
         lock_letters()
 

@@ -19,7 +19,6 @@ FARTHEST = 1e8  # the largest radius on the image plane, for maps that never fol
 _TABLE = 4096  # intervals of the table in which the inversion of a radial map starts
 _STEPS = 60
 _SIDES = 32  # lines around the map's values
-MOST_SHOWN = 8  # steps of the inversion of a single point
 
 Point = tuple[Floats, Floats]
 
@@ -188,27 +187,6 @@ class Distortion:
         length = np.hypot(new_x, new_y)
         scale = np.minimum(1.0, self._end_at(new_x, new_y) / np.maximum(length, 1e-300))
         return new_x * scale, new_y * scale
-
-    def steps(self, a: float, b: float) -> Floats:
-        """Return the steps of Newton's method to the point that is mapped to (a, b): points with
-        their errors, (n, 3).
-
-        It begins at (a, b) itself, or, if that leads nowhere, at the inverse of the radial part.
-        The result is empty if both lead nowhere.
-        """
-        target = np.array([a]), np.array([b])
-        radius = self._inverse_radius(np.hypot(*target))
-        for length in (np.hypot(*target), np.where(np.isnan(radius), self.end, radius)):
-            scale = np.minimum(length, min(self.end, FARTHEST)) / np.maximum(np.hypot(a, b), 1e-300)
-            x, y = target[0] * scale, target[1] * scale
-            found = []
-            for _ in range(MOST_SHOWN):
-                at_a, at_b = self._map(x, y)
-                found.append([x[0], y[0], np.hypot(at_a - a, at_b - b)[0]])
-                if self._hits(*target, x, y).all():
-                    return np.array(found)
-                x, y = self.newton_step(*target, x, y)
-        return np.zeros((0, 3))
 
     def _map(self, x: Floats, y: Floats) -> Point:
         s = x * x + y * y

@@ -143,16 +143,6 @@ class Lens:
         low = places[places < 0].max(initial=-math.inf)
         return float(low), float(places[places > 0].min(initial=math.inf))
 
-    def inverse_steps(self, a: float, b: float) -> Floats:
-        """Return the steps of Newton's method that undo a point's distortion: (n, 3).
-
-        Each row is a point of the ideal plane, with the distance by which its distorted point
-        misses (a, b). Empty if nothing is distorted, or if a few steps are not enough.
-        """
-        with np.errstate(all="ignore"):
-            bends = _distortion(self)
-            return np.zeros((0, 3)) if bends is None else bends.steps(a, b)
-
     def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
         """Return the length of directions in units of those that direction() returns."""
         x, y, z = (np.asarray(axis, float) for axis in (X, Y, Z))

@@ -143,24 +143,6 @@ class Overlay:
             gl.blend_func = BLENDING
         return texture
 
-    def t_at(self, scene: Textures, part: tuple[float, float]) -> float:
-        """Return the ray parameter of the scene at a point of its picture, relative to its width
-        and height; infinity if nothing is hit. Waits for the GPU.
-        """
-        surface = scene.surface
-        place = [
-            min(max(int(where * side), 0), side - 1)
-            for where, side in zip(part, surface.size, strict=True)
-        ]
-        before = self._gl.detect_framebuffer()
-        framebuffer = self._gl.framebuffer([surface])
-        try:
-            pixel = framebuffer.read((*place, 1, 1), components=4, dtype="f4")
-        finally:
-            framebuffer.release()
-            before.use()
-        return float(np.frombuffer(pixel, np.float32)[3])
-
     def draw(
         self,
         scene: Textures,

@@ -40,7 +40,7 @@ def empty_place(d: Driver) -> tuple[float, float]:
 
 
 def press(d: Driver, name: str) -> None:
-    """Choose an entry of the view's menu."""
+    """Select an entry of the view's menu."""
     d.click(f"//###{OUTSIDE}/Show##outside")
     d.click(f"//$FOCUSED/{name}")
 

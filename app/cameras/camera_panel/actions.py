@@ -18,7 +18,7 @@ from lucida.app.cameras.presets import PRESETS, Preset, framed, preset_view
 from lucida.app.cameras.reader import read_copied
 from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from lucida.app.state.app_state import AppState, is_orthonormal
-from lucida.app.ui.action import Action, changing
+from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -84,12 +84,9 @@ def go_to_canonical(window: Host) -> None:
 def go_to_preset(window: Host, preset: Preset) -> None:
     """Move to a preset, with the scene in the picture."""
     state, focus = window.state, window.focus
-    perspective = state.options.presets_in_perspective
     width, height = image_size(window)
     try:
-        view = preset_view(
-            preset, state.view, focus.framed, focus.bounds, width / height, perspective
-        )
+        view = preset_view(preset, state.view, focus.framed, focus.bounds, width / height)
     except LucidaError as error:
         window.files.message = str(error)
         return
@@ -230,19 +227,6 @@ CAMERA = (
     ),
     Action("Camera", "Frame the scene", frame_scene, "Shift+F"),
     *(_to_preset(preset) for preset in PRESETS),
-    Action(
-        "Camera/Presets",
-        "In perspective",
-        changing(
-            lambda state: state.with_options(
-                replace(
-                    state.options, presets_in_perspective=not state.options.presets_in_perspective
-                )
-            )
-        ),
-        is_on=lambda state: state.options.presets_in_perspective,
-        separated=True,
-    ),
     *(_to_lens(preset) for preset in LENS_PRESETS),
     Action(
         "Camera/Lens",
@@ -251,18 +235,7 @@ CAMERA = (
         is_on=lambda state: state.camera.lens is None,
         separated=True,
     ),
-    Action(
-        "Camera",
-        "Jump without transition",
-        changing(
-            lambda state: state.with_options(
-                replace(
-                    state.options.preferences, reduced_motion=not state.preferences.reduced_motion
-                )
-            )
-        ),
-        is_on=lambda state: state.preferences.reduced_motion,
-    ),
+    choosing("Camera", "Jump without transition", "preferences.reduced_motion", True, off=False),
 )
 
 EDIT = (

@@ -21,7 +21,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows
 from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale
-from lucida.app.ui.formula import Formula, formula
+from lucida.app.ui.formula import formula
 from lucida.renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
 from lucida.renderer.system.errors import LucidaError
 
@@ -42,8 +42,7 @@ def _numbers(
 ) -> tuple[AppState, Draft]:
     """Draw the formula and the coefficients."""
     kind, size_px = KINDS[lens.model], imgui.get_font_size()
-    pairs = zip(kind.latex.split(r",\quad "), kind.text.split(", "), strict=True)
-    formula([Formula(*pair) for pair in pairs], size_px, f"lens {lens.model}")
+    formula(kind.latex.split(r",\quad "), size_px, f"lens {lens.model}")
     is_panorama = lens.model in ("equirectangular", "cylindrical")
     rows.tip(spoken(PANORAMA if is_panorama else RADIUS, state.options.notation))
     # Only files hold the prism's terms (s1, sx1, ...).

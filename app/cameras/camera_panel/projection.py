@@ -15,9 +15,8 @@ from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining.symbols import program, spoken
-from lucida.app.ui.fields import Scale, number_field, short_number
+from lucida.app.ui.fields import Scale, number_field
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
 from lucida.renderer.scene.focus import Focus
@@ -29,19 +28,19 @@ VIEWPORT = (
     ("bottom", "The viewport's lower edge, in units of v."),
     ("top", "The viewport's upper edge, in units of v."),
 )
+RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
 SHIFTS = (
     ("x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
     ("y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
 )
-RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
 DISTANCE = "`distance`: how far the image plane lies from the eye along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
 It and `distance` are one number: the viewport stays, `distance` changes."""
 DOLLY = """\
-Dolly zoom: the eye goes back and `distance` grows with it, so that what is in focus keeps its size
-(the marked pixel's point, or the scene's middle); only the perspective changes.
-The number: how far the focus is from the eye, in units of w."""
+Dolly zoom: the eye goes back and `distance` grows with it, so that the scene's middle keeps its
+size; only the perspective changes.
+The number: how far the middle is from the eye, in units of w."""
 PLANES = (
     ("near", "Nothing nearer is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
     ("far", "Nothing farther is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
@@ -59,14 +58,12 @@ class PanelContext:
     """The panel's inputs besides the state.
 
     shown, size: the camera that the images are drawn with, and their size.
-    dolly: the world point that the dolly zoom keeps.
     """
 
     fonts: theme.Fonts
     shown: Camera
     size: Size
     focus: Focus
-    dolly: Vector
 
     def field(
         self,
@@ -95,7 +92,6 @@ def projection_numbers(
     rows.line()
     state, draft = _viewport(state, draft.following(state.camera), around)
     state, draft = _shift(state, draft, around)
-    _as_drawn(around)
     return _clip(state, draft, around)
 
 
@@ -189,16 +185,18 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
     tooltip = spoken(DOLLY, state.options.notation)
     width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
-    depth = depth_of(camera, around.dolly)
+    depth = depth_of(camera, around.focus.center)
     if camera.is_parallel or not depth > 0:
-        rows.instead(NO_EYE if camera.is_parallel else "none, the focus is behind the eye")
+        rows.instead(NO_EYE if camera.is_parallel else "none, the scene is behind the eye")
         return state
     scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
     changed, value = around.field("dolly zoom", depth, width, scale, tooltip, unit=" to the focus")
     if not (changed and value > 0):
         return state
     try:
-        return state.with_camera(dollied(camera, around.dolly, camera.distance * value / depth))
+        return state.with_camera(
+            dollied(camera, around.focus.center, camera.distance * value / depth)
+        )
     except (LucidaError, OverflowError):  # as far as numbers go
         return state
 
@@ -236,16 +234,6 @@ def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppStat
             except LucidaError as error:
                 draft = replace(draft, error=error)
     return state, draft
-
-
-def _as_drawn(around: PanelContext) -> None:
-    imgui.push_font(around.fonts.mono, 0.0)
-    edges = "".join(map(short_number, around.shown.viewport))
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.DIM, f"drawn{edges}")
-    imgui.pop_text_wrap_pos()
-    rows.tip("The viewport as drawn: left, right, bottom, top.")
-    imgui.pop_font()
 
 
 def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:

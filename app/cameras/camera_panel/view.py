@@ -5,11 +5,8 @@ Keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
-
-from imgui_bundle import imgui
 
 from lucida.app.cameras.camera_panel.actions import CAMERA as ACTIONS
 from lucida.app.cameras.camera_panel.actions import EDIT, image_size
@@ -17,12 +14,8 @@ from lucida.app.cameras.camera_panel.panel import PanelOutcome, camera_panel
 from lucida.app.cameras.camera_panel.projection import PanelContext
 from lucida.app.cameras.camera_panel.sections import Sections
 from lucida.app.cameras.editing import Draft
-from lucida.app.images.picking import is_quick, nearest_hit
-from lucida.app.state.app_state import AppState
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
-from lucida.renderer.camera.checks import Vector
-from lucida.renderer.scene.model import Scene
 
 CAMERA = "Camera"
 
@@ -32,7 +25,6 @@ class CameraView(Instrument):
 
     draft: numbers that make no valid camera yet.
     entered: the contents of the sections.
-    dolly_point: the point whose size the dolly zoom keeps.
     """
 
     name = CAMERA
@@ -62,8 +54,6 @@ class CameraView(Instrument):
     def __init__(self, views: Sequence[Instrument] = ()) -> None:
         self.draft: Draft | None = None
         self.entered = Sections()
-        self.dolly_point: Vector | None = None
-        self._picked: tuple[Scene, object, float] | None = None  # t of the last picked hit
 
     @property
     def sections(self) -> tuple[str, ...]:
@@ -81,38 +71,12 @@ class CameraView(Instrument):
 
     def draw(self, host: Host) -> None:
         state = host.state
-        # While it is dragged, it stays.
-        if self.dolly_point is None or not imgui.is_any_item_active():
-            self.dolly_point = self.focus_point(host, state)
         shown = host.renderers.camera(state)
         size = image_size(host)
-        around = PanelContext(host.fonts, shown, size, host.focus, self.dolly_point)
+        around = PanelContext(host.fonts, shown, size, host.focus)
         panel = PanelOutcome(self.draft or Draft.of(state.camera), self.entered)
         state, panel = camera_panel(state, panel, around)
         self.draft, self.entered = panel.draft, panel.sections
         host.apply(state)
         if panel.wish is not None:
             panel.wish.run(host)
-
-    def focus_point(self, host: Host, state: AppState) -> Vector:
-        """Return the point that the dolly zoom keeps: the marked pixel's hit, or the scene's
-        centre.
-        """
-        size = host.renderers.size
-        if state.marked is None or not min(size):  # no image has a place yet
-            return host.focus.center
-        camera = host.renderers.camera(state)
-        ray = camera.ray(*state.marked, size)
-        if not is_quick(state.scene):  # use the ray image once it exists
-            t = host.renderers.depth_at(state, state.marked) or math.inf
-        else:
-            asked = camera, state.marked, size
-            known = self._picked
-            if known is None or known[0] is not state.scene or known[1] != asked:
-                found, _ = nearest_hit(state.scene, ray.origin, ray.direction)
-                self._picked = known = state.scene, asked, found
-            t = known[2]
-        if math.isinf(t):
-            return host.focus.center
-        x, y, z = (ray.origin + t * ray.direction).tolist()
-        return x, y, z

@@ -1,15 +1,13 @@
-"""The file made of pictures, by its ending: a film (MP4 with H.264, GIF, WebP), or a large image
+"""The file made of pictures, by its ending: a film (MP4 with H.264), or a large image
 (PNG, EXR) of its parts.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import pairwise
 from pathlib import Path
-from typing import BinaryIO
 
 from PIL import Image
 
@@ -22,9 +20,7 @@ from lucida.renderer.system.errors import LucidaError
 
 # Writes a file of these pictures, and yields the finished part.
 Writer = Callable[[Path, Sequence[Path]], Iterator[float]]
-ENDINGS = (".mp4", ".gif", ".webp")
 BT709 = 1  # H.264's number for its primaries, transfer function and matrix
-FASTEST_GIF = 50  # frames a second: its unit is a hundredth of a second
 
 
 def film_writer(path: Path, size: Size, fps: float) -> Writer | None:
@@ -35,19 +31,16 @@ def film_writer(path: Path, size: Size, fps: float) -> Writer | None:
     ending = path.suffix.lower()
     if not ending:
         return None
-    if ending not in ENDINGS:
-        remedy = f"give {', '.join(ENDINGS)}, or a folder (out/)"
+    if ending != ".mp4":
+        remedy = "give .mp4, or a folder (out/)"
         raise LucidaError("-o", f"the ending {ending!r} is unknown", remedy)
-    if ending == ".mp4":
-        if size[0] % 2 or size[1] % 2:
-            problem = f"{size[0]}x{size[1]} has an odd side, which .mp4 does not take"
-            raise LucidaError("--size", problem, "give even sides")
-        try:
-            import av  # noqa: F401
-        except ImportError:
-            raise LucidaError("-o", ".mp4 needs the package av", PACKAGE) from None
-    if ending == ".gif" and fps > FASTEST_GIF:
-        raise LucidaError("--fps", f"{fps:g} is too fast for a GIF", f"give {FASTEST_GIF} or less")
+    if size[0] % 2 or size[1] % 2:
+        problem = f"{size[0]}x{size[1]} has an odd side, which .mp4 does not take"
+        raise LucidaError("--size", problem, "give even sides")
+    try:
+        import av  # noqa: F401
+    except ImportError:
+        raise LucidaError("-o", ".mp4 needs the package av", PACKAGE) from None
     return partial(_film, fps, size)
 
 
@@ -72,30 +65,10 @@ def image_writer(channel: str, size: Size) -> Writer:
 
 
 def _film(fps: float, size: Size, path: Path, frames: Sequence[Path]) -> Iterator[float]:
-    images = (_opened(frame, size) for frame in frames)
-    with atomic_write(path) as file:
-        if path.suffix.lower() == ".mp4":
-            for number, _ in enumerate(_mp4(file, images, size, fps), 1):
-                yield number / len(frames)
-        else:
-            unit_ms = 10 if path.suffix.lower() == ".gif" else 1
-            ends = [round(n * 1000 / (fps * unit_ms)) * unit_ms for n in range(len(frames) + 1)]
-            next(images).save(
-                file,
-                format=path.suffix[1:].upper(),
-                save_all=True,
-                append_images=images,
-                duration=[end - start for start, end in pairwise(ends)],
-                loop=0,
-            )
-            yield 1.0
-
-
-def _mp4(file: BinaryIO, images: Iterable[Image.Image], size: Size, fps: float) -> Iterator[None]:
     import av
     from av.video.reformatter import ColorRange, Colorspace
 
-    with av.open(file, "w", format="mp4") as container:
+    with atomic_write(path) as file, av.open(file, "w", format="mp4") as container:
         stream = container.add_stream("libx264", rate=Fraction(fps).limit_denominator(1001))
         stream.width, stream.height = size
         stream.pix_fmt = "yuv420p"  # the only one that every player shows
@@ -103,12 +76,12 @@ def _mp4(file: BinaryIO, images: Iterable[Image.Image], size: Size, fps: float) 
         # Without tags, players take small films for BT.601's.
         stream.color_primaries = stream.color_trc = stream.colorspace = BT709
         stream.color_range = ColorRange.MPEG
-        for image in images:
-            frame = av.VideoFrame.from_image(image).reformat(
+        for number, one in enumerate(frames, 1):
+            frame = av.VideoFrame.from_image(_opened(one, size)).reformat(
                 format=stream.pix_fmt, dst_colorspace=Colorspace.ITU709
             )
             container.mux(stream.encode(frame))
-            yield
+            yield number / len(frames)
         container.mux(stream.encode())
 
 

@@ -1,10 +1,10 @@
-"""The cameras of a film's frames: around a point, through key cameras, to another projection."""
+"""The cameras of a film's frames: around a point, in a dolly zoom, through key cameras."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
@@ -13,7 +13,7 @@ import numpy as np
 from lucida.app.cameras.animation import Passage
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.navigation import dollied, orbited, switched_projection
+from lucida.renderer.camera.navigation import dollied, orbited
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
@@ -44,18 +44,13 @@ def dolly_zoom(view: View, focus: Focus, size: Size, count: int) -> list[Camera]
     """Return cameras that move back from the focus, and zoom so that it keeps its size."""
     camera = view.for_size(size)
     if camera.is_parallel:
-        raise LucidaError("--dolly-zoom", "parallel rays have no distance", "give --to-parallel")
+        raise LucidaError(
+            "--dolly-zoom",
+            "parallel rays have no distance",
+            "use --path, or a camera in perspective",
+        )
     distances = camera.distance * np.geomspace(1, ZOOM, count)
     return [dollied(camera, focus.center, distance) for distance in distances.tolist()]
-
-
-def to_parallel(view: View, focus: Focus, size: Size, count: int) -> list[Camera]:
-    """Return cameras from perspective to the parallel projection that shows the focus alike."""
-    if view.camera.is_parallel:
-        problem = "the camera is parallel already"
-        raise LucidaError("--to-parallel", problem, "give a perspective one")
-    end = replace(view, camera=switched_projection(view.camera, focus.center))
-    return through([Key(view), Key(end)], focus, size, count)
 
 
 def through(keys: Sequence[Key], focus: Focus, size: Size, count: int) -> list[Camera]:

@@ -14,7 +14,6 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from lucida import __version__
 from lucida.app.cameras.films.frames import Look, Shot, close_kept, draw_shot
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
@@ -56,24 +55,26 @@ def drawn_by_workers(
     for name in ("distributed", "distributed.client"):  # what they log is raised, too
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with ExitStack() as opened:
-        if scheduler:
-            try:
-                client = opened.enter_context(Client(scheduler, timeout=PATIENCE_S))
-            except (OSError, ValueError) as error:
-                problem = f"{scheduler!r} does not answer ({type(error).__name__})"
-                raise LucidaError("--scheduler", problem, "start `dask scheduler` there") from None
-            check_versions(client)
-        else:
-            threads = max(1, (os.cpu_count() or 1) // workers)
-            look = replace(look, threads=look.threads or threads)
-            cluster = LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                memory_limit=0,  # Dask's own, a share of the memory, pauses workers for good
-                dashboard_address=None,
-                silence_logs=50,
+        address: Any = scheduler
+        field = "--scheduler" if scheduler else "--workers"
+        if not scheduler:
+            look = replace(look, threads=look.threads or max(1, (os.cpu_count() or 1) // workers))
+            address = opened.enter_context(
+                LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    memory_limit=0,  # Dask's own, a share of the memory, pauses workers for good
+                    dashboard_address=None,
+                    silence_logs=50,
+                )
             )
-            client = opened.enter_context(Client(opened.enter_context(cluster)))
+        try:
+            client = opened.enter_context(Client(address, timeout=PATIENCE_S))
+            client.wait_for_workers(1, timeout=PATIENCE_S)
+        except (OSError, ValueError) as error:
+            problem = f"{address!r} does not answer, or has no workers ({type(error).__name__})"
+            remedy = "start `dask scheduler` there, and `dask worker` on a machine with Lucida"
+            raise LucidaError(field, problem, remedy) from None
         sent = client.scatter(scene, broadcast=True, hash=False)
         waiting = iter(shots.items())
         numbers: dict[str, int] = {}
@@ -93,29 +94,6 @@ def drawn_by_workers(
                 give(1)
                 yield numbers.pop(future.key), content
         except (CancelledError, KilledWorker, OSError) as error:
-            field = "--scheduler" if scheduler else "--workers"
             problem = f"the workers were lost ({type(error).__name__})"
             remedy = "run the command again: it goes on where it stopped"
             raise LucidaError(field, problem, remedy) from None
-
-
-def check_versions(client: Any) -> None:
-    """Raise LucidaError if there is no worker, or one has another version of this program.
-
-    client: Dask's.
-    """
-    remedy = f"install {__version__} there"
-    try:
-        versions = client.run(_version)
-    except ImportError as error:
-        raise LucidaError("--scheduler", f"a worker has no Lucida: {error}", remedy) from None
-    if not versions:
-        raise LucidaError("--scheduler", "has no workers", "start `dask worker` on a machine")
-    for address, version in versions.items():
-        if version != __version__:
-            problem = f"the worker {address} has version {version} of Lucida, not {__version__}"
-            raise LucidaError("--scheduler", problem, remedy)
-
-
-def _version() -> str:
-    return __version__

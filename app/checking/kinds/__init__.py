@@ -6,7 +6,6 @@ basis        a camera's basis from a target
 hits         a sphere, a triangle, the nearest of several; their mathematics: shapes
 images       gray, one bit per pixel, the place in memory
 render       both loops
-lenses       a point through a lens, and back
 """
 
 from __future__ import annotations
@@ -15,13 +14,11 @@ from lucida.app.checking.kinds.basis import BASIS
 from lucida.app.checking.kinds.hits import CLOSEST, SPHERE, TRIANGLE
 from lucida.app.checking.kinds.images import BITMAP, GRAY, OFFSET
 from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.kinds.lenses import FISHEYE, PROJECT, UNDISTORT
 from lucida.app.checking.kinds.render import RENDER
 from lucida.app.checking.kinds.viewing_ray import VIEWING_RAY
 
 # In the order of the lecture, as the built-in tasks.
 IN_ORDER: tuple[CheckKind, ...] = (
     GRAY, BITMAP, OFFSET, VIEWING_RAY, BASIS, SPHERE, TRIANGLE, CLOSEST, RENDER,
-    PROJECT, FISHEYE, UNDISTORT,
 )  # fmt: skip
 KINDS = {kind.name: kind for kind in IN_ORDER}

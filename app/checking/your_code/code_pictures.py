@@ -14,8 +14,8 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from lucida.app.checking.checked import WrongCase
-from lucida.app.checking.reports.picture import changed_pixels, difference_picture
 from lucida.app.checking.your_code.model import CodeRays, CodeReport, canvas_pixel
+from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
 from lucida.app.instruments.mistakes.model import told_difference
 from lucida.app.instruments.outside.paint import role_color
@@ -105,28 +105,22 @@ class PicturesShown:
         self._answered = Memo(_answered)
         self._compared = Memo(_compared)
         self._upload = Memo(_upload)
-        self._painting = False
         self.pictures: CodePictures | None = None
 
     @property
     def busy(self) -> bool:
-        return self._painting and self._painter.busy
+        return self._painter.busy
 
     @property
     def expected(self) -> bool:
         """True if there are pictures, or will be: their space is reserved."""
-        return self.pictures is not None or (self._painting and self._painter.error is None)
+        return bool(self.pictures or self._painter.busy or self._painter.error)
 
     def begin_frame(self) -> None:
         self._uploads.begin_frame()
 
-    def rest(self) -> None:
-        """Show nothing."""
-        self._painting = False
-        self.pictures = None
-
     def forget(self) -> None:
-        """Drop pictures in progress, because the view is hidden."""
+        """Show nothing, and drop pictures in progress."""
         self._painter.forget()
         self.pictures = None
 
@@ -139,49 +133,33 @@ class PicturesShown:
         until the new ones are ready.
         """
         rays, state = report.rays, host.state
-        self._painting = rays is not None and bool(rays.came.any())
-        if rays is None:
-            result = report.results.get(report.chosen.name) if report.chosen is not None else None
-            first = result.first if result is not None else None
-            is_image = report.chosen is not None and report.chosen.kind in IMAGES
-            self.pictures = self._answered(first) if first is not None and is_image else None
-            self._upload(self._uploads, self.pictures)
-            return
-        if not self._painting:
+        if rays is None or not rays.came.any():
+            self.forget()
+            chosen = report.chosen
+            result = report.results.get(chosen.name) if chosen is not None else None
+            if result is not None and result.first and result.task.kind in IMAGES:
+                self.pictures = self._answered(result.first)
+        else:
+            live = host.renderers.live
+            made = self._painter.follow(rays, state.scene, live, lambda by: _painted(by, rays))
             self.pictures = None
-            return
-        t_range = rays.camera.t_range
-
-        def make(painter: RayPainter) -> _Painted:
-            given, right = (
-                painter.picture(one[..., 0, :], one[..., 1, :], t_range)
-                for one in (rays.given, rays.right)
-            )
-            return _Painted(rays, given, right)
-
-        made = self._painter.follow(rays, state.scene, host.renderers.live, make)
-        if made is None or made.rays.task != rays.task:
-            self.pictures = None
-            return
-        self.pictures = self._compared(made, state.images.exposure_ev)
+            if made is not None and made.rays.task == rays.task:
+                self.pictures = self._compared(made, state.images.exposure_ev)
         self._upload(self._uploads, self.pictures)
 
-    def tell_waiting(self, host: Host, room: ImVec2) -> None:
-        """Explain in the pictures' space why there are none yet, if any are expected."""
-        if not self._painting:
-            return
-        error = self._painter.error
-        text = describe(error) if error is not None else host.renderers.preparing()
-        if self.expected:
-            imgui.begin_child("waiting", room)
-        wrapped(text, theme.ERROR if error is not None else theme.DIM)
-        if self.expected:
-            imgui.end_child()
-
     def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
-        """Draw the pictures. A click marks a pixel in all views. marked: see marked_pixel()."""
+        """Draw the pictures, or why there are none yet. A click marks a pixel in all views.
+
+        marked: see marked_pixel().
+        """
         pictures, rays = self.pictures, report.rays
-        assert pictures is not None
+        if pictures is None:
+            error = self._painter.error
+            imgui.begin_child("waiting", room)
+            text = describe(error) if error is not None else host.renderers.preparing()
+            wrapped(text, theme.ERROR if error is not None else theme.DIM)
+            imgui.end_child()
+            return
         are_of_rays = rays is not None and pictures.size == rays.size
         titles = {
             "given": ("yours", "", role_color("other")),
@@ -207,11 +185,8 @@ class PicturesShown:
         if answer is not None and rays is not None and are_of_rays:
             again = host.state.marked is not None and answer.pixel == marked
             found = canvas_pixel(answer.pixel, rays.camera, rays.size, *_images(host))
-            host.change(
-                host.state.with_options(
-                    replace(host.state.options, marked=None if again else found)
-                )
-            )
+            options = replace(host.state.options, marked=None if again else found)
+            host.change(host.state.with_options(options))
 
 
 def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:
@@ -231,6 +206,14 @@ def _images(host: Host) -> tuple[Camera, tuple[int, int]]:
 
 def _answered(first: WrongCase) -> CodePictures:
     return image_pair(first.case.right, first.answer)
+
+
+def _painted(painter: RayPainter, rays: CodeRays) -> _Painted:
+    given, right = (
+        painter.picture(one[..., 0, :], one[..., 1, :], rays.camera.t_range)
+        for one in (rays.given, rays.right)
+    )
+    return _Painted(rays, given, right)
 
 
 def _compared(made: _Painted, exposure_ev: float) -> CodePictures:

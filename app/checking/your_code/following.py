@@ -1,7 +1,4 @@
-"""The user's text editor, and a watch on the file while it is edited there and nothing is drawn.
-
-A thread checks it now and then, and wakes the window when it was saved.
-"""
+"""The user's text editor, and a watch on the file while it is edited there and nothing is drawn."""
 
 from __future__ import annotations
 
@@ -23,43 +20,30 @@ class FileFollower:
     """A thread that watches files.
 
     wake: called when a file was saved, and at each check while is_busy().
-    tick: called on the thread at each check.
     version: of the files; changes each time one was saved.
     """
 
-    def __init__(
-        self, wake: Callable[[], None], is_busy: Callable[[], bool], tick: Callable[[], None]
-    ) -> None:
-        self._wake, self._is_busy, self._tick = wake, is_busy, tick
-        self._watch: FilesWatch | None = None
-        self._paths: tuple[str, ...] = ()
-        self._others: tuple[str, ...] = ()
+    def __init__(self, wake: Callable[[], None], is_busy: Callable[[], bool]) -> None:
+        self._wake, self._is_busy = wake, is_busy
+        self._watch = FilesWatch({})
+        self._files: tuple[str, ...] = ()
+        self._watched: tuple[str, ...] = ()
         self._looking, self._closed = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="lucida-follow", daemon=True)
         self._thread.start()
         self.version = 0
 
-    def follow(self, *paths: str) -> None:
-        """Watch these files from now on."""
-        if paths != self._paths:
-            self._watch = FilesWatch({Path(path): stamp(Path(path)) for path in paths})
-            self._paths, self._others = paths, ()
-            self.version += 1
-        self._looking.set()
-
-    def follow_too(self, paths: tuple[str, ...], read_s: float) -> None:
-        """Also watch these other files, on which the newest version depends.
-
-        read_s: the time of reading, on time.time()'s clock. Anything saved later makes another
-        version.
+    def follow(self, files: tuple[str, ...], modules: tuple[str, ...] = ()) -> None:
+        """Watch these files from now on. Other files are a new version; other modules, on which the
+        newest version depends, are not.
         """
-        if self._watch is not None and paths != self._others:
-            found = {Path(path): stamp(Path(path)) for path in (*self._paths, *paths)}
-            self._watch.follow(found)
-            self._others = paths
-            others = (found[Path(path)] for path in paths)
-            if any(one is not None and one[0] > read_s * 1e9 for one in others):
-                self.version += 1
+        if files != self._files:
+            self._watch, self._files, self._watched = FilesWatch({}), files, ()
+            self.version += 1
+        if (*files, *modules) != self._watched:
+            self._watched = *files, *modules
+            self._watch.follow({Path(path): stamp(Path(path)) for path in self._watched})
+        self._looking.set()
 
     def rest(self) -> None:
         """Stop checking until follow() is called, because the results are hidden."""
@@ -68,7 +52,7 @@ class FileFollower:
     def forget(self) -> None:
         """Stop watching. Whatever is followed next counts as a new version."""
         self._looking.clear()
-        self._watch, self._paths, self._others = None, (), ()
+        self._files = ()
 
     def again(self) -> None:
         """Behave as if the file had been saved."""
@@ -81,12 +65,9 @@ class FileFollower:
 
     def _run(self) -> None:
         while self._looking.wait() and not self._closed.wait(LOOK_S):
-            self._tick()
-            watch = self._watch
-            if watch is not None and watch.changed(time.monotonic()):
-                self.version += 1
-                self._wake()
-            elif self._is_busy():
+            is_saved = self._watch.changed(time.monotonic())
+            self.version += is_saved
+            if is_saved or self._is_busy():
                 self._wake()
 
 

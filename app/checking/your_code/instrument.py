@@ -25,15 +25,8 @@ YOURS = (
     Action(MENU, "Write code to begin with...", lambda window: _ask("starter", window)),
     Action(MENU, "Open a course's tasks...", lambda window: _ask("tasks", window)),
     Action(
-        MENU,
-        "Built-in tasks",
-        lambda window: _ask("built-in", window),
-        can=lambda window: bool(window.state.options.your_code.tasks),
-    ),
-    Action(
         MENU, "Run your code", lambda window: _ask("run", window), can=_has_file, separated=True
     ),
-    Action(MENU, "Stop your code", lambda window: _ask("stop", window), can=_has_file),
     Action(MENU, "Edit your code", lambda window: _ask("edit", window), can=_has_file),
 )
 
@@ -46,5 +39,4 @@ class YourCode(YourCodeView):
         "Write code to begin with...": "starter template python",
         "Open a course's tasks...": "homework assignment exercise toml check your code",
         "Run your code": "check python again reload",
-        "Stop your code": "endless loop kill",
     }

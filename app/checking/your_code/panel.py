@@ -5,20 +5,19 @@ Functions take values and return wishes.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.own_words import returned, signature
+from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
-from lucida.app.instruments.stepper.controls import CANVASES
+from lucida.app.instruments.stepper.panel import CANVASES
 from lucida.app.state.options.shared import Notation
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
@@ -46,7 +45,7 @@ INVITATION = (
 SIGNATURE = "def {}:\n    ...\n    return {}"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
-    " on some systems with your rights. Read it first."
+    " with your rights. Read it first: Edit opens it."
 )
 
 
@@ -71,7 +70,6 @@ def head(
     file: Path,
     options: YourCodeOptions,
     runs: CodeRuns | None,
-    report: CodeReport | None,
     fonts: Fonts,
 ) -> tuple[CodeWish, Size]:
     """Draw the file and its buttons. Return the wish and the selected canvas size.
@@ -99,15 +97,11 @@ def head(
         tip(tooltip)
     wish = _tasks(Path(options.tasks).name) or wish
     canvas = options.canvas if runs is None else _canvas(options.canvas)
-    text = ""
     if running_s > RUNNING_S:
         text = f"running for {running_s:.0f} s"
-    elif report is not None and report.at:
-        at = time.strftime("%H:%M:%S", time.localtime(report.at))
-        text = f"ran at {at}, {report.seconds:.2g} s"
-    follow(imgui.calc_text_size(text).x)
-    imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.DIM, text)
+        follow(imgui.calc_text_size(text).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
     return wish, canvas
 
 
@@ -186,23 +180,6 @@ def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont 
     if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
         return fonts.bold, VERDICT
     return fonts.text, 1.0
-
-
-def unrun(text: str, room: ImVec2, fonts: Fonts) -> bool:
-    """Draw the text of a file that the user has not opened. Return True if it should be run."""
-    wrapped(TRUST)
-    run = bool(imgui.button("Run it"))
-    left = imgui.get_content_region_avail()
-    if imgui.begin_child(
-        "source",
-        ImVec2(left.x, left.y),
-        imgui.ChildFlags_.borders,
-        imgui.WindowFlags_.horizontal_scrollbar,
-    ):
-        with lettering(fonts.mono):
-            imgui.text_unformatted(text)
-    imgui.end_child()
-    return run
 
 
 def _color(role: ToldRole) -> ImVec4:

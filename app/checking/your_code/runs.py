@@ -1,7 +1,7 @@
 """Runs a student's file in the background: for the window's camera, then for all of its tasks.
 
 The newest question wins. An overtaken one is given up, and its process ended if it takes long. The
-slow work, tasks and diagnosis, waits until the camera rests.
+slow work, the tasks, waits until the camera rests.
 """
 
 from __future__ import annotations
@@ -21,12 +21,10 @@ from lucida.app.checking.tasks import CheckTask, Failure, Limits
 from lucida.app.checking.your_code.model import (
     CodeContent,
     CodeQuestion,
-    CodeRays,
     CodeReport,
     asked_of,
     cases_for,
     chosen_of,
-    diagnosis_of,
     for_camera,
     is_of_camera,
     rays_of,
@@ -38,7 +36,6 @@ from lucida.renderer.system.errors import LucidaError, describe
 
 OVERTAKEN_S = 0.3  # what has run for so long, and is not wanted any more, is ended
 REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
-CLOSING_S = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,13 +48,12 @@ class _Opened:
 
 
 class CodeRuns:
-    """The runs of a file. Methods are for the window's thread, except tick().
+    """The runs of a file. Methods are for the window's thread.
 
     wake: called from the thread when there is news.
     make: makes the student for a file.
     report: the newest; None before the first.
     files: the modules that the file imported, or failed to import, when it was last read.
-    read_s: the start of that reading, on time.time()'s clock.
     """
 
     def __init__(
@@ -65,16 +61,15 @@ class CodeRuns:
     ) -> None:
         self._wake, self._make = wake, make
         self._background: Background[None] = Background("lucida-your-code", wake)
-        self._lock = threading.Lock()  # of the opened file, and of the report
+        self._lock = threading.Lock()  # while a run is ended, no other follows it
         self._opened: _Opened | None = None
+        self._is_stale = False  # the opened file is to be opened anew
         self._newest: CodeQuestion | None = None
         self._asked = threading.Event()  # something newer, or the end
-        self._ending = threading.Lock()  # while a run is ended, no other follows it
         self._run: tuple[CodeQuestion, float] | None = None  # what for, since when
-        self._stopped = self._closed = False  # by the user; for good
+        self._stopped = False  # by the user
         self.report: CodeReport | None = None
         self.files: tuple[str, ...] = ()
-        self.read_s = 0.0
 
     def follow(self, question: CodeQuestion) -> None:
         """Ask a question. Call once a frame.
@@ -83,7 +78,7 @@ class CodeRuns:
         that the user asks for here: another version, task, or size.
         """
         report = self.report
-        if question == self._newest or self._closed:
+        if question == self._newest:
             return
         if report is not None and report.halted and question.differs_in_camera(report.question):
             return
@@ -96,8 +91,16 @@ class CodeRuns:
         return self._background.busy
 
     def poll(self) -> None:
-        """Notice the end of the work. Call once a frame."""
+        """Notice the end of the work, and end a run that was overtaken or stopped. Call once a
+        frame.
+        """
         self._background.poll()
+        with self._lock:
+            if self._run is None or self._opened is None:
+                return
+            is_late = self.running_s > OVERTAKEN_S and not self._is_wanted(self._run[0])
+            if self._stopped or is_late:
+                self._opened.student.stop()
 
     @property
     def running_s(self) -> float:
@@ -106,60 +109,35 @@ class CodeRuns:
         return time.monotonic() - run[1] if run is not None else 0.0
 
     def stop(self) -> None:
-        """End the current run, at the next tick(). Its report says so."""
+        """End the current run, at the next poll(). Its report says so."""
         self._stopped = True
 
     def forget(self) -> None:
-        """Discard all results, because there is no file any more, or to start over."""
+        """Discard all results and end the process, because there is no file any more, or to start
+        over.
+        """
         with self._lock:
             self._newest = self.report = None
+            self._is_stale = True
+            if self._opened is not None:
+                self._opened.student.stop()
         self._asked.set()
-        self._close_student()
-
-    def tick(self) -> None:
-        """End a run that was overtaken or stopped. Call now and then, from any thread but the
-        window's.
-
-        May take a while.
-        """
-        with self._ending:
-            opened, run = self._opened, self._run
-            if opened is None or run is None:
-                return
-            is_late = time.monotonic() - run[1] > OVERTAKEN_S
-            if self._stopped or (is_late and not self._is_wanted(run[0])):
-                opened.student.stop()
 
     def close(self) -> None:
         """End the file's process."""
-        self._newest, self._closed = None, True
-        self._asked.set()
-        closing = self._close_student()
-        if closing is not None:
-            closing.join(CLOSING_S)
+        self.forget()
         self._background.close()
-
-    def _close_student(self) -> threading.Thread | None:
-        """End the process on a thread, because reading the file may delay it."""
-        with self._lock:
-            opened, self._opened = self._opened, None
-        if opened is None:
-            return None
-        closing = threading.Thread(target=opened.student.close, daemon=True)
-        closing.start()
-        return closing
 
     # On the thread.
 
     @contextmanager
-    def _running(self, question: CodeQuestion) -> Iterator[float]:
-        """Note that the process works on a question. Yield the starting time."""
-        begin = time.monotonic()
-        self._run = question, begin
+    def _running(self, question: CodeQuestion) -> Iterator[None]:
+        """Note that the process works on a question."""
+        self._run = question, time.monotonic()
         try:
-            yield begin
+            yield
         finally:
-            with self._ending:
+            with self._lock:
                 self._run = None
 
     def _is_wanted(self, question: CodeQuestion) -> bool:
@@ -179,24 +157,17 @@ class CodeRuns:
             self.report = report
         self._wake()
 
-    def _open(self, question: CodeQuestion) -> _Opened:
+    def _open(self, content: CodeContent) -> _Opened:
         """Return the opened file, opened anew for another version. Raises LucidaError."""
         opened = self._opened
-        if opened is not None and opened.content == question.content:
+        if opened is not None and opened.content == content and not self._is_stale:
             return opened
-        asked = asked_of(question.content.tasks, question.content.notation)
-        with self._lock:
-            old, self._opened = self._opened, None
-            if self._is_wanted(question):
-                self.read_s = time.time()
-                student = self._make(Path(question.content.path), asked.limits)
-                self._opened = _Opened(question.content, student, asked)
-            made = self._opened
-        if old is not None:
-            old.student.close()
-        if made is None:
-            raise LucidaError("", "nobody waits for it")
-        return made
+        if opened is not None:
+            opened.student.close()
+        self._is_stale = False
+        asked = asked_of(content.tasks, content.notation)
+        self._opened = _Opened(content, self._make(Path(content.path), asked.limits), asked)
+        return self._opened
 
     def _answer(self, question: CodeQuestion) -> None:
         before = self.report
@@ -212,7 +183,7 @@ class CodeRuns:
         try:
             with self._running(question):
                 report = self._report(question, before)
-            self._publish(replace(report, seconds=time.monotonic() - begin, at=time.time()))
+            self._publish(replace(report, seconds=time.monotonic() - begin))
             self._check(question)
         except NotRunnableError as error:
             self._publish(CodeReport(question, failure=error.failure, output=error.output))
@@ -223,7 +194,7 @@ class CodeRuns:
 
     def _report(self, question: CodeQuestion, before: CodeReport | None) -> CodeReport:
         """Return the file's answer for the camera. Raises LucidaError."""
-        opened = self._open(question)
+        opened = self._open(question.content)
         student, asked = opened.student, opened.asked.tasks
         try:
             functions = student.functions()
@@ -235,14 +206,16 @@ class CodeRuns:
         report = CodeReport(question, tasks, chosen, results=results, asked=asked)
         if chosen is None or not is_of_camera(chosen):
             return report
-        task = for_camera(chosen, question.camera, asked)
-        if problem := why_not_asked(task, question.camera, question.size):
+        camera, size = question.camera, question.size
+        task = for_camera(chosen, camera, asked)
+        if problem := why_not_asked(task, camera, size):
             return replace(report, not_asked=problem)
-        rays = _rays(question, task, student)
+        cases = cases_for(task, camera, size)
+        rays = rays_of(task, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
         return replace(report, rays=rays, output=rays.result.output)
 
     def _check(self, question: CodeQuestion) -> None:
-        """Check the tasks that have not been tried, then find out why the picture is wrong."""
+        """Check the tasks that have not been tried."""
         opened, report = self._opened, self.report
         if opened is None or report is None or not self._rests(question):
             return
@@ -252,21 +225,9 @@ class CodeRuns:
                 return
             if task.name not in results:
                 with self._running(question):
-                    result = _tried(opened.student, task, report)
-                if not self._is_wanted(question):  # it may have been ended on purpose
-                    return
-                results[task.name] = result
+                    results[task.name] = _tried(opened.student, task, report)
                 report = replace(report, results=dict(results))
-                self._publish(report)
-        rays = report.rays
-        if rays and rays.result.status == "wrong" and rays.task.feedback == "diagnosis":
-            self._publish(replace(report, diagnosis=diagnosis_of(rays)))
-
-
-def _rays(question: CodeQuestion, task: CheckTask, student: FileStudent) -> CodeRays:
-    camera, size = question.camera, question.size
-    cases = cases_for(task, camera, size)
-    return rays_of(task, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
+                self._publish(report)  # unless it was ended on purpose: nobody wants it then
 
 
 def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:

@@ -30,14 +30,13 @@ from lucida.app.ui import layout, theme
 from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
-from lucida.renderer.files.reading import first_bytes
+from lucida.app.ui.messages import wrapped
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
-READ_BYTES = 100_000  # to show of a file that is not run
 
 
 class YourCodeView(Instrument):
@@ -53,7 +52,6 @@ class YourCodeView(Instrument):
         self._pictures: PicturesShown | None = None
         self._agreed: set[str] = set()  # files that the user has opened in this window
         self._written: list[str] = []  # files to begin with that have been written
-        self._source = Memo(source_text)  # of a file that is not run
         self._items = Memo(outside_items)
         self._seen = False
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
@@ -74,7 +72,6 @@ class YourCodeView(Instrument):
     def open(self, window: Host, path: str) -> None:
         """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
-        self._source.forget()
         options = replace(window.state.options.your_code, file=stored(path), task="")
         if window.state.options.your_code.file != options.file:
             window.change(window.state.with_options(options))
@@ -99,7 +96,7 @@ class YourCodeView(Instrument):
         return not (self.runs.busy or self._pictures.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._follower = FileFollower(host.animate, lambda: self.runs.busy, self.runs.tick)
+        self._follower = FileFollower(host.animate, lambda: self.runs.busy)
         self._pictures = PicturesShown(host, context)
 
     def end(self) -> None:
@@ -110,6 +107,7 @@ class YourCodeView(Instrument):
             self._pictures.close()
 
     def unseen(self, host: Host) -> None:
+        self.runs.poll()
         if not self._seen:
             return
         assert self._follower is not None and self._pictures is not None
@@ -145,7 +143,7 @@ class YourCodeView(Instrument):
         """Run nothing, and show nothing of earlier runs."""
         assert self._follower is not None and self._pictures is not None
         self._follower.forget()
-        self._pictures.rest()
+        self._pictures.forget()
         self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
@@ -164,8 +162,7 @@ class YourCodeView(Instrument):
         assert self._follower is not None and self._pictures is not None
         runs, options = self.runs, host.state.options.your_code
         tasks = restored(options.tasks)
-        self._follower.follow(*(one for one in (path, tasks) if one))
-        self._follower.follow_too(runs.files, runs.read_s)
+        self._follower.follow(tuple(one for one in (path, tasks) if one), runs.files)
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
         content = CodeContent(path, tasks, host.state.options.notation, self._follower.version)
@@ -173,7 +170,7 @@ class YourCodeView(Instrument):
         report = runs.report
         if report is not None and not report.question.content.is_of_files(content):
             report = None
-        wish, canvas = panel.head(Path(path), options, runs, report, host.fonts)
+        wish, canvas = panel.head(Path(path), options, runs, host.fonts)
         if canvas != options.canvas:
             host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
@@ -186,10 +183,8 @@ class YourCodeView(Instrument):
         marked = marked_pixel(host, report)
         room = imgui.get_content_region_avail()
         for_pictures, for_words, beside = panel.rooms(room, self._pictures.expected)
-        if self.pictures is not None:
+        if self._pictures.expected:
             self._pictures.draw(host, report, for_pictures, marked)
-        else:
-            self._pictures.tell_waiting(host, for_pictures)
         if beside:
             imgui.same_line()
         self.told = self._words(report, marked)
@@ -203,28 +198,26 @@ class YourCodeView(Instrument):
     def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
         """Show the student's camera if it is wrong, and the marked pixel's rays."""
         rays = report.rays
-        if rays is None:
+        if rays is None or not rays.wrong.any():
             self._outside.show(YOUR_CODE, ())
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
         items = self._items(rays, marked, end, first, host.state.options.notation)
-        if not rays.wrong.any():
-            self._outside.show(YOUR_CODE, items)
-            return
+        self._outside.show(YOUR_CODE, items)
         place = report.question.content.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        self._outside.show(YOUR_CODE, items)
 
     # Requests of the user.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
-        """Draw a file that a lecture has named: its text, which the user may run."""
+        """Draw a file that a lecture has named, which the user may read and run."""
         options = host.state.options.your_code
-        wish, _ = panel.head(Path(path), options, None, None, host.fonts)
-        if panel.unrun(self._source(path), imgui.get_content_region_avail(), host.fonts):
+        wish, _ = panel.head(Path(path), options, None, host.fonts)
+        wrapped(panel.TRUST)
+        if imgui.button("Run it"):
             self._agree(host, path)
         return wish
 
@@ -274,13 +267,3 @@ class YourCodeView(Instrument):
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
         host.edit(replace(host.options.your_code, file=stored(path), task=""))
-
-
-def source_text(path: str) -> str:
-    """Return the text of a file, or the reason why it cannot be shown."""
-    try:
-        data = first_bytes(Path(path), READ_BYTES + 1)
-    except OSError as error:
-        return f"{one_line(path)} cannot be read: {error.strerror}"
-    text = data[:READ_BYTES].decode("utf-8", "replace").replace("\0", " ")
-    return text + ("\n..." if len(data) > READ_BYTES else "")

@@ -11,7 +11,7 @@ import numpy as np
 
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds.kind import text_of
-from lucida.app.checking.reports.told import told
+from lucida.app.checking.reports import told
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel
@@ -84,9 +84,6 @@ def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
         yield ToldLine("dim", report.not_asked)
     if rays is not None:
         yield from _of_rays(report, rays)
-        if rays.task != chosen:
-            other = "parallel" if "parallel" in chosen.projections else "perspective"
-            yield ToldLine("dim", f"{chosen.name} is for {other} projection: P switches to it.")
         if pixel is not None and bool(rays.came[pixel]):
             yield from _of_pixel(rays, pixel)
         if rays.result.failure is not None:
@@ -112,15 +109,11 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     else:
         wrong = int(rays.wrong.sum())
         yield ToldLine("bad", f"{wrong} of {rays.wrong.size} rays are wrong.")
-        assert report.chosen is not None
-        tried = report.results.get(report.chosen.name)
-        found, others = report.diagnosis, tried.diagnosis if tried else None
-        if found is None or (others is not None and not found.candidates):
-            found = others  # of the task's many cameras
-        if found is None and tried is None:
+        tried = report.results.get(rays.task.name)
+        if tried is None:
             yield ToldLine("dim", "looking for the reason ...")
-        for sentence in found.sentences if found else ():
-            yield ToldLine("text", sentence)
+        elif tried.diagnosis is not None:
+            yield from (ToldLine("text", sentence) for sentence in tried.diagnosis.sentences)
 
 
 def _of_failure(result: TaskResult) -> Iterator[ToldLine]:

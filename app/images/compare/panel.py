@@ -15,7 +15,6 @@ from lucida.app.ui.checks import checkbox, radio_button
 from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
-from lucida.app.ui.sliders import slider_float
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
 DIGITS = 6  # of a count
@@ -42,7 +41,7 @@ def toolbar(host: Host) -> None:
     imgui.begin_disabled(options.mode == "wipe" or host.state.images.channel == "id")
     logarithmic = imgui.SliderFlags_.logarithmic
     bounds = range_of(CompareOptions, "gain")
-    changed, gain = slider_float("##gain", options.gain, *bounds, "gain %.3g", logarithmic)
+    changed, gain = imgui.slider_float("##gain", options.gain, *bounds, "gain %.3g", logarithmic)
     if changed:
         host.edit(replace(options, gain=gain))
     tip("The factor of the difference.")

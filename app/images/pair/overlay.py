@@ -11,7 +11,6 @@ from lucida.app.images.placement import magnification_text
 from lucida.app.images.screen import Screen
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import palettes, theme
-from lucida.app.ui.lettering import lettering
 from lucida.renderer.images.display import ID_PALETTE
 from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 
@@ -21,31 +20,41 @@ DIM = theme.rgb("#b4bac2")
 ERROR = palettes.DARK.ERROR
 MARGIN = 8.0
 PADDING = 6.0
-BAR = 84.0  # of the depth's legend
 MOST_NAMES = 6
 # The normal's components and their colours.
 NORMAL = (("normal x", "#ff7a6b"), ("normal y", "#6fd36f"), ("normal z", "#7aa8ff"))
 
 
 def draw_legend(
-    draw: imgui.ImDrawList,
-    screen: Screen,
-    state: AppState,
-    depths: tuple[float, float] | None,
-    fonts: theme.Fonts,
+    draw: imgui.ImDrawList, screen: Screen, state: AppState, depths: tuple[float, float] | None
 ) -> None:
-    """Draw the meaning of a channel's colours in the lower left corner of the window."""
-    channel = state.images.channel
-    if channel == "depth":
-        _depth_legend(draw, screen, depths, fonts)
+    """Draw the meaning of a channel's colours in the lower left corner of the window: each word on
+    a line of its own, with a square of its colour.
+    """
+    words: list[tuple[str, ImVec4]] = []
+    channel, objects = state.images.channel, state.scene.visible
+    if channel == "depth" and depths is not None:
+        near, far = depths
+        gray = ImVec4(FARTHEST_GRAY, FARTHEST_GRAY, FARTHEST_GRAY, 1)
+        words = [(f"t = {near:.4g}", theme.rgb("#ffffff")), (f"t = {far:.4g}", gray)]
     elif channel == "normal":
-        _column(draw, screen, [(axis, theme.rgb(color)) for axis, color in NORMAL])
+        words = [(axis, theme.rgb(color)) for axis, color in NORMAL]
     elif channel == "id":
-        objects = state.scene.visible
         words = [(entry.name or f"object {k}", _palette(k)) for k, entry in objects[:MOST_NAMES]]
         if len(objects) > MOST_NAMES:
             words.append((f"and {len(objects) - MOST_NAMES} more", DIM))
-        _column(draw, screen, words)
+    size = imgui.get_font_size()
+    line = size + 3
+    width = max((imgui.calc_text_size(text).x for text, _ in words), default=0.0)
+    height = line * len(words) + 2 * PADDING - 3
+    low = _corner(draw, screen, width + size + 3 * PADDING, height) if words else None
+    if low is None:
+        return
+    for k, (text, color) in enumerate(words):
+        at = low + ImVec2(PADDING, PADDING + k * line)
+        square = at + ImVec2(1, 3), at + ImVec2(size - 3, size - 1)
+        draw.add_rect_filled(*square, theme.u32(color))
+        draw.add_text(at + ImVec2(size + PADDING, 0), theme.u32(TEXT), text)
 
 
 def draw_magnification(draw: imgui.ImDrawList, screen: Screen, state: AppState) -> None:
@@ -69,48 +78,6 @@ def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool)
     draw.add_rect_filled(at - pad, at + size + pad, theme.u32(BOX), 4.0)
     color = theme.u32(ERROR if is_error else TEXT)
     draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, note, wrap_width=wrap)
-
-
-def _depth_legend(
-    draw: imgui.ImDrawList,
-    screen: Screen,
-    depths: tuple[float, float] | None,
-    fonts: theme.Fonts,
-) -> None:
-    size = imgui.get_font_size()
-    near, far = (f"{t:.4g}" for t in depths) if depths is not None else ("nothing is hit", "")
-    with lettering(fonts.mono):
-        widths = [imgui.calc_text_size(text).x for text in ("t", near, far)]
-        low = _corner(draw, screen, sum(widths) + BAR + 5 * PADDING, size + 2 * PADDING)
-        if low is None:
-            return
-        at = low + ImVec2(PADDING, PADDING)
-        draw.add_text(at, theme.u32(DIM), "t")
-        at.x += widths[0] + PADDING
-        draw.add_text(at, theme.u32(TEXT if depths is not None else DIM), near)
-        if depths is None:
-            return
-        at.x += widths[1] + PADDING
-        white, gray = (theme.u32(ImVec4(v, v, v, 1)) for v in (1.0, FARTHEST_GRAY))
-        bar = at + ImVec2(0, 1), at + ImVec2(BAR, size - 1)
-        draw.add_rect_filled_multi_color(*bar, white, gray, gray, white)
-        draw.add_text(at + ImVec2(BAR + PADDING, 0), theme.u32(TEXT), far)
-
-
-def _column(draw: imgui.ImDrawList, screen: Screen, words: list[tuple[str, ImVec4]]) -> None:
-    """Draw each word on a line of its own, with a square of its colour."""
-    size = imgui.get_font_size()
-    line = size + 3
-    width = max((imgui.calc_text_size(text).x for text, _ in words), default=0.0)
-    height = line * len(words) + 2 * PADDING - 3
-    low = _corner(draw, screen, width + size + 3 * PADDING, height)
-    if low is None:
-        return
-    for k, (text, color) in enumerate(words):
-        at = low + ImVec2(PADDING, PADDING + k * line)
-        square = at + ImVec2(1, 3), at + ImVec2(size - 3, size - 1)
-        draw.add_rect_filled(*square, theme.u32(color))
-        draw.add_text(at + ImVec2(size + PADDING, 0), theme.u32(TEXT), text)
 
 
 def _corner(

@@ -30,15 +30,13 @@ class Pane:
 
     picture: asked after the mouse has moved the camera. values: of some pixels, likewise; None if
     the image shows no channel. error, note: shown over the image, which is darkened: it is not of
-    now. progress: of the image under way, 1 for none. legend: whether the channel's colours are
-    explained.
+    now. legend: whether the channel's colours are explained.
     """
 
     picture: Drawn
     values: Values | None
     error: Exception | None = None
     note: str = ""
-    progress: float = 1.0
     legend: bool = True
 
 
@@ -80,12 +78,9 @@ def draw_pane(
         draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if hovered is not None:
         draw_hovered(draw, screen, hovered)
-    if pane.progress < 1.0:
-        end = ImVec2(low.x + (high.x - low.x) * pane.progress, high.y)
-        draw.add_rect_filled(ImVec2(low.x, high.y - 3), end, theme.u32(theme.RAY))
     if picture is not None and host.has_tools:
         if pane.legend:
-            draw_legend(draw, screen, state, depths, fonts)
+            draw_legend(draw, screen, state, depths)
         draw_magnification(draw, screen, state)
     if pane.error is not None or pane.note:
         text = describe(pane.error) if pane.error is not None else pane.note

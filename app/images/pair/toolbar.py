@@ -33,6 +33,14 @@ GAP = 2.0
 ARROW = 0.9  # the room of the triangle, in the font's size
 
 
+def _channel_text(state: AppState) -> str:
+    images = state.images
+    if images.component != "rgb":
+        return images.component.capitalize()
+    linear = images.channel == "color" and images.transfer == "linear"
+    return CHANNELS[images.channel][0] + ", linear" * linear
+
+
 def _photograph_text(state: AppState) -> str:
     options = state.options.photograph
     if not options.file:
@@ -49,9 +57,9 @@ def _magnification_text(state: AppState) -> str:
 PARTS: tuple[tuple[str, Callable[[AppState], str], str, tuple[Action, ...]], ...] = (
     (
         "channel",
-        lambda state: CHANNELS[state.images.channel][0],
-        "What both images show: colour, depth, normal or object (Alt+1 to Alt+4).",
-        SHOWN_CHANNEL,
+        _channel_text,
+        "What both images show: colour, depth, normal or object; all of a colour, or one channel.",
+        (*SHOWN_CHANNEL, *SHOWN_COMPONENT, LINEAR),
     ),
     (
         "photograph",
@@ -76,20 +84,6 @@ PARTS: tuple[tuple[str, Callable[[AppState], str], str, tuple[Action, ...]], ...
         _magnification_text,
         "How large a pixel of the images is on the screen (Ctrl+wheel over an image).",
         (FIT, *FACTORS, *PIXELS),
-    ),
-    (
-        "transfer",
-        lambda state: {"srgb": "sRGB", "linear": "linear"}[state.images.transfer],
-        "How linear light becomes what the screen gets (Alt+L).",
-        (LINEAR,),
-    ),
-    (
-        "component",
-        lambda state: {"rgb": "RGB"}.get(
-            state.images.component, state.images.component.capitalize()
-        ),
-        "All of a colour, or one of its channels (Alt+R, Alt+G, Alt+B).",
-        SHOWN_COMPONENT,
     ),
 )
 

@@ -125,9 +125,7 @@ class RayView(PairView):
         super().__init__(view_of(views, RasterView).linked)
 
     def draw(self, host: Host) -> None:
-        both, image = host.renderers, host.renderers.ray_image
-        refining = image is not None and not image.is_last
-        progress = both.live.progress if refining else 1.0
-        note = both.preparing()
-        self._pane(host, Pane(both.ray_picture, both.ray_values, both.ray_error, note, progress))
+        both = host.renderers
+        pane = Pane(both.ray_picture, both.ray_values, both.ray_error, both.preparing())
+        self._pane(host, pane)
         both.trace(host.state)

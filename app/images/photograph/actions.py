@@ -12,7 +12,6 @@ from lucida.app.state.options.photograph import PhotographOptions
 from lucida.app.ui.action import Action, changing, choosing, draw_entry
 from lucida.app.ui.host import Host
 from lucida.app.ui.rows import tip
-from lucida.app.ui.sliders import slider_float
 
 MENU = "Image/Photograph"
 SLIDER_EM = 11.0
@@ -41,7 +40,7 @@ def entries(host: Host) -> None:
     """Draw the photograph's entries."""
     options = host.options.photograph
     imgui.set_next_item_width(SLIDER_EM * imgui.get_font_size())
-    changed, opacity = slider_float(
+    changed, opacity = imgui.slider_float(
         "##opacity", options.opacity, *range_of(PhotographOptions, "opacity"), "opacity %.2f"
     )
     tip("How much of the photograph is seen: a mean of what the screen shows (sRGB), not of light.")

@@ -19,7 +19,7 @@ from lucida.app.instruments.laboratory.sheet import (
     reached,
     rectangle,
 )
-from lucida.app.instruments.laboratory.stored import shown, store
+from lucida.app.instruments.laboratory.stored import kept
 from lucida.app.instruments.outside.figure import Figure
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes, encode_srgb, to_srgb8
@@ -197,7 +197,7 @@ def _caption(sheet: Sheet, kind: Kind, corner: Point, room: Point) -> None:
 
 
 def _kept(page: Page, kind: Kind) -> Bytes:
-    return shown(store(page.color, kind, page.taken_ev), page.options.after_ev)
+    return kept(page.color, kind, page.taken_ev, page.options.after_ev)
 
 
 def _shape(page: Page) -> Size:

@@ -47,6 +47,6 @@ PAGES: dict[str, Kind] = {
 }
 
 
-def drawn(page: str, given: Page) -> Figure:
+def drawn(page: Page) -> Figure:
     """Return a page's drawing."""
-    return PAGES[page].draw(given)
+    return PAGES[page.options.page].draw(page)

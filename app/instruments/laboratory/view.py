@@ -27,7 +27,6 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import follow
-from lucida.app.ui.sliders import slider_float
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.camera.image_plane import Size
@@ -101,7 +100,7 @@ class LaboratoryView(Instrument):
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
         notation = host.state.options.notation
         self.page = self._page(size, look, options, color, exposure_ev, place, notation)
-        self.figure = self._figure(options.page, self.page)
+        self.figure = self._figure(self.page)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)
 
@@ -164,7 +163,7 @@ def _slider(label: str, value: float, limits: tuple[float, float], form: str) ->
     width = 8 * imgui.get_font_size()
     follow(width + imgui.calc_text_size(label).x)
     imgui.set_next_item_width(width)
-    return slider_float(label, value, *limits, form)[1]
+    return imgui.slider_float(label, value, *limits, form)[1]
 
 
 def _drawn_image(rasterizer: WindowRasterizer, request: ImageRequest) -> Image:

@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.checking.reports.picture import changed_pixels, difference_picture
+from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPictures
 from lucida.app.instruments.mistakes import model, panel
 from lucida.app.instruments.mistakes.model import Compared, Situation

@@ -1,71 +1,42 @@
-"""The outside view's actions: its switches, its handles, from where it looks.
+"""The outside view's actions: its switches, its handles, from where it looks, its figures.
 
-Owns their names and keys. What is switched is outside/switches.py's.
+The view's own menu and the menu View have the same entries.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
-from lucida.app.instruments.outside.extent import around, framed, outside_camera, way_of
 from lucida.app.instruments.outside.figure_view import Ground, export_figure
-from lucida.app.instruments.outside.switches import (
-    AXIS_NAMES,
-    HANDLES,
-    SWITCHES,
-    Switch,
-    handles,
-    is_on,
-    toggled,
-    with_gizmo,
-)
+from lucida.app.instruments.outside.looking import AXIS_NAMES
+from lucida.app.instruments.outside.tools import MENU
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.ui.action import Action, changing
+from lucida.app.state.options.outside import STAGES
+from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.system.errors import LucidaError
 
-MENU, PICTURE = "View/Outside view", "File/Picture"
-ASPECT = 1.4  # of a view along an axis: another one sees no less
-KEYS = {"bundle": "B", "move": "G", "turn": "T"}
+PICTURE = "File/Picture"
+BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 
 
-def _with(state: AppState, options: OutsideOptions) -> AppState:
-    return state.with_options(options)
+def _toggle_formula(state: AppState) -> AppState:
+    formula = None if _has_formula(state) else float(len(STAGES))
+    return state.with_options(replace(state.options.outside, formula=formula))
 
 
-def _looking(window: Host) -> Camera:
-    """Return the outside camera."""
-    state, scope = window.state, window.view(OutsideView).scope
-    if scope is not None:
-        return scope.camera
-    home = state.scene.view.for_size(window.renderers.size)
-    points = around(window.focus.framed, home, window.renderers.camera(state))
-    home = state.scene.view.camera
-    return state.options.outside.camera or outside_camera(points, home, ASPECT)
+def _has_formula(state: AppState) -> bool:
+    return state.options.outside.formula is not None
 
 
-def _look(window: Host, camera: Camera | None) -> None:
-    """Look through a camera; None: through one that sees everything."""
-    window.travel(window.state.with_options(replace(window.state.options.outside, camera=camera)))
-
-
-def _sees_all(state: AppState) -> bool:
-    return state.options.outside.camera is None
-
-
-def _along(window: Host, axis: str) -> None:
-    state = window.state
-    points = around(window.focus.framed, window.renderers.camera(state))
-    _look(window, framed(points, way_of(axis), ASPECT, _looking(window).projection))
-
-
-def _switch_projection(window: Host) -> None:
+def _switch_projection(host: Host) -> None:
+    view = host.view(OutsideView)
+    assert view.scope is not None
     try:
-        _look(window, switched_projection(_looking(window), window.focus.center))
+        view.look(host, switched_projection(view.scope.camera, host.focus.center))
     except LucidaError:  # beyond the numbers: the camera stays
         return
 
@@ -75,71 +46,80 @@ def _is_parallel(state: AppState) -> bool:
     return camera is not None and camera.is_parallel
 
 
-def _shown(switch: Switch) -> Action:
-    return Action(
-        MENU,
-        f"Show {switch.name}",
-        changing(lambda state: _with(state, toggled(state.options.outside, switch.field))),
-        KEYS.get(switch.field, ""),
-        is_on=lambda state: is_on(state.options.outside, switch.field),
-    )
+def _is_drawn(host: Host) -> bool:
+    return host.view(OutsideView).scope is not None
 
 
-def _handles(kind: str, name: str) -> Action:
-    return Action(
-        MENU,
-        f"Handles: {name}",
-        changing(lambda state: _with(state, with_gizmo(state.options.outside, kind))),
-        KEYS.get(kind, ""),
-        is_on=lambda state: state.options.outside.gizmo == kind,
-        can=lambda window: kind in {k for k, *_ in handles(window.state.options.outside)},
+def _show(name: str, tip: str) -> Action:
+    return choosing(MENU, f"Show {name}", f"outside.{name}", True, off=False, tip=tip)
+
+
+def _handles(name: str, kind: str, tip: str, keys: str = "") -> Action:
+    return choosing(
+        MENU, f"Handles: {name}", "outside.gizmo", kind, keys, "none", tip=tip,
         separated=kind == "move",
-    )
+        can=lambda host: kind != "up" or host.state.options.outside.target is not None,
+    )  # fmt: skip
 
 
 def _axis(axis: str, name: str) -> Action:
-    return Action(MENU, f"Look {name}", lambda window: _along(window, axis), separated=axis == "x")
+    return Action(
+        MENU,
+        f"Look {name}",
+        lambda host: host.view(OutsideView).look_along(host, axis),
+        can=_is_drawn,
+        separated=axis == "x",
+    )
 
 
 OUTSIDE = (
-    *(_shown(switch) for switch in SWITCHES),
-    *(_handles(kind, name) for kind, name, _ in HANDLES),
+    _show("basis", "the basis vectors u, v, w at the eye, at their true lengths"),
+    _show("image", "the live image on the image plane"),
+    _show("grid", "the pixel grid on the image plane"),
+    _show("volume", "the view volume: what the camera can see"),
+    _show("ray", "the viewing ray of the marked pixel, or the one under the mouse"),
+    Action(
+        MENU,
+        "Show formula",
+        changing(_toggle_formula),
+        is_on=_has_formula,
+        tip="the marked pixel's ray, term by term: -dw, uu, vv",
+    ),
+    choosing(
+        MENU, "Show bundle", "outside.bundle", BUNDLE, "B", (0, 0),
+        tip="viewing rays spread over the image",
+    ),
+    _handles("move eye", "move", "handles that move the eye of the camera", "G"),
+    _handles("turn basis", "turn", "handles that turn the basis of the camera", "T"),
+    _handles("move plane", "distance", "a handle that moves the image plane: the distance d"),
+    _handles("turn up", "up", "handles that turn the vector up, which makes the basis"),
     Action(
         MENU,
         "Fit all",
-        lambda window: _look(window, None),
+        lambda host: host.view(OutsideView).look(host, None),
         "Shift+H",
-        is_on=_sees_all,
+        is_on=lambda state: state.options.outside.camera is None,
         separated=True,
     ),
     Action(
         MENU,
         "Look from the camera",
-        lambda window: _look(window, window.renderers.camera(window.state)),
+        lambda host: host.view(OutsideView).look(host, host.renderers.camera(host.state)),
         "Shift+C",
     ),
     Action(
-        MENU,
-        "Parallel outside camera",
-        _switch_projection,
-        is_on=_is_parallel,
+        MENU, "Parallel outside camera", _switch_projection, is_on=_is_parallel, can=_is_drawn
     ),
     *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
-)
+)  # fmt: skip
 
 
-def _figure(name: str, ground: Ground) -> Action:
-    return Action(PICTURE, name, lambda window: export_figure(window, ground))
+def _figure(name: str, ground: Ground, **more: Any) -> Action:
+    return Action(PICTURE, name, lambda host: export_figure(host, ground), **more)
 
 
 DIAGRAM = (
-    Action(
-        PICTURE,
-        "Export figure as SVG...",
-        lambda window: export_figure(window, "window"),
-        "Ctrl+Shift+E",
-        separated=True,
-    ),
+    _figure("Export figure as SVG...", "window", keys="Ctrl+Shift+E", separated=True),
     _figure("Export figure as SVG on white...", "white"),
     _figure("Export figure as SVG without a ground...", "transparent"),
 )

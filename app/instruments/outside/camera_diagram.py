@@ -6,10 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from lucida.app.instruments.outside.diagram import (
-    Arrow,
     Dot,
     Eye,
     Face,
@@ -18,30 +16,28 @@ from lucida.app.instruments.outside.diagram import (
     RayEnd,
     Role,
     Segments,
+    named_arrow,
     polyline,
+    shares,
 )
 from lucida.app.instruments.outside.frustum import (
+    CURVE,
     MOST_GRID_LINES,
+    border,
     grid,
     has_plane,
     image_point,
-    pixel_corners,
+    on_ray,
     plane_corners,
     plane_parameter,
     point_at,
-    rectangle,
 )
-from lucida.app.instruments.outside.lens_diagram import (
-    ideal_border,
-    image_sphere,
-    lens_pixel,
-    lens_volume,
-)
+from lucida.app.instruments.outside.lens_diagram import ideal_border, image_sphere, lens_pixel
+from lucida.app.instruments.outside.pixel_drawing import pixel_numbers, pixel_square
 from lucida.app.instruments.outside.ray_drawing import half_line, meetings, rays_to
-from lucida.app.instruments.outside.simple_camera import pixel_numbers, simple_camera
+from lucida.app.instruments.outside.simple_camera import simple_camera
 from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.state.options.shared import Notation, Pixel
-from lucida.app.ui.explaining.symbols import vector
+from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
@@ -49,6 +45,8 @@ from lucida.renderer.camera.image_plane import Size
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w
 WORLD_UP = np.array([0.0, 1.0, 0.0])
+# Parts of a side of the view volume: its faces, its edges, its curves at near and far.
+FLAT_PARTS, LENS_PARTS = (1, 1, 1), (6, 2, CURVE)
 
 
 @dataclass(frozen=True)
@@ -79,36 +77,27 @@ class Content:
 
 
 def diagram(content: Content) -> list[Item]:
-    """Return everything that the options of the content ask for."""
+    """Return everything that the options of the content ask for, with the letters of the book."""
     camera, size, options, end = content.camera, content.size, content.options, content.end
-    marked, notation = content.marked, content.notation
+    marked = content.marked
     items: list[Item] = []
     if options.volume:
-        items += _volume(camera, end) if camera.lens is None else lens_volume(camera, end)
+        items += _volume(camera, end)
     items += plane_items(content)
     for hit in content.hits:
-        items += _ray(camera, size, hit, end, 1.6, f"bundle {hit.pixel[0]} {hit.pixel[1]}")
+        items += _ray(camera, size, hit, end)
     items += rays_to(camera, options.points, options.points_grown, end)
     if marked is not None and options.ray:
+        pixel = marked.pixel
         if options.half_line:
-            pointed = content.pointed
-            return items + half_line(
-                camera, size, marked.pixel, options.half_line, pointed, notation
-            )
+            return items + half_line(camera, size, pixel, options.half_line, content.pointed)
         if options.meetings:
-            found = content.meetings
-            items += meetings(camera, size, marked.pixel, found, end, options.meetings)
+            items += meetings(camera, size, pixel, content.meetings, end, options.meetings)
         else:
-            items += _marked(camera, size, marked, end, not options.image, content.names_t)
+            items += _marked(content, marked)
     if options.simple:
         return items + simple_camera(camera, options.simple, measured=options.formula is None)
-    fails = options.target is not None and is_parallel(options.up, camera.w)
-    shares = _basis_shares(options)
-    if options.basis:
-        items += _basis(camera, ("w",) if fails else ("u", "v", "w"), shares)
-    if options.target is not None:
-        items += _target(camera, options, fails, shares)
-    return items + _eye(camera, options, notation)
+    return items + _basis(camera, options) + _eye(camera, options)
 
 
 def plane_items(content: Content) -> list[Item]:
@@ -126,13 +115,6 @@ def plane_items(content: Content) -> list[Item]:
     return items
 
 
-def _basis_shares(options: OutsideOptions) -> dict[str, float]:
-    """Return how much is drawn of each vector of a basis that is made from a target."""
-    order = ("w", "up", "u", "v")
-    grown = options.basis_grown
-    return {name: min(max(grown - place, 0.0), 1.0) for place, name in enumerate(order)}
-
-
 def _image(camera: Camera, size: Size) -> list[Item]:
     if not has_plane(camera):
         return image_sphere(camera, size)
@@ -142,161 +124,134 @@ def _image(camera: Camera, size: Size) -> list[Item]:
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
-    """Return the pyramid or box from near to far, or to the end of the scene."""
+    """Return the view volume from near to far, or to the end of the scene: a pyramid, a box, or
+    what a lens sees.
+    """
     near, far = camera.t_range
     last = far if np.isfinite(far) else max(end, 1.5 * near)
-    first, back = rectangle(camera, max(near, 0.0)), rectangle(camera, last)
-    edges = np.stack([first, back], axis=1)
-    items: list[Item] = [
-        Face(f"side {k}", "volume", np.array([*edges[k], *edges[(k + 1) % 4][::-1]]), 0.055)
-        for k in range(4)
-    ]
+
+    def rays(parts: int) -> Floats:
+        """Return the points (n, 3, 3) of rays along the border: their origins, near, far."""
+        x, y = border(camera, parts).T[..., None]
+        found = point_at(camera, x, y, [0.0, max(near, 0.0), last])
+        return found[np.isfinite(found).all(axis=(1, 2))]
+
+    def named(name: str, points: Floats) -> list[Item]:
+        label = Label(name, "text", name, points[len(points) // 4], away=points[0])
+        items: list[Item] = [Segments(name, "volume", polyline(points, True), 1.75), label]
+        return items if camera.lens else [Face(name, "volume", points, 0.08), *items]
+
+    sides, edges, curves = map(rays, LENS_PARTS if camera.lens else FLAT_PARTS)
+    _, first, back = curves.swapaxes(0, 1)
+    faces = np.concatenate([sides[:, 1:], np.roll(sides, -1, axis=0)[:, :0:-1]], axis=1)
+    items: list[Item] = [Face("side", "volume", corners, 0.055) for corners in faces]
     if near > 0:  # nothing is drawn before near: thin
-        before = np.stack([rectangle(camera, 0.0), first], axis=1)
+        before = edges[:, :2]
         items.append(Segments("before near", "volume", before, 1.0, 0.55, 0.2, dashed=True))
-        items += _clip_plane("near", first)
-    items.append(Segments("edges", "volume", edges, 1.8))
+        items += named("near", first)
+    items.append(Segments("edges", "volume", edges[:, 1:], 1.8))
     if np.isfinite(far):
-        items += _clip_plane("far", back)
+        items += named("far", back)
     else:
         items.append(Segments("end", "volume", polyline(back, True), 1.0, 0.6, 0.25, dashed=True))
-    if not camera.is_parallel and near < plane_parameter(camera):
+    if camera.lens is None and not camera.is_parallel and near < 1:
         axis = np.array([[camera.eye, plane_corners(camera).mean(axis=0)]])
         items.append(Segments("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
     return items
 
 
-def _clip_plane(name: str, corners: Floats) -> list[Item]:
-    return [
-        Face(name, "volume", corners, 0.08),
-        Segments(name, "volume", polyline(corners, True), 1.75),
-        Label(name, "text", name, corners[1], away=corners[0]),
-    ]
-
-
-def _eye(camera: Camera, options: OutsideOptions, notation: Notation) -> list[Item]:
+def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
     """Return the eye. Parallel rays have none: **e** is the point that the basis starts at."""
     eye = np.asarray(camera.eye)
-    label = Label("eye", "text", vector("e", notation), eye, strong=True)
+    label = Label("eye", "text", "vec(e)", eye, strong=True)
     if not camera.is_parallel:
         return [Eye("eye", eye, -np.asarray(camera.w)), label]
     return [Dot("eye", "eye", eye), label] if options.basis else []
 
 
-def _target(
-    camera: Camera, options: OutsideOptions, fails: bool, shares: dict[str, float]
-) -> list[Item]:
-    """Draw what the basis is made from: the target, the way to it, and up, at the eye.
-
-    shares: how much of the basis and of up is drawn.
-    """
-    eye, target, up = (np.asarray(v, float) for v in (camera.eye, options.target, options.up))
-    w, items = np.asarray(camera.w, float), _up(eye, target, shares["up"] * up)
-    if not options.basis:  # it is asked for
+def _basis(camera: Camera, options: OutsideOptions) -> list[Item]:
+    """Return the basis, with what it is made from if there is a target."""
+    eye, names = np.asarray(camera.eye, float), ("w", "up", "u", "v")
+    share = dict(zip(names, shares(options.basis_grown, len(names)), strict=True))
+    up, w = np.asarray(options.up), np.asarray(camera.w)
+    has_target = options.target is not None
+    lengths = float(np.linalg.norm(up) * np.linalg.norm(w))
+    fails = has_target and float(np.linalg.norm(np.cross(up, w))) < 1e-9 * lengths
+    items: list[Item] = []
+    axes: tuple[Role, ...] = ("w",) if fails else ("u", "v", "w")
+    for name in axes if options.basis else ():
+        if share[name]:
+            tip = eye + share[name] * np.asarray(getattr(camera, name))
+            items += named_arrow(name, name, f"vec({name})", eye, tip)
+    if has_target:
+        items += _target(eye, np.asarray(options.target, float), share["up"] * up)
+    if not has_target or not options.basis:  # an exercise asks for it
         return items
     if fails:
-        return [
-            *items,
-            Label(
-                "fails",
-                "text",
-                "up x w = 0: no u, no v",
-                eye + ABOVE_HANDLES * np.linalg.norm(w) * WORLD_UP,
-                away=eye,
-                strong=True,
-            ),
-        ]
-    if shares["u"]:
+        at = eye + ABOVE_HANDLES * np.linalg.norm(w) * WORLD_UP
+        text = "up x w = 0: no vec(u), no vec(v)"
+        return [*items, Label("fails", "text", text, at, away=eye, strong=True)]
+    if share["u"]:
         spanned = np.array([eye, eye + up, eye + up + w, eye + w])
-        items.append(Face("up and w", "extra", spanned, 0.16 * shares["u"]))
-    return items + _right_angles(camera) if shares["v"] == 1 else items
+        items.append(Face("up and w", "extra", spanned, 0.16 * share["u"]))
+    return items + _right_angles(camera) if share["v"] == 1 else items
 
 
-def is_parallel(first: ArrayLike, second: ArrayLike) -> bool:
-    """Return True if two vectors are parallel."""
-    a, b = np.asarray(first, float), np.asarray(second, float)
-    lengths = float(np.linalg.norm(a) * np.linalg.norm(b))
-    return float(np.linalg.norm(np.cross(a, b))) < 1e-9 * lengths
+def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
+    """Return the target, and up if it has a length."""
+    line = np.array([[eye, target]])
+    return [
+        Segments("to target", "extra", line, 1.6, dashed=True, layer=2),
+        Dot("target", "extra", target, 6.0),
+        Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
+        *(named_arrow("up", "extra", "up", eye, eye + up) if up.any() else ()),
+    ]
 
 
 def _right_angles(camera: Camera) -> list[Item]:
     """Mark the right angles of the basis."""
-    eye, axes = np.asarray(camera.eye), np.array([camera.u, camera.v, camera.w])
+    eye, axes = np.asarray(camera.eye), RIGHT_ANGLE * camera.basis.T
     items: list[Item] = []
-    for first, second in ((0, 1), (1, 2), (2, 0)):
-        a, b = RIGHT_ANGLE * axes[first], RIGHT_ANGLE * axes[second]
+    for a, b in zip(axes, np.roll(axes, -1, axis=0), strict=True):
         if abs(a @ b) < 1e-6 * float(np.linalg.norm(a) * np.linalg.norm(b)):
             lines = polyline(np.array([eye + a, eye + a + b, eye + b]))
-            items.append(Segments(f"right angle {first}", "text", lines, 1.2, layer=2))
+            items.append(Segments("right angle", "text", lines, 1.2, layer=2))
     return items
 
 
-def _up(eye: Floats, target: Floats, up: Floats) -> list[Item]:
-    """Return the target, and up if it has a length."""
-    items: list[Item] = [
-        Segments("to target", "extra", np.array([[eye, target]]), 1.6, dashed=True, layer=2),
-        Dot("target", "extra", target, 6.0),
-        Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
-    ]
-    if up.any():
-        items.append(Arrow("up", "extra", eye, eye + up))
-        items.append(Label("up", "extra", "up", eye + up, away=eye, strong=True, least=8.0))
-    return items
-
-
-def _basis(camera: Camera, names: tuple[Role, ...], shares: dict[str, float]) -> list[Item]:
-    eye = np.asarray(camera.eye)
-    items: list[Item] = []
-    for name in names:
-        if not shares[name]:
-            continue
-        tip = eye + shares[name] * np.asarray(getattr(camera, name))
-        items.append(Arrow(name, name, eye, tip))
-        items.append(Label(name, name, name, tip, away=eye, strong=True, least=8.0))
-    return items
-
-
-def _ray(
-    camera: Camera, size: Size, hit: RayEnd, end: float, width: float, name: str
-) -> list[Item]:
+def _ray(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
     """Return a ray of a bundle to its hit, or as far as the scene if it hits nothing."""
     t = hit.t_or(end)
     plane = min(plane_parameter(camera), t)
-    origin, through, reached = _on_ray(camera, hit.pixel, size, [0.0, plane, t])
+    origin, through, reached = on_ray(camera, hit.pixel, size, [0.0, plane, t])
     if not np.isfinite(reached).all():
         return []
     pale = (0.95, 0.35) if hit.is_hit else (0.42, 0.2)
     items: list[Item] = [
-        Segments(name, "ray", np.array([[through, reached]]), width, *pale, layer=2)
+        Segments("bundle", "ray", np.array([[through, reached]]), 1.6, *pale, layer=2)
     ]
     if plane > 0:  # thin before the image plane, whose picture must stay visible
         before = np.array([[origin, through]])
-        items.append(Segments(f"{name} before", "ray", before, 0.6 * width, 0.44, 0.2, layer=2))
+        items.append(Segments("bundle before", "ray", before, 0.96, 0.44, 0.2, layer=2))
     if hit.is_hit:
-        items.append(Dot(f"{name} hit", "mark", reached, 1.6 * width, layer=2))
+        items.append(Dot("bundle hit", "mark", reached, 2.56, layer=2))
     return items
 
 
-def _marked(
-    camera: Camera, size: Size, hit: RayEnd, end: float, washed: bool, names_t: bool
-) -> list[Item]:
-    """Return the marked pixel, its ray through its centre, its hit, and the way beyond.
-
-    washed: fill the pixel, which has no colour of the image that must stay visible.
+def _marked(content: Content, hit: RayEnd) -> list[Item]:
+    """Return the marked pixel, its ray through its centre, its hit, and the way beyond. Without an
+    image, whose colour must stay visible, the pixel is filled.
     """
-    t = hit.t_or(end)
+    camera, size, end, t = content.camera, content.size, content.end, hit.t_or(content.end)
+    items = [] if camera.lens is None else lens_pixel(camera, size, hit.pixel)
     last = max(end, t + 0.35 * max(end, t))
-    origin, reached, far = _on_ray(camera, hit.pixel, size, [0.0, t, last])
-    of_lens = [] if camera.lens is None else lens_pixel(camera, size, hit.pixel)
+    origin, reached, far = on_ray(camera, hit.pixel, size, [0.0, t, last])
     if not np.isfinite(reached).all():
-        return of_lens
+        return items
     center = image_point(camera, *camera.image_point(*hit.pixel, size))
-    corners = pixel_corners(camera, hit.pixel, size)
-    items: list[Item] = [
-        *of_lens,
+    items += [
         Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
-        *([Face("pixel", "mark", corners, 0.5, on_plane=True, layer=2)] if washed else []),
-        Segments("pixel", "mark", polyline(corners, True), 1.6, on_plane=True, layer=3),
+        *pixel_square(camera, size, hit.pixel, 0.0 if content.options.image else 0.5),
         Dot("pixel", "mark", center, 3.0, on_plane=True, layer=4),
     ]
     if hit.is_hit:
@@ -305,12 +260,6 @@ def _marked(
             Segments("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2),
             Dot("hit", "mark", reached, 6.0),
         ]
-        if names_t:
+        if content.names_t:
             items.append(Label("hit", "mark", f"t = {t:.4g}", reached, away=origin))
     return items
-
-
-def _on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Floats:
-    """Return the points (n, 3) of a pixel's ray at parameters t."""
-    x, y = camera.image_point(*pixel, size)
-    return point_at(camera, [x] * len(t), [y] * len(t), t)

@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -154,6 +154,28 @@ def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:
         replace(item, text=plain(item.text, notation)) if isinstance(item, Label) else item
         for item in items
     ]
+
+
+def shares(grown: float, parts: int) -> list[float]:
+    """Return how much is drawn of each part of a drawing that grows part by part, 0 to 1."""
+    return [min(max(grown - part, 0.0), 1.0) for part in range(parts)]
+
+
+def named_arrow(
+    name: str, role: Role, text: str, start: Floats, end: Floats, **more: Any
+) -> list[Item]:
+    """Return an arrow with its name behind the tip. more: further fields of the arrow."""
+    label = Label(name, role, text, end, away=start, strong=True, least=8.0)
+    return [Arrow(name, role, start, end, **more), label]
+
+
+def term(
+    name: str, role: Role, text: str, start: Floats, end: Floats, aside: Floats, lit: bool = False
+) -> list[Item]:
+    """Return a term of a formula: a thick arrow with a text along it, on the side `aside`."""
+    middle, line = (start + end) / 2, np.array([start, end])
+    label = Label(name, role, text, middle, middle - aside, strong=True, line=line, lit=lit)
+    return [Arrow(name, role, start, end, 4.2, layer=4), label]
 
 
 def polyline(points: Floats, closed: bool = False) -> Floats:

@@ -18,10 +18,12 @@ from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, 
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.images.display import Bytes
 from lucida.renderer.raster.overlay import BACK_LIGHT, Plane
 
 Depths = NDArray[np.float32]
 Bools = NDArray[np.bool_]
+
 Color = tuple[float, float, float]  # red, green, blue as displayed, 0 to 1
 
 LETTER_PX, STRONG_PX = 16.0, 24.0  # the sizes of labels and of vectors' names, in symbols
@@ -80,7 +82,7 @@ class Picture:
     """Pixels (height, width, 3), as displayed, as flat rectangles between two corners."""
 
     name: str
-    pixels: NDArray[np.uint8]
+    pixels: Bytes
     low: tuple[float, float]
     high: tuple[float, float]
 
@@ -116,16 +118,7 @@ class Figure:
     parts: tuple[Part, ...]
     unit: float
     ground: Color | None
-    image: NDArray[np.uint8] | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class PlaneImage:
-    """The picture on the image plane: its pixels (height, width, 3), as displayed."""
-
-    pixels: NDArray[np.uint8]
-    plane: Plane
-    opacity: float
+    image: Bytes | None = None
 
 
 def figure_parts(
@@ -143,7 +136,7 @@ def figure_parts(
     is_parallel = screen.camera.is_parallel
     scene = behind = _farthest(t)
     if plane is not None:
-        behind = _farthest(np.minimum(t, plane_t(plane, screen.size, is_parallel)))
+        behind = _farthest(np.minimum(t, on_plane(screen, plane)[0]))
     parts: list[Part] = []
     drawn = [part for part in primitives if not isinstance(part, Text)]
     for part in sorted(drawn, key=lambda one: one.layer):
@@ -265,39 +258,42 @@ def dashes(points: Floats, unit: float) -> list[Floats]:
     return out
 
 
-def plane_t(plane: Plane, size: Size, is_parallel: bool, fine: int = 1) -> Depths:
-    """Return the plane's ray parameters at the pixels of the page, (height, width); infinity
-    outside its picture. fine: pixels a side of each of the page's.
+def on_plane(screen: OutsideScreen, plane: Plane, fine: int = 1) -> tuple[Depths, Floats]:
+    """Return the plane's ray parameters at the pixels of the page, (height, width), infinity
+    outside its picture, and the places (height, width, 2) in the picture, 0 to 1.
+
+    fine: pixels a side of each of the page's.
     """
-    return _on_plane(plane, size, is_parallel, fine)[0]
+    x, y = ((np.arange(side * fine) + 0.5) / fine - side / 2 for side in screen.size)
+    spots = np.stack([*np.meshgrid(x, y), np.ones((len(y), len(x)))], axis=-1)
+    at, s = spots @ plane.from_screen.T, spots @ plane.depth
+    with np.errstate(all="ignore"):
+        places = at[..., :2] / at[..., 2:]
+        t = s if screen.camera.is_parallel else 1 / s
+    inside = (s > 0) & (places >= 0).all(axis=-1) & (places <= 1).all(axis=-1)
+    return np.where(inside, t, np.inf).astype(np.float32), places
 
 
 def with_picture(
-    image: NDArray[np.uint8], t: Depths, picture: PlaneImage, size: Size, is_parallel: bool
-) -> NDArray[np.uint8]:
-    """Return an image of the scene (height, width, 4) with the picture on the image plane.
+    image: Bytes,
+    t: Depths,
+    screen: OutsideScreen,
+    plane: Plane,
+    pixels: Bytes,
+    opacity: float,
+) -> Bytes:
+    """Return an image of the scene (height, width, 4), as many times larger than the screen, with
+    a picture on the image plane.
 
-    t: of the scene at the image's pixels. size: of the page, of which the image has a multiple.
+    t: of the scene at the image's pixels. pixels: of the picture, (height, width, 3), as displayed.
     """
-    reached, places = _on_plane(picture.plane, size, is_parallel, image.shape[1] // size[0])
+    reached, places = on_plane(screen, plane, image.shape[1] // screen.size[0])
     shown = reached < t
-    height, width = picture.pixels.shape[:2]
+    height, width = pixels.shape[:2]
     column, row = (places[shown] * (width, height)).astype(int).T
-    pixels = picture.pixels[np.minimum(row, height - 1), np.minimum(column, width - 1)]
-    over = np.full((len(pixels), 4), 255.0)
-    over[:, :3] = pixels * (1.0 if picture.plane.is_front else BACK_LIGHT)
+    over = np.full((len(row), 4), 255.0)
+    over[:, :3] = pixels[np.minimum(row, height - 1), np.minimum(column, width - 1)]
+    over[:, :3] *= 1.0 if plane.is_front else BACK_LIGHT
     result = image.copy()
-    result[shown] = np.round(picture.opacity * over + (1 - picture.opacity) * image[shown])
+    result[shown] = np.round(opacity * over + (1 - opacity) * image[shown])
     return result
-
-
-def _on_plane(plane: Plane, size: Size, is_parallel: bool, fine: int) -> tuple[Depths, Floats]:
-    """Return plane_t(), and the places (height, width, 2) in the picture, 0 to 1."""
-    x, y = ((np.arange(side * fine) + 0.5) / fine - side / 2 for side in size)
-    screen = np.stack([*np.meshgrid(x, y), np.ones((len(y), len(x)))], axis=-1)
-    at, s = screen @ plane.from_screen.T, screen @ plane.depth
-    with np.errstate(all="ignore"):
-        places = at[..., :2] / at[..., 2:]
-        t = s if is_parallel else 1 / s
-    inside = (s > 0) & (places >= 0).all(axis=-1) & (places <= 1).all(axis=-1)
-    return np.where(inside, t, np.inf).astype(np.float32), places

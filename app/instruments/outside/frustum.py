@@ -10,7 +10,7 @@ one has it on a sphere around the eye, whose radius is `distance`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -43,22 +43,24 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
     return eye + t * (across - camera.distance * w)
 
 
+def on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Floats:
+    """Return the points (n, 3) of a pixel's ray at parameters t."""
+    x, y = camera.image_point(*pixel, size)
+    return point_at(camera, [x] * len(t), [y] * len(t), t)
+
+
 def plane_parameter(camera: Camera) -> float:
     """Return the ray parameter on the image plane."""
     return 0.0 if camera.is_parallel else 1.0
 
 
-def rectangle(camera: Camera, t: float) -> Floats:
-    """Return the viewport's corners at parameter t, (4, 3): upper left, upper right, lower
-    right, lower left in the camera's image.
+def plane_corners(camera: Camera) -> Floats:
+    """Return the image plane's corners, (4, 3): upper left, upper right, lower right, lower left in
+    the camera's image.
     """
     left, right, bottom, top = camera.viewport
-    return point_at(camera, [left, right, right, left], [top, top, bottom, bottom], t)
-
-
-def plane_corners(camera: Camera) -> Floats:
-    """Return the image plane's corners, (4, 3), in the order of rectangle()."""
-    return rectangle(camera.pinhole, plane_parameter(camera))
+    corners = [left, right, right, left], [top, top, bottom, bottom]
+    return point_at(camera.pinhole, *corners, plane_parameter(camera))
 
 
 def has_plane(camera: Camera) -> bool:
@@ -227,7 +229,7 @@ def _curved_grid(camera: Camera, x: Floats, y: Floats) -> Floats:
 
 
 def pixel_corners(camera: Camera, pixel: Pixel, size: Size) -> Floats:
-    """Return a pixel's corners on the image, (4, 3), in the order of rectangle()."""
+    """Return a pixel's corners on the image, (4, 3), in the order of plane_corners()."""
     rows = np.array([-0.5, -0.5, 0.5, 0.5]) + pixel[0]
     columns = np.array([-0.5, 0.5, 0.5, -0.5]) + pixel[1]
     x, y = camera.image_point(rows, columns, size)
@@ -248,28 +250,33 @@ def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
 
 
 def pixel_seen(
-    camera: Camera,
-    size: Size,
-    origin: Floats,
-    direction: Floats,
-    hidden_at: Callable[[], float] | None = None,
-) -> Pixel | None:
-    """Return the pixel of the image plane that a ray from elsewhere meets, or None.
-
-    hidden_at: returns the ray parameter from which the scene hides what is behind it. Called only
-    if the ray meets the image plane.
+    camera: Camera, size: Size, origin: Floats, direction: Floats
+) -> tuple[Pixel, float] | None:
+    """Return the pixel of the image plane that a ray from elsewhere meets, and the ray's t there;
+    None if it meets none.
     """
-    if not has_plane(camera):
+    found = on_plane(camera, origin, direction) if has_plane(camera) else None
+    if found is None:
         return None
-    corners = plane_corners(camera)
-    edges = np.column_stack([corners[1] - corners[0], corners[3] - corners[0], -direction])
+    x, y, t = found
+    left, right, bottom, top = camera.viewport
+    row = math.floor((top - y) / (top - bottom) * size[1])
+    column = math.floor((x - left) / (right - left) * size[0])
+    inside = 0 <= row < size[1] and 0 <= column < size[0]
+    return ((row, column), t) if inside else None
+
+
+def on_plane(
+    camera: Camera, origin: Floats, direction: Floats
+) -> tuple[float, float, float] | None:
+    """Return where a ray from elsewhere meets the image plane, (x, y) in units of u and v, and the
+    ray's t there; None if that is not in front of it.
+    """
+    columns = np.column_stack([camera.u, camera.v, -np.asarray(direction)])
+    middle = image_point(camera.pinhole, 0.0, 0.0)
     with np.errstate(all="ignore"):
-        scale = np.linalg.norm(edges, axis=0)
-        if not (scale > 0).all() or abs(np.linalg.det(edges / scale)) < 1e-9:
+        scale = np.linalg.norm(columns, axis=0)
+        if not (scale > 0).all() or abs(np.linalg.det(columns / scale)) < 1e-9:
             return None
-        x, y, t = np.linalg.solve(edges / scale, origin - corners[0]) / scale
-    if not (t > 0 and 0 <= x < 1 and 0 <= y < 1):
-        return None
-    if hidden_at is not None and t >= hidden_at():
-        return None
-    return min(math.floor(y * size[1]), size[1] - 1), min(math.floor(x * size[0]), size[0] - 1)
+        x, y, t = (np.linalg.solve(columns / scale, origin - middle) / scale).tolist()
+    return (x, y, t) if t > 0 else None

@@ -4,10 +4,11 @@ basis, or the vector up that the basis is made from (ImGuizmo).
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui, imguizmo
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike
 from lucida.app.instruments.outside.frustum import plane_corners
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.tint import Rgb8, handle_colors, hide_text, recolor
+from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
 from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
@@ -24,13 +26,11 @@ from lucida.renderer.camera.checks import Floats, Vector, three, volume
 from lucida.renderer.system.errors import LucidaError
 
 gizmo = imguizmo.im_guizmo
-Kind = Literal["none", "move", "turn", "distance", "up"]
+OPERATIONS = {"move": gizmo.OPERATION.translate, "distance": gizmo.OPERATION.translate_z}
 
 LENGTH = 0.26  # of the view: the handles' length in clip space
 WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
-TEXT_AT = 18.0  # at 100 %: what the motion's text is away from the eye, to the right and below
-LEAST_PART = 1e-4  # of the largest part of a motion: what is less is rounding
-ALONG = 0.999  # the cosine from which on a turn is about an axis of the basis
+TEXT_AT = 18.0  # at 100 %: the text's distance from the eye, to the right and below
 PARALLEL = math.sin(math.radians(3))  # of up with w: then it is put quite parallel
 LEAST_DISTANCE = 0.01  # of the largest one while a plane is dragged
 NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
@@ -39,13 +39,13 @@ NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 @dataclass(frozen=True)
 class _Drag:
     """A drag. camera, up, frame: at its start; the frame is the handles' axes, as columns of a
-    rotation. turned: by how much they have been turned since.
+    rotation. now: the frame now.
     """
 
     camera: Camera
     up: Vector
     frame: Floats
-    turned: Floats
+    now: Floats
 
 
 class Gizmo:
@@ -55,10 +55,6 @@ class Gizmo:
         self.over = False
         self._drag: _Drag | None = None
         self._count = 0
-
-    @property
-    def dragging(self) -> bool:
-        return self._drag is not None
 
     def cancel(self) -> None:
         if self._drag is not None:
@@ -70,90 +66,61 @@ class Gizmo:
 
         ground: the colour under the handles.
         """
-        state, options = host.state, host.state.options.outside
-        if options.gizmo == "none" or (options.gizmo == "up" and options.target is None):
+        state, options, kind = (
+            host.state,
+            host.state.options.outside,
+            host.state.options.outside.gizmo,
+        )
+        if kind == "none" or (kind == "up" and options.target is None):
             self.over = False
             self.cancel()
             return
-        before = state.camera, options.up
-        after = self._draw(scope, before, options.gizmo, state.keep_orthonormal, ground, host.fonts)
-        if after != before:
+        camera, frame = state.camera, np.eye(4)
+        frame[:3, :3] = rotation_of(camera) if self._drag is None else self._drag.now
+        frame[:3, 3] = plane_corners(camera).mean(axis=0) if kind == "distance" else camera.eye
+        operation = OPERATIONS.get(kind, gizmo.OPERATION.rotate)
+        # In its own space, x, y and z are u, v and w.
+        handle = Handle(
+            "outside", frame, operation, gizmo.MODE.local, LENGTH, handle_colors(ground)
+        )
+        found = manipulate(handle, scope.shown, scope.origin, scope.extent, scope.reach)
+        self.over = found is not None and found.over
+        if found is None or not found.using:
+            self._drag = None
+            return
+        host.animate()
+        if self._drag is None:
+            self._count += 1
+            self._drag = _Drag(camera, options.up, frame[:3, :3], frame[:3, :3])
+        after = camera, options.up
+        if escaped():
+            after, self._drag = (self._drag.camera, self._drag.up), None
+        elif found.moved is not None and np.isfinite(found.moved).all():
+            with contextlib.suppress(LucidaError):  # beyond the numbers: the camera stays
+                after = self._moved(self._drag, state, found.moved)
+        if after != (camera, options.up):
             # One drag is one undo step.
             state = state.with_camera(after[0]).with_options(replace(options, up=after[1]))
             host.apply(state, ("outside gizmo", self._count))
-        if self.dragging:
-            host.animate()
-
-    def _draw(
-        self,
-        scope: Scope,
-        now: tuple[Camera, Vector],
-        kind: Kind,
-        orthonormal: bool,
-        ground: Rgb,
-        fonts: theme.Fonts,
-    ) -> tuple[Camera, Vector]:
-        """Draw the handles. Return the camera and up as they moved them."""
-        camera, up = now
-        middle = np.asarray(camera.eye, float)
         if kind == "distance":
-            middle = plane_corners(camera).mean(axis=0)
-        frame = rotation_of(camera)
-        if self._drag is not None:
-            frame = self._drag.turned @ self._drag.frame
-        placed = np.eye(4)
-        placed[:3, :3], placed[:3, 3] = frame, middle
-        operation = {
-            "move": gizmo.OPERATION.translate,
-            "distance": gizmo.OPERATION.translate_z,
-        }.get(kind, gizmo.OPERATION.rotate)
-        # In its own space, x, y and z are u, v and w.
-        asked = Handle(
-            "outside", placed, operation, gizmo.MODE.local, LENGTH, handle_colors(ground)
-        )
-        found = manipulate(asked, scope.shown, scope.origin, scope.extent, scope.reach)
-        if found is None:
-            self.over, self._drag = False, None
-            return now
-        self.over = found.over
-        if not found.using:
-            self._drag = None
-            return now
-        if self._drag is not None and escaped():
-            begun, self._drag = self._drag, None
-            return begun.camera, begun.up
-        if self._drag is None:
-            self._count += 1
-            self._drag = _Drag(camera, up, frame, np.eye(3))
-        if found.moved is not None:
-            camera, up = self._moved(now, found.moved, kind, orthonormal)
-        text = motion(self._drag.camera, camera)
-        if kind == "distance":
-            text = f"d = {camera.distance:.4g}"
-        write(text, found.clip_from_world, middle, scope.origin, scope.extent, fonts)
-        return camera, up
+            text, place = f"d = {after[0].distance:.4g}", frame[:3, 3]
+            write(text, found.clip_from_world, place, scope.origin, scope.extent, host.fonts)
 
-    def _moved(
-        self, now: tuple[Camera, Vector], result: Floats, kind: Kind, orthonormal: bool
-    ) -> tuple[Camera, Vector]:
-        assert self._drag is not None
-        if not np.isfinite(result).all():
-            return now
-        (camera, up), begun = now, self._drag
-        try:
-            if kind == "move":
-                return replace(camera, eye=three(result[:3, 3])), up
-            if kind == "distance":
-                return replace(camera, distance=distance_of(begun.camera, result[:3, 3])), up
-            turned = nearest_rotation(result[:3, :3] @ begun.frame.T)
-            self._drag = replace(begun, turned=turned)
-            if kind == "up":
-                return with_up(camera, begun.camera, turned @ begun.up)
-            basis = {name: three(turned @ getattr(begun.camera, name)) for name in "uvw"}
-            other = replace(camera, **basis)  # type: ignore[arg-type]
-            return other.orthonormalized() if orthonormal else other, up
-        except LucidaError:  # beyond the numbers: the camera stays
-            return now
+    def _moved(self, drag: _Drag, state: AppState, result: Floats) -> tuple[Camera, Vector]:
+        """Return the camera and up after a drag to the frame `result`, (4, 4)."""
+        camera, options = state.camera, state.options.outside
+        if options.gizmo == "move":
+            return replace(camera, eye=three(result[:3, 3])), options.up
+        if options.gizmo == "distance":
+            distance = distance_of(drag.camera, result[:3, 3])
+            return replace(camera, distance=distance), options.up
+        turned = nearest_rotation(result[:3, :3] @ drag.frame.T)
+        self._drag = replace(drag, now=turned @ drag.frame)
+        if options.gizmo == "up":
+            return with_up(camera, drag.camera, turned @ drag.up)
+        u, v, w = (turned @ drag.camera.basis).T
+        camera = replace(camera, u=three(u), v=three(v), w=three(w))
+        return camera.orthonormalized() if state.keep_orthonormal else camera, options.up
 
 
 def distance_of(camera: Camera, middle: Floats) -> float:
@@ -178,25 +145,6 @@ def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]
     return replace(camera, u=three(u), v=three(v)), three(up)
 
 
-def motion(before: Camera, after: Camera) -> str:
-    """Return in the letters of the basis what a handle did: the displacement of the eye along u, v
-    and w, or the angle and the axis by which the basis was turned.
-    """
-    moved = np.linalg.solve(before.basis, np.subtract(after.eye, before.eye))
-    rotation = rotation_between(before, after)
-    angle = np.degrees(np.arccos(np.clip((np.trace(rotation) - 1) / 2, -1, 1)))
-    if angle > 0.0 and np.abs(rotation - np.eye(3)).max() > 1e-9:
-        axis = np.array([rotation[k - 1, k - 2] - rotation[k - 2, k - 1] for k in range(3)])
-        along = rotation_of(before).T @ axis / max(float(np.linalg.norm(axis)), 1e-30)
-        name = int(np.abs(along).argmax())
-        if abs(along[name]) > ALONG:
-            return f"about {'uvw'[name]}: {np.copysign(angle, along[name]):.1f}°"
-        return f"turned by {angle:.1f}°"
-    least = LEAST_PART * float(np.abs(moved).max())
-    parts = [f"Δ{n} {x:.4g}" for n, x in zip("uvw", moved, strict=True) if abs(x) > least]
-    return "  ".join(parts)
-
-
 def write(
     text: str,
     clip_from_world: Floats,
@@ -207,7 +155,7 @@ def write(
 ) -> None:
     """Write text next to a point of the world that is being moved, on its own ground.
 
-    origin, extent: of the view. The font is the one that has Greek letters.
+    origin, extent: of the view.
     """
     x, y, _, w = clip_from_world @ np.append(point, 1.0)
     if not text or not w > 0:
@@ -308,11 +256,6 @@ def rotation_of(camera: Camera) -> Floats:
     if volume(clean.u, clean.v, clean.w) < 0:
         frame[:, 0] = -frame[:, 0]
     return frame
-
-
-def rotation_between(before: Camera, after: Camera) -> Floats:
-    """Return the rotation that takes one camera's basis to another's."""
-    return nearest_rotation(after.basis @ np.linalg.inv(before.basis))
 
 
 def nearest_rotation(matrix: Floats) -> Floats:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from dataclasses import dataclass, replace
 
@@ -13,7 +12,6 @@ from lucida.app.images.window_rasterizer import WindowRasterizer
 from lucida.renderer.images.coarseness import STILL_S, reduced
 from lucida.renderer.raster.overlay import Overlay
 from lucida.renderer.raster.targets import Textures
-from lucida.renderer.system.memo import Memo
 
 PLACES = {1: "Outside", 2: "Outside, moving"}  # by how many times coarser, see Rasterizer.draw
 SLOW_S = 1 / 30  # from one picture to the next while it moves: pictures become coarser
@@ -45,7 +43,6 @@ class Ground:
 
     def __init__(self) -> None:
         self.shown: GroundPicture | None = None
-        self._t_at = Memo(_t_at)
 
     @property
     def settled(self) -> bool:
@@ -54,13 +51,6 @@ class Ground:
 
     def forget(self) -> None:
         self.shown = None
-
-    def t_at(self, part: tuple[float, float], overlay: Overlay) -> float:
-        """Return the ray parameter of the visible scene at a place, infinity without a
-        picture. It is read once. See Overlay.t_at().
-        """
-        picture = self.shown
-        return self._t_at(overlay, picture, part) if picture is not None else math.inf
 
     def picture(
         self,
@@ -89,7 +79,3 @@ class Ground:
                 mean = overlay.gather(textures, number == 0, 1 / len(SHIFTS))
             self.shown = picture = replace(picture, textures=textures, mean=mean)
         return picture
-
-
-def _t_at(overlay: Overlay, picture: GroundPicture, part: tuple[float, float]) -> float:
-    return overlay.t_at(picture.textures, part)

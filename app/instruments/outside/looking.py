@@ -34,6 +34,14 @@ LETTER_PX = 26.0  # round what is framed, for letters
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
+AXIS_NAMES = {
+    "x": "from the right (+x)",
+    "-x": "from the left (-x)",
+    "y": "from above (+y)",
+    "-y": "from below (-y)",
+    "z": "from the front (+z)",
+    "-z": "from behind (-z)",
+}
 LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments
-from lucida.app.instruments.outside.frustum import has_plane, image_point, plane_corners
+from lucida.app.instruments.outside.frustum import has_plane, image_point, on_plane, plane_corners
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui import theme
@@ -67,13 +67,13 @@ class PixelPlane:
         if part is not None or self._grab is not None:
             imgui.set_mouse_cursor(imgui.MouseCursor_.resize_all)
         if imgui.is_item_activated() and part and imgui.is_mouse_down(imgui.MouseButton_.left):
-            start = _on_plane(camera, *scope.ray(mouse))
+            start = _on_plane(camera, scope, mouse)
             self._grab = None if start is None else _Grab(part, host.state.camera, start)
         elif not imgui.is_item_active():
             self._grab = None
         if self._grab is None:
             return False
-        now = _on_plane(self._grab.camera, *scope.ray(mouse))
+        now = _on_plane(self._grab.camera, scope, mouse)
         if now is not None and imgui.is_mouse_dragging(imgui.MouseButton_.left):
             host.apply(
                 host.state.with_camera(
@@ -153,7 +153,7 @@ def _is_on(host: Host) -> bool:
 
 def _part_at(camera: Camera, scope: Scope, mouse: ImVec2) -> Part | None:
     """Return what a drag would move."""
-    at = _on_plane(camera, *scope.ray(mouse))
+    at = _on_plane(camera, scope, mouse)
     if at is None:
         return None
     extent = max(1, round(scope.extent.x)), max(1, round(scope.extent.y))
@@ -169,12 +169,7 @@ def _part_at(camera: Camera, scope: Scope, mouse: ImVec2) -> Part | None:
     return "grid" if inside else None
 
 
-def _on_plane(camera: Camera, origin: Floats, direction: Floats) -> Floats | None:
-    """Return where a ray meets the image plane, (x, y) in units of u and v; None if nowhere."""
-    columns = np.column_stack([camera.u, camera.v, -np.asarray(direction)])
-    middle = np.asarray(camera.eye) - camera.distance * np.asarray(camera.w)
-    try:
-        x, y, t = np.linalg.solve(columns, origin - middle).tolist()
-    except np.linalg.LinAlgError:
-        return None
-    return np.array([x, y]) if t > 0 else None
+def _on_plane(camera: Camera, scope: Scope, mouse: ImVec2) -> Floats | None:
+    """Return the place on the image plane under the mouse, (x, y) in units of u and v."""
+    found = on_plane(camera, *scope.ray(mouse))
+    return None if found is None else np.array(found[:2])

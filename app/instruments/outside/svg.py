@@ -121,7 +121,6 @@ def _text(part: Label, ground: str) -> str:
     """Return the text over a rim of the ground's colour, which separates it from lines."""
     x, y = _number(part.center[0]), _number(part.center[1] + BASELINE * part.size)
     look = f'{_name(part)} x="{x}" y="{y}" font-size="{_number(part.size)}"'
-    bold = ' font-weight="bold"' if part.strong and "vec(" not in part.text else ""
     if part.mono:  # as wide as in the window
         wide = _number(MONO_WIDTH * part.size * len(part.text))
         look += f' font-family="{MONO}" textLength="{wide}" lengthAdjust="spacingAndGlyphs"'
@@ -129,11 +128,10 @@ def _text(part: Label, ground: str) -> str:
     rim = f' fill="none" stroke="{ground}" stroke-width="{_number(RIM * part.size)}"'
     text = "".join(
         f'<tspan font-weight="bold">{escape(_legal(piece))}</tspan>'
-        if is_bold and not bold
+        if is_bold
         else escape(_legal(piece))
         for piece, is_bold in runs(part.text, part.strong)
     )
-    look += bold
     letters = f'<text{look} fill="{_hex(part.color)}">{text}</text>'
     return f"<text{look}{rim}>{text}</text>\n{letters}" if part.rim else letters
 

@@ -17,7 +17,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.travel import Ends
-from lucida.app.images.picking import line_meetings, object_on_ray
+from lucida.app.images.picking import is_quick, line_meetings, nearest_hit, object_on_ray
 from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.screen import available_px
@@ -32,6 +32,7 @@ from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.hosted import Hosted
 from lucida.app.instruments.outside.looking import (
     Scopes,
+    camera_along,
     camera_for_all,
     nearest,
     ray_ends,
@@ -158,6 +159,15 @@ class OutsideView(Instrument):
         end = options.camera or camera_for_all(host, size, scope.extent, self.extensions.points)
         return Ends(scope.camera, end, size, lambda s: s.options.outside.camera, self.with_flown)
 
+    def look(self, host: Host, camera: Camera | None) -> None:
+        """Look through a camera; None: through one that sees everything."""
+        host.travel(self.with_flown(host.state, camera))
+
+    def look_along(self, host: Host, axis: str) -> None:
+        """Look along an axis of the world, "x", "-x", ... "-z", at everything."""
+        assert self.scope is not None
+        self.look(host, camera_along(host, self.scope, axis, self.extensions.points))
+
     def object_under(self, host: Host) -> int | None:
         if self.scope is None:
             return None
@@ -192,7 +202,9 @@ class OutsideView(Instrument):
         self._gizmo.follow(host, scope, ground)
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
-            tools = use_tools(host, scope, self.extensions.points)
+            axis, tools = use_tools(host, scope, self.actions)
+            if axis is not None:
+                self.look_along(host, axis)
         if tools != self._covered:
             labels = written(self._made.primitives, self._placer, extent, host.fonts, tools)
             self._made, self._covered = replace(self._made, labels=labels), tools
@@ -263,10 +275,13 @@ class OutsideView(Instrument):
         outside = host.state.options.outside
         if not (outside.image or outside.grid):
             return None
-        camera, mouse = host.renderers.camera(host.state), imgui.get_io().mouse_pos
-        assert self.tools is not None
-        hidden_at = partial(self.tools.ground.t_at, scope.part(mouse), self.tools.overlay)
-        return pixel_seen(camera, host.renderers.size, *scope.ray(mouse), hidden_at)
+        camera, ray = host.renderers.camera(host.state), scope.ray(imgui.get_mouse_pos())
+        found = pixel_seen(camera, host.renderers.size, *ray)
+        if found is None or (
+            is_quick(host.state.scene) and nearest_hit(host.state.scene, *ray)[0] <= found[1]
+        ):
+            return None
+        return found[0]
 
     # The picture.
 
@@ -305,7 +320,7 @@ class OutsideView(Instrument):
         content = self.content(host, screen)
         if options.half_line and self._over:
             content = replace(content, pointed=_pointed(content, scope))
-        moves = self._scopes.moves or ground.factor > 1
+        moves = self._scopes.moves or ground.factor > 1 or both.unfinished(state)
         key = (
             content, ground, screen.near, units_px(scope.extent),
             live and live.number, state.images, theme.used(), extensions.items,

@@ -20,7 +20,6 @@ from lucida.app.ui.checks import checkbox
 from lucida.app.ui.lettering import fitting_words, lettering
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import follow, tip
-from lucida.app.ui.sliders import slider_float
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 from lucida.renderer.system.errors import one_line
 
@@ -74,7 +73,7 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
     width = 7.5 * imgui.get_font_size()
     follow(width)
     imgui.set_next_item_width(width)
-    changed, length = slider_float(
+    changed, length = imgui.slider_float(
         "##length", options.length, *range_of(PosesOptions, "length"), "length %.2f",
         imgui.SliderFlags_.logarithmic,
     )  # fmt: skip

@@ -42,8 +42,8 @@ def color_lines(reading: Reading) -> list[Line]:
             _color_formula(
                 "background",
                 "nothing is hit: the background",
-                (LIGHT, "L"),
-                (r"\mathbf{L}_{\mathrm{background}}", "L_background"),
+                LIGHT,
+                r"\mathbf{L}_{\mathrm{background}}",
                 {},
                 reading.background,
             )
@@ -67,8 +67,8 @@ def _shading_lines(shading: Shading) -> list[Line]:
         _color_formula(
             "ambient",
             "ambient",
-            (r"\mathbf{L}_a", "L_a"),
-            (r"<k>\,<I>", "<k> <I>"),
+            r"\mathbf{L}_a",
+            r"<k>\,<I>",
             {"k": _color("k_d", shading.albedo), "I": _color("I_a", shading.ambient_light)},
             shading.ambient,
         ),
@@ -93,8 +93,6 @@ def _lamp_lines(shading: Shading, lamp: Lamp) -> list[Line]:
                 f"light {k} is shadowed: something is between, or the surface faces away",
                 rf"\mathbf{{L}}_{{{k}}} = {zero}",
                 "",
-                f"L_{k} = {zero}",
-                "",
                 (0.0, 0.0, 0.0),
             ),
         ]
@@ -103,11 +101,8 @@ def _lamp_lines(shading: Shading, lamp: Lamp) -> list[Line]:
         _color_formula(
             f"diffuse {k}",
             f"light {k}, diffuse" + (": it is behind the surface" if lamp.n_dot_l <= 0 else ""),
-            (rf"\mathbf{{L}}_{{d{k}}}", f"L_d{k}"),
-            (
-                r"<k>\,<I>\,\max(0,\ <dot>)",
-                "<k> <I> max(0, <dot>)",
-            ),
+            rf"\mathbf{{L}}_{{d{k}}}",
+            r"<k>\,<I>\,\max(0,\ <dot>)",
             {
                 "k": _color("k_d", shading.albedo),
                 "I": color,
@@ -122,11 +117,8 @@ def _lamp_lines(shading: Shading, lamp: Lamp) -> list[Line]:
             _color_formula(
                 f"specular {k}",
                 f"light {k}, specular",
-                (rf"\mathbf{{L}}_{{s{k}}}", f"L_s{k}"),
-                (
-                    r"<k>\,<I>\,\max(0,\ <dot>)^{<s>}",
-                    "<k> <I> max(0, <dot>)^<s>",
-                ),
+                rf"\mathbf{{L}}_{{s{k}}}",
+                r"<k>\,<I>\,\max(0,\ <dot>)^{<s>}",
                 {
                     "k": _color("k_s", shading.specular),
                     "I": color,
@@ -141,20 +133,10 @@ def _lamp_lines(shading: Shading, lamp: Lamp) -> list[Line]:
 
 def _to_light(lamp: Lamp, k: int, kind: str) -> Line:
     name = f"towards light {k}, a {kind}"
-    left = rf"\mathbf{{l}}_{{{k}}}", f"vec(l_{k})"
-    if not lamp.is_point:
-        return formula(
-            f"light {k}", name, left, (rf"\mathbf{{c}}_{{{k}}}", f"vec(c_{k})"), {}, lamp.to_light
-        )
-    q, x = bold(f"q_{k}"), r"\mathbf{x}"
-    return formula(
-        f"light {k}",
-        name,
-        left,
-        (rf"\frac{{{q} - {x}}}{{|{q} - {x}|}}", f"(vec(q_{k}) - vec(x)) / |vec(q_{k}) - vec(x)|"),
-        {},
-        lamp.to_light,
-    )
+    right, q, x = bold(f"c_{k}"), bold(f"q_{k}"), r"\mathbf{x}"
+    if lamp.is_point:
+        right = rf"\frac{{{q} - {x}}}{{|{q} - {x}|}}"
+    return formula(f"light {k}", name, bold(f"l_{k}"), right, {}, lamp.to_light)
 
 
 def _halfway(lamp: Lamp, k: int) -> Line:
@@ -162,11 +144,8 @@ def _halfway(lamp: Lamp, k: int) -> Line:
     return formula(
         f"halfway {k}",
         f"halfway between light {k} and the viewer",
-        (bold(f"h_{k}"), f"vec(h_{k})"),
-        (
-            rf"\frac{{{light} - {view}}}{{|{light} - {view}|}}",
-            f"(vec(l_{k}) - vec(d)/|vec(d)|) / |...|",
-        ),
+        bold(f"h_{k}"),
+        rf"\frac{{{light} - {view}}}{{|{light} - {view}|}}",
         {},
         lamp.half,
     )
@@ -174,12 +153,7 @@ def _halfway(lamp: Lamp, k: int) -> Line:
 
 def _dot(other: str, value: float) -> Slot:
     """Return the cosine between the normal and a unit vector."""
-    return Slot(
-        rf"\mathbf{{n}} \cdot {bold(other)}",
-        f"vec(n) . vec({other})",
-        latex_number(value),
-        number(value),
-    )
+    return Slot(rf"\mathbf{{n}} \cdot {bold(other)}", latex_number(value))
 
 
 def _bounce_line(reading: Reading, number_: int, bounce: Bounce) -> Line:
@@ -191,16 +165,12 @@ def _bounce_line(reading: Reading, number_: int, bounce: Bounce) -> Line:
     return _color_formula(
         f"mirror {number_}",
         f"mirrored ray {number_} sees {seen}",
-        (rf"\mathbf{{L}}_{{m{number_}}}", f"L_m{number_}"),
-        (r"<k>\,<L>", "<k> <L>"),
+        rf"\mathbf{{L}}_{{m{number_}}}",
+        r"<k>\,<L>",
         {
             # Of a later ray, the product of the reflectances on its way.
             "k": _color("k_s" if number_ == 1 else f"w_{number_}", bounce.weight),
-            "L": Slot(
-                rf"\mathbf{{L}}(\mathbf{{r}}_{{{number_}}})",
-                f"L(vec(r_{number_}))",
-                *_color_text(bounce.color),
-            ),
+            "L": Slot(rf"\mathbf{{L}}(\mathbf{{r}}_{{{number_}}})", _color_text(bounce.color)),
         },
         _added(bounce),
     )
@@ -213,21 +183,20 @@ def _added(bounce: Bounce) -> Color:
 
 
 def _sum_line(reading: Reading, shading: Shading) -> Line:
-    terms = [(r"\mathbf{L}_a", "L_a", shading.ambient)]
+    terms = [(r"\mathbf{L}_a", shading.ambient)]
     for lamp in shading.lamps:
         k = lamp.number + 1
         if lamp.is_lit:
-            terms.append((rf"\mathbf{{L}}_{{d{k}}}", f"L_d{k}", lamp.diffuse))
+            terms.append((rf"\mathbf{{L}}_{{d{k}}}", lamp.diffuse))
             if any(shading.specular):
-                terms.append((rf"\mathbf{{L}}_{{s{k}}}", f"L_s{k}", lamp.specular))
+                terms.append((rf"\mathbf{{L}}_{{s{k}}}", lamp.specular))
     for k, bounce in enumerate(reading.bounces, start=1):
-        terms.append((rf"\mathbf{{L}}_{{m{k}}}", f"L_m{k}", _added(bounce)))
+        terms.append((rf"\mathbf{{L}}_{{m{k}}}", _added(bounce)))
     slots = {
-        f"{index}": Slot(latex, text, *_color_text(value))
-        for index, (latex, text, value) in enumerate(terms)
+        f"{index}": Slot(latex, _color_text(value)) for index, (latex, value) in enumerate(terms)
     }
     total = " + ".join(f"<{index}>" for index in slots)
-    return _color_formula("sum", "the sum", (LIGHT, "L"), (total, total), slots, reading.color)
+    return _color_formula("sum", "the sum", LIGHT, total, slots, reading.color)
 
 
 # The display.
@@ -236,42 +205,37 @@ def _sum_line(reading: Reading, shading: Shading) -> Line:
 def _display_lines(reading: Reading) -> list[Line]:
     lines = []
     if reading.exposure_ev:
-        stops = scalar_slot(r"\mathrm{EV}", reading.exposure_ev, "EV")
+        stops = scalar_slot(r"\mathrm{EV}", reading.exposure_ev)
         lines.append(
             _color_formula(
                 "exposure",
                 "exposure",
-                (r"\mathbf{L}'", "L'"),
-                (r"2^{<e>}\,<L>", "2^<e> <L>"),
+                r"\mathbf{L}'",
+                r"2^{<e>}\,<L>",
                 {"e": stops, "L": _color("L", reading.color)},
                 reading.exposed,
             )
         )
     light = _color("L", reading.exposed)
     if reading.exposure_ev:
-        light = Slot(r"\mathbf{L}'", "L'", light.latex_value, light.text_value)
-    cut, latex, text = "", "<L>", "<L>"
+        light = Slot(r"\mathbf{L}'", light.latex_value)
+    cut, latex = "", "<L>"
     if max(reading.exposed) > 1:
-        cut, latex, text = "; what is above 1 is cut off", r"\min(1,\ <L>)", "min(1, <L>)"
-    right = (
-        rf"{SRGB_SCALE}\,{latex}^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}",
-        f"{SRGB_SCALE} {text}^(1/{SRGB_GAMMA}) - {SRGB_SHIFT}",
-    )
+        cut, latex = "; what is above 1 is cut off", r"\min(1,\ <L>)"
+    right = rf"{SRGB_SCALE}\,{latex}^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}"
     name = f"sRGB's curve (up to {SRGB_LINEAR}: {SRGB_SLOPE} L)"
     if reading.transfer == "linear":
-        right, name = (latex, text), "display value, linear"
+        right, name = latex, "display value, linear"
     lines.append(
-        _color_formula(
-            "display", name + cut, (r"\mathbf{C}", "C"), right, {"L": light}, reading.display
-        )
+        _color_formula("display", name + cut, r"\mathbf{C}", right, {"L": light}, reading.display)
     )
     bytes_ = tuple(float(value) for value in reading.bytes)
     lines.append(
         formula(
             "bytes",
             "8 bits",
-            (r"\mathbf{B}", "B"),
-            (r"\lfloor 255\,<C> + 0.5 \rfloor", "floor(255 <C> + 0.5)"),
+            r"\mathbf{B}",
+            r"\lfloor 255\,<C> + 0.5 \rfloor",
             {"C": _color("C", reading.display)},
             bytes_,
         )
@@ -282,16 +246,14 @@ def _display_lines(reading: Reading) -> list[Line]:
 def _given(key: str, name: str, symbol: str, value: Color) -> Line:
     """Return the line of a quantity that is read from the scene."""
     slot = _color(symbol, value)
-    return Line(
-        key, name, slot.latex, f"= {slot.latex_value}", slot.text, f"= {slot.text_value}", value
-    )
+    return Line(key, name, slot.latex, f"= {slot.latex_value}", value)
 
 
 def _color_formula(
     key: str,
     name: str,
-    left: tuple[str, str],
-    right: tuple[str, str],
+    left: str,
+    right: str,
     slots: Mapping[str, Slot],
     value: Color,
 ) -> Line:
@@ -299,10 +261,9 @@ def _color_formula(
 
 
 def _color(symbol: str, value: Color) -> Slot:
-    return Slot(bold(symbol), symbol, *_color_text(value))
+    return Slot(bold(symbol), _color_text(value))
 
 
-def _color_text(value: Iterable[float]) -> tuple[str, str]:
-    """Return a colour as LaTeX and as text, always with four decimals."""
-    parts = [f"{part:.{DECIMALS}f}" for part in value]
-    return "(" + r",\ ".join(parts) + ")", "(" + ", ".join(parts) + ")"
+def _color_text(value: Iterable[float]) -> str:
+    """Return a colour, always with four decimals."""
+    return "(" + r",\ ".join(f"{part:.{DECIMALS}f}" for part in value) + ")"

@@ -1,4 +1,4 @@
-"""A pixel's reading for the clipboard: as text, as LaTeX, as a program in Python."""
+"""A pixel's reading for the clipboard: as LaTeX, or as a program in Python."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 from lucida.app.instruments.probe.color_formulas import color_lines
 from lucida.app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
-from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
+from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Reading
 from lucida.app.state.options.shared import Notation
-from lucida.app.ui.explaining.notation import Line, number
-from lucida.app.ui.explaining.symbols import in_notation, program
+from lucida.app.ui.explaining.notation import Line
+from lucida.app.ui.explaining.symbols import in_notation
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.images.shared_numbers import (
     SRGB_GAMMA,
@@ -18,8 +18,6 @@ from lucida.renderer.images.shared_numbers import (
     SRGB_SHIFT,
     SRGB_SLOPE,
 )
-
-_CAMERA = slice(5, 10)  # the program's lines that declare the camera's vectors and distance
 
 
 def section_lines(
@@ -37,19 +35,6 @@ def all_lines(
 ) -> list[Line]:
     """Return every line of a reading, from the pixel's index to its bytes."""
     return [line for part in section_lines(reading, indexing, notation) for line in part]
-
-
-def as_text(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
-) -> str:
-    """Return the lines and the table of intersections, in columns."""
-    ray, hit, color = section_lines(reading, indexing, notation)
-    lines = [f"pixel in {pixel_text(reading, indexing)}", ""]
-    lines += _text_of(ray)
-    if not reading.is_outside:
-        lines += ["", *_table(reading.meetings), ""]
-        lines += _text_of([*hit, *color])
-    return "\n".join(lines) + "\n"
 
 
 def as_latex(
@@ -70,31 +55,13 @@ def as_latex(
     return "\n".join([*body, *(f"  {row}" for row in rows), r"\end{align*}"]) + "\n"
 
 
-def as_python(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
-) -> str:
-    """Return a program, using only NumPy, that computes the ray, the hit and the colour of the
-    pixel.
+def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
+    """Return a program in code's words, using only NumPy, that computes the ray, the hit and the
+    colour of the pixel.
 
-    It leaves them in its variables origin, direction, t, point, normal, color and rgb, by code's
-    words or by the book's letters; for a pixel of the background, only origin, direction, color
-    and rgb.
+    It leaves them in its variables origin, direction, t, point, normal, color and rgb; for a pixel
+    of the background, only origin, direction, color and rgb.
     """
-    code = _program(reading, indexing)
-    if notation == "code":
-        return code
-    # With letters, it has a camera: `cam.u`.
-    parts = (line.partition("#") for line in code.split("\n"))
-    lines = [program(text, notation) + mark + comment for text, mark, comment in parts]
-    fields = [line.partition("  #")[0].removeprefix("cam.") for line in lines[_CAMERA]]
-    fields = [field.replace(" = ", "=", 1) for field in fields]
-    lines[_CAMERA] = ["cam = SimpleNamespace(", *(f"    {field}," for field in fields), ")"]
-    lines[1:1] = ["from types import SimpleNamespace", ""]
-    return "\n".join(lines)
-
-
-def _program(reading: Reading, indexing: Indexing) -> str:
-    """Return the program in code's words."""
     camera = reading.camera
     i, j = indexing.numbers(reading.pixel)
     like = "as in the lecture" if indexing is Indexing.LECTURE else "as arrays are"
@@ -221,30 +188,6 @@ def _display_program(reading: Reading) -> list[str]:
             f" {SRGB_SCALE} * exposed ** (1 / {SRGB_GAMMA}) - {SRGB_SHIFT})"
         )
     return [*lines, "rgb = np.floor(255 * shown + 0.5).astype(int)"]
-
-
-def _text_of(lines: Iterable[Line]) -> list[str]:
-    text = []
-    for line in lines:
-        text.append(f"{line.name}:")
-        text.append(f"    {line.text}")
-        if line.text_numbers:
-            text.append(f"      {line.text_numbers}")
-    return text
-
-
-def _table(meetings: Iterable[Meeting]) -> list[str]:
-    rows = [("object", "t", "")]
-    for meeting in meetings:
-        nearest = meeting.nearest
-        if nearest is None:
-            rows.append((meeting.name, "-", "not met"))
-        else:
-            rows.append((meeting.name, number(nearest.t, fixed=True), nearest.standing))
-    widths = [max(len(row[k]) for row in rows) for k in (0, 1)]
-    return [
-        f"{name:<{widths[0]}}  {t:>{widths[1]}}  {standing}".rstrip() for name, t, standing in rows
-    ]
 
 
 def _array(values: Iterable[float]) -> str:

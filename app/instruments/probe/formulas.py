@@ -16,9 +16,9 @@ from lucida.app.instruments.probe.reading import Reading
 from lucida.app.ui.explaining.notation import (
     Line,
     Slot,
+    bold,
     formula,
     latex_number,
-    number,
     scalar_slot,
     vector_slot,
 )
@@ -48,8 +48,6 @@ def ray_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[L
         "ray",
         rf"\mathbf{{r}}(t) = {p.latex} + t\,{d.latex}",
         rf"= {p.latex_value} + t\,{d.latex_value}",
-        f"vec(r)(t) = {p.text} + t {d.text}",
-        f"= {p.text_value} + t {d.text_value}",
         (*reading.origin, *reading.direction),
     )
     return [*lines, ray, _range(camera)]
@@ -66,8 +64,8 @@ def hit_lines(reading: Reading) -> list[Line]:
     point = formula(
         "point",
         "hit point",
-        (r"\mathbf{x} = \mathbf{r}(t)", "vec(x) = vec(r)(t)"),
-        (r"<p> + <t>\,<d>", "<p> + <t> <d>"),
+        r"\mathbf{x} = \mathbf{r}(t)",
+        r"<p> + <t>\,<d>",
         {"p": p, "t": t, "d": d},
         hit.point,
     )
@@ -90,9 +88,9 @@ def _on_plane(reading: Reading, indexing: Indexing, axis: int) -> Line:
     """Return the line for u (axis 0) or v (1) of the pixel's centre."""
     low, high = reading.camera.viewport[2 * axis : 2 * axis + 2]
     pixel, count = "ji"[axis], "WH"[axis]
-    ends = (r"\mathrm{left}", low, "left"), (r"\mathrm{right}", high, "right")
+    ends = (r"\mathrm{left}", low), (r"\mathrm{right}", high)
     if axis:  # rows are counted from the top
-        ends = (r"\mathrm{top}", high, "top"), (r"\mathrm{bottom}", low, "bottom")
+        ends = (r"\mathrm{top}", high), (r"\mathrm{bottom}", low)
     slots = {
         "p": _count(pixel, reading.pixel[1 - axis] + indexing.value),
         "n": _count(count, reading.size[axis]),
@@ -100,22 +98,20 @@ def _on_plane(reading: Reading, indexing: Indexing, axis: int) -> Line:
         "b": scalar_slot(*ends[1], factor=bool(axis)),
         "af": scalar_slot(*ends[0], factor=True),
     }
-    part, plain = rf"\frac{{<p> {indexing.offset}}}{{<n>}}", f"(<p> {indexing.offset}) / <n>"
+    part = rf"\frac{{<p> {indexing.offset}}}{{<n>}}"
     if reading.camera.viewport == LECTURE_VIEWPORT:
-        right = f"{part} - 0.5", f"{plain} - 0.5"
-        if axis:
-            right = rf"-\left({right[0]}\right)", f"-({right[1]})"
+        right = rf"-\left({part} - 0.5\right)" if axis else f"{part} - 0.5"
     else:
         extent = "(<a> - <b>)" if axis else "(<b> - <af>)"
         sign = "-" if axis else "+"
-        right = rf"<a> {sign} {extent}\,{part}", f"<a> {sign} {extent} {plain}"
+        right = rf"<a> {sign} {extent}\,{part}"
     symbol = "uv"[axis]
     value = reading.y if axis else reading.x
-    return formula(symbol, f"along {symbol}", (symbol, symbol), right, slots, value)
+    return formula(symbol, f"along {symbol}", symbol, right, slots, value)
 
 
 def _count(symbol: str, value: int) -> Slot:
-    return Slot(symbol, symbol, str(value), str(value))
+    return Slot(symbol, str(value))
 
 
 # Direction and origin.
@@ -130,17 +126,15 @@ def _direction_and_origin(reading: Reading) -> list[Line]:
         "y": scalar_slot("v", reading.y, factor=True),
         "d": scalar_slot("d", camera.distance, factor=True),
     }
-    across = r"<x>\,<u> + <y>\,<v>", "<x> <u> + <y> <v>"
+    across = r"<x>\,<u> + <y>\,<v>"
     if parallel:
         symbols, own = ("0", "0", "-1"), (0.0, 0.0, -1.0)
-        direction, origin = ("-<w>", "-<w>"), (f"<e> + {across[0]}", f"<e> + {across[1]}")
+        direction, origin = "-<w>", f"<e> + {across}"
     else:
         symbols, own = ("u", "v", "-d"), (reading.x, reading.y, -camera.distance)
-        direction = rf"{across[0]} - <d>\,<w>", f"{across[1]} - <d> <w>"
-        origin = "<e>", "<e>"
-    d, p = (r"\mathbf{d}", "vec(d)"), (r"\mathbf{p}", "vec(p)")
-    in_camera = r"({},\ {},\ {})".format(*symbols), "({}, {}, {})".format(*symbols)
-    left = r"\mathbf{d}_{uvw}", "vec(d)_uvw"
+        direction, origin = rf"{across} - <d>\,<w>", "<e>"
+    d, p, left = r"\mathbf{d}", r"\mathbf{p}", r"\mathbf{d}_{uvw}"
+    in_camera = r"({},\ {},\ {})".format(*symbols)
     return [
         formula("camera direction", "direction, camera", left, in_camera, {}, own),
         formula("direction", "direction, world", d, direction, slots, reading.direction),
@@ -152,22 +146,18 @@ def _range(camera: Camera) -> Line:
     """Return the line for the valid t: t > 0, or what near and far leave."""
     low, high = camera.t_range
     if camera.near is None and camera.far is None:
-        return Line("range", "half a line", "t > 0", "", "t > 0", "", (low, high))
-    over, plain_over = ("", "") if camera.is_parallel else ("d", "/d")
-    symbols, plain = [], []
+        return Line("range", "half a line", "t > 0", "", (low, high))
+    over, symbols = "" if camera.is_parallel else "d", []
     for clip, name in ((camera.near, "near"), (camera.far, "far")):
         symbol = rf"\mathrm{{{name}}}"
         symbols.append(rf"\frac{{{symbol}}}{{{over}}}" if over else symbol)
-        plain.append(name + plain_over)
         if clip is None:
-            symbols[-1], plain[-1] = (r"\infty", "inf") if name == "far" else ("0", "0")
+            symbols[-1] = r"\infty" if name == "far" else "0"
     return Line(
         "range",
         "clipped by near and far",
         f"{symbols[0]} < t < {symbols[1]}",
         f"{latex_number(low)} < t < {latex_number(high)}",
-        f"{plain[0]} < t < {plain[1]}",
-        f"{number(low)} < t < {number(high)}",
         (low, high),
     )
 
@@ -189,8 +179,6 @@ def _sphere_t(reading: Reading) -> list[Line]:
         "the sphere's points",
         r"|\mathbf{p} + t\,\mathbf{d} - \mathbf{c}|^2 = R^2",
         rf"|{p.latex_value} + t\,{way.latex_value} - {middle.latex_value}|^2 = {r.latex_value}^2",
-        "|vec(p) + t vec(d) - vec(c)|^2 = R^2",
-        f"|{p.text_value} + t {way.text_value} - {middle.text_value}|^2 = {r.text_value}^2",
         (a, b, c),
     )
     coefficients = Line(
@@ -198,8 +186,6 @@ def _sphere_t(reading: Reading) -> list[Line]:
         "a quadratic equation in t",
         r"a = \mathbf{d} \cdot \mathbf{d}, \quad b = \mathbf{d} \cdot (\mathbf{p} - \mathbf{c}),"
         r" \quad c = |\mathbf{p} - \mathbf{c}|^2 - R^2",
-        "",
-        "a = vec(d) . vec(d), b = vec(d) . (vec(p) - vec(c)), c = |vec(p) - vec(c)|^2 - R^2",
         "",
         (a, b, c),
     )
@@ -214,12 +200,11 @@ def _sphere_t(reading: Reading) -> list[Line]:
     root = formula(
         "t",
         "its root",
-        ("t", "t"),
-        (rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}",
-         f"(-<b> {sign} sqrt(<b>^2 - <a> * <c>)) / <a>"),
+        "t",
+        rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}",
         slots,
         t,
-    )  # fmt: skip
+    )
     return [quadratic, coefficients, root]
 
 
@@ -236,8 +221,8 @@ def _triangle_t(reading: Reading) -> list[Line]:
     plane = formula(
         "t",
         f"the plane of triangle {hit.primitive}",
-        ("t", "t"),
-        (r"\frac{<n> \cdot (<a> - <p>)}{<n> \cdot <d>}", "<n> . (<a> - <p>) / (<n> . <d>)"),
+        "t",
+        r"\frac{<n> \cdot (<a> - <p>)}{<n> \cdot <d>}",
         slots,
         hit.t,
     )
@@ -249,8 +234,6 @@ def _triangle_t(reading: Reading) -> list[Line]:
         for pair in (
             [rf"{f.latex}\,{c.latex}" for f, c in zip(factors, corners, strict=True)],
             [rf"{f.latex_value}\,{c.latex_value}" for f, c in zip(factors, corners, strict=True)],
-            [f"{f.text} {c.text}" for f, c in zip(factors, corners, strict=True)],
-            [f"{f.text_value} {c.text_value}" for f, c in zip(factors, corners, strict=True)],
         )
     ]
     inside = Line(
@@ -258,8 +241,6 @@ def _triangle_t(reading: Reading) -> list[Line]:
         "inside: no weight of a corner is negative",
         rf"\mathbf{{x}} = {sums[0]}",
         f"= {sums[1]}",
-        f"vec(x) = {sums[2]}",
-        f"= {sums[3]}",
         weights,
     )
     return [plane, inside]
@@ -278,38 +259,30 @@ def _geometric_normal(reading: Reading) -> Line:
         return formula(
             "geometric",
             "normal" if outside else "normal, towards the viewer",
-            (rf"\mathbf{{{symbol}}}", f"vec({symbol})"),
-            (rf"\frac{{{first} - {second}}}{{|{first} - {second}|}}",
-             f"({first} - {second}) / |{first} - {second}|"),
+            rf"\mathbf{{{symbol}}}",
+            rf"\frac{{{first} - {second}}}{{|{first} - {second}|}}",
             slots,
             hit.geometric,
-        )  # fmt: skip
+        )
     a, b, c = (np.array(corner) for corner in reading.corners)
     is_front = np.cross(b - a, c - a) @ np.array(hit.geometric) >= 0
     sign = "" if is_front else "-"
-    product = (
-        r"\frac{(\mathbf{b} - \mathbf{a}) \times (\mathbf{c} - \mathbf{a})}{|\dots|}",
-        "(vec(b) - vec(a)) x (vec(c) - vec(a)) / |...|",
-    )
+    product = r"\frac{(\mathbf{b} - \mathbf{a}) \times (\mathbf{c} - \mathbf{a})}{|\dots|}"
     name = "normal of the triangle, towards the viewer"
-    return _stated("geometric", name, symbol, (sign + product[0], sign + product[1]), hit.geometric)
+    return _stated("geometric", name, symbol, sign + product, hit.geometric)
 
 
 def _normal_for_light(hit: SurfaceHit) -> Line:
     """Return the line for the normal used for lighting, if it is not the surface's own."""
     if not hit.corner_normals:
         g, d = r"\mathbf{g}", r"\hat{\mathbf{d}}"
-        right = (
-            rf"\frac{{{g} - ({g} \cdot {d} + {LEAST_COSINE:g})\,{d}}}{{|\dots|}}",
-            f"(vec(g) - (vec(g) . vec(d)/|vec(d)| + {LEAST_COSINE:g}) vec(d)/|vec(d)|) / |...|",
-        )
+        right = rf"\frac{{{g} - ({g} \cdot {d} + {LEAST_COSINE:g})\,{d}}}{{|\dots|}}"
         return _stated("normal", "normal for the light, bent to the viewer", "n", right, hit.normal)
     weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
     # Towards the viewer too, whichever side the corners' point to.
     sign = "-" if np.dot(weights, hit.corner_normals) @ np.array(hit.normal) < 0 else ""
     right = (
-        rf"{sign}\frac{{b_0 \mathbf{{n}}_a + b_1 \mathbf{{n}}_b + b_2 \mathbf{{n}}_c}}{{|\dots|}}",
-        f"{sign}(b_0 vec(n_a) + b_1 vec(n_b) + b_2 vec(n_c)) / |...|",
+        rf"{sign}\frac{{b_0 \mathbf{{n}}_a + b_1 \mathbf{{n}}_b + b_2 \mathbf{{n}}_c}}{{|\dots|}}"
     )
     return _stated("normal", "normal for the light, between the corners'", "n", right, hit.normal)
 
@@ -319,8 +292,7 @@ def _geometric_symbol(hit: SurfaceHit) -> str:
 
 
 def _stated(
-    key: str, name: str, symbol: str, right: tuple[str, str], value: tuple[float, float, float]
+    key: str, name: str, symbol: str, right: str, value: tuple[float, float, float]
 ) -> Line:
     """Return a line that shows only the result in numbers."""
-    slot = vector_slot(symbol, value)
-    return formula(key, name, (slot.latex, slot.text), right, {}, value)
+    return formula(key, name, bold(symbol), right, {}, value)

@@ -6,7 +6,7 @@ Takes a state and a reading, and returns a new state.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,16 +16,15 @@ from lucida.app.instruments.outside.growing import lit_in
 from lucida.app.instruments.probe.copying import (
     as_latex,
     as_python,
-    as_text,
     section_lines,
 )
-from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Crossing, Meeting, Reading
+from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining.notation import Line, number
-from lucida.app.ui.formula import Formula, formula, lit
+from lucida.app.ui.formula import formula, lit
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import button_width, follow, tip
@@ -36,12 +35,6 @@ from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.scene.model import Color
 
 WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
-MOST_ALSO = 3  # further intersections of an object that are listed
-COPIES: tuple[tuple[str, Callable[[Reading, Indexing, Notation], str]], ...] = (
-    ("Text", as_text),
-    ("LaTeX", as_latex),
-    ("Python", as_python),
-)
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
 
@@ -86,9 +79,10 @@ def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading |
         imgui.open_popup("copy")
     imgui.end_disabled()
     if imgui.begin_popup("copy"):
-        for name, written in COPIES:
-            if imgui.menu_item_simple(name) and reading is not None:
-                imgui.set_clipboard_text(written(reading, indexing, state.options.notation))
+        if imgui.menu_item_simple("LaTeX") and reading is not None:
+            imgui.set_clipboard_text(as_latex(reading, indexing, state.options.notation))
+        if imgui.menu_item_simple("Python") and reading is not None:
+            imgui.set_clipboard_text(as_python(reading, indexing))
         imgui.end_popup()
     return state
 
@@ -223,22 +217,18 @@ def _name(line: Line, swatches: Reading | None) -> None:
 
 
 def _formula(line: Line, size_px: float) -> None:
-    parts = [Formula(line.latex, line.text)]
-    if line.latex_numbers:
-        parts.append(Formula(line.latex_numbers, line.text_numbers))
-    formula(parts, size_px, line.key)
+    formula(filter(None, (line.latex, line.latex_numbers)), size_px, line.key)
 
 
 def _table(reading: Reading, fonts: Fonts) -> None:
     met = [meeting for meeting in reading.meetings if meeting.nearest is not None]
     flags = imgui.TableFlags_
-    several = any(len(meeting.crossings) > 1 for meeting in met)
     if met and imgui.begin_table(
         "objects",
-        3 + several,
+        3,
         flags.sizing_fixed_fit | flags.borders_inner_h | flags.no_host_extend_x,
     ):
-        for name in ("object", "        t", "", "also at")[: 3 + several]:
+        for name in ("object", "        t", ""):
             imgui.table_setup_column(name)
         imgui.table_headers_row()
         for meeting in met:
@@ -265,37 +255,10 @@ def _row(meeting: Meeting, fonts: Fonts) -> None:
     imgui.text_colored(color, meeting.name)
     imgui.pop_font()
     imgui.table_next_column()
-    _parameter(nearest, color, meeting.is_on_ray, fonts)
+    with lettering(fonts.mono):
+        imgui.text_colored(color, f"{number(nearest.t, fixed=True):>9}")
     imgui.table_next_column()
     imgui.text_colored(color, "nearest" if wins else nearest.standing)
-    if len(meeting.crossings) < 2:
-        return
-    imgui.table_next_column()
-    others = [one for one in meeting.crossings if one is not nearest]
-    for count, crossing in enumerate(others[:MOST_ALSO]):
-        if count:
-            imgui.same_line()
-        on_ray = crossing.standing not in ("behind", "before near", "beyond far")
-        _parameter(crossing, theme.DIM, on_ray, fonts)
-    if len(others) > MOST_ALSO:
-        imgui.same_line()
-        imgui.text_colored(theme.DIM, f"and {len(others) - MOST_ALSO} more")
-
-
-def _parameter(crossing: Crossing, color: ImVec4, on_ray: bool, fonts: Fonts) -> None:
-    """Draw a t, nine characters wide; crossed out if it does not count."""
-    text = f"{number(crossing.t, fixed=True):>9}"
-    imgui.push_font(fonts.mono, 0.0)
-    imgui.text_colored(color, text)
-    blank = imgui.calc_text_size(text[: len(text) - len(text.lstrip())]).x
-    imgui.pop_font()
-    if not on_ray:
-        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        y = 0.5 * (low.y + high.y) + theme.px(1)
-        imgui.get_window_draw_list().add_line(
-            ImVec2(low.x + blank - theme.px(2), y), ImVec2(high.x + theme.px(2), y),
-            theme.u32(theme.ERROR), theme.line_px(1.6),
-        )  # fmt: skip
 
 
 # Parts.

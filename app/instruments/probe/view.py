@@ -18,7 +18,7 @@ from lucida.app.images.pair.marks import walked
 from lucida.app.images.request import MIRROR_DEPTH
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Segments
 from lucida.app.instruments.outside.extent import end_parameter
-from lucida.app.instruments.outside.growing import stage_at, stages_of
+from lucida.app.instruments.outside.growing import stage_at
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.instruments.probe import panel
 from lucida.app.instruments.probe.actions import PINNING
@@ -114,8 +114,7 @@ class ProbeView(Instrument):
             wrapped("preparing the scene for the probe ...", theme.DIM)
         else:
             options, position = host.state.options, host.state.options.outside.formula
-            stages = stages_of(host.renderers.camera(host.state))
-            stage = stage_at(position, stages) if position is not None else ""
+            stage = stage_at(position, host.renderers.camera(host.state))
             panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
         imgui.end_child()
         self._show_outside(host, reading, size)

@@ -6,20 +6,31 @@ import functools
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
+import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.stepper.source import shown_lines
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
-from lucida.app.ui.canvas import Marks, canvas_unit, draw_canvas
+from lucida.app.ui.canvas import (
+    Marks,
+    canvas_unit,
+    color_picture,
+    depth_picture,
+    draw_canvas,
+)
 from lucida.app.ui.code import LINE, code, code_size
 from lucida.app.ui.explaining.breaking import narrowed
 from lucida.app.ui.explaining.languages import julia
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.system.memo import Memo
 
 GAP_EM = 0.9
 MOST_CODE = 0.68  # of the width or height
@@ -45,6 +56,29 @@ class Drawn:
     in_words: bool = False
 
 
+class Canvases:
+    """Textures of canvases, by name; each is uploaded when it has changed."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._uploads = Uploads(context)
+        self.get, self.release = self._uploads.get, self._uploads.release
+        self.begin_frame = self._uploads.begin_frame
+        self._put: dict[str, Memo[*tuple[Any, ...], None]] = {}
+
+    def texture(self, name: str, values: Floats, scale: float) -> moderngl.Texture:
+        """Return a texture of linear light (height, width, 3), exposed by `scale` stops; or of ray
+        parameters (height, width), as far as `scale`.
+        """
+        self._put.setdefault(name, Memo(_put))(self._uploads, name, values, scale, theme.used())
+        texture = self._uploads.get(name)
+        assert texture is not None
+        return texture
+
+
+def _put(uploads: Uploads, name: str, values: Floats, scale: float, look: theme.WindowLook) -> None:
+    uploads.put(name, (color_picture if values.ndim == 3 else depth_picture)(values, scale))
+
+
 def written(lines: tuple[str, ...], lit: Lit, state: AppState) -> tuple[tuple[str, ...], Lit]:
     """Return a program in the window's notation, language and indexing."""
     notation, indexing = state.options.notation, state.options.indexing
@@ -62,17 +96,17 @@ def _julia(lines: tuple[str, ...], indexing: Indexing) -> julia.Loops:
 
 def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     """Draw a program and its canvas in the middle of a room."""
-    em = imgui.get_font_size()
-    lines = narrowed(drawn.lines)
-    font = fonts.text if drawn.in_words else fonts.mono
+    em, words = imgui.get_font_size(), drawn.in_words
+    lines, font = narrowed(drawn.lines), fonts.text if words else fonts.mono
     with lettering(font):
         needed = code_size(lines) * ImVec2(1.05, 1)  # letters have whole widths in each size
-    least = LEAST_WORDS if drawn.in_words else 1.0
-    arranged = [
-        _arranged(needed, drawn.size, room, em, least, *way)
-        for way in itertools.product((False, True), LARGEST)
-    ]
-    best = max(arranged, key=lambda one: (one.fits, one.larger * one.canvas_px.x))
+    best = max(
+        (
+            _arranged(needed, drawn, room, em, *way)
+            for way in itertools.product((False, True), LARGEST)
+        ),
+        key=lambda one: (one.fits, one.larger * one.canvas_px.x),
+    )
     total = best.total_px
     spare, canvas_at = total - best.code_px, total - best.canvas_px
     low = low + (room - total) * 0.5
@@ -80,13 +114,12 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
         code_at, canvas_at.y = ImVec2(0, 0.5 * spare.y), 0.5 * canvas_at.y
     else:
         code_at, canvas_at.x = ImVec2(0.5 * spare.x, 0), 0.5 * canvas_at.x
-        if drawn.in_words:  # as on a slide, they are below the canvas
+        if words:  # as on a slide, they are below the canvas
             code_at.y, canvas_at.y = spare.y, 0
     _canvas(drawn, low + canvas_at, best.unit, fonts)
     imgui.set_cursor_screen_pos(low + code_at)
-    imgui.begin_child(
-        f"code at {low.x}, {low.y}", best.code_px, 0, imgui.WindowFlags_.horizontal_scrollbar
-    )
+    flags = imgui.WindowFlags_.horizontal_scrollbar
+    imgui.begin_child(f"code at {low.x}, {low.y}", best.code_px, 0, flags)
     with lettering(font, best.larger):
         # In a small window: around the lit line.
         lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
@@ -97,13 +130,11 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     imgui.dummy(total)
 
 
-@dataclass(frozen=True)
-class Arranged:
+class Arranged(NamedTuple):
     """A program and its canvas, side by side or one above the other.
 
     fits: the code is shown whole. larger: its type size, in the window's. unit: the side of the
-    canvas's pixels. code_px, canvas_px: the sizes of both, the canvas with its numbers. gap:
-    between them.
+    canvas's pixels. code_px, canvas_px, total_px: the sizes of both, the canvas with its numbers.
     """
 
     beside: bool
@@ -112,29 +143,25 @@ class Arranged:
     unit: float
     code_px: ImVec2
     canvas_px: ImVec2
-    gap: float
-
-    @property
-    def total_px(self) -> ImVec2:
-        a, b = self.code_px, self.canvas_px
-        if self.beside:
-            return ImVec2(a.x + self.gap + b.x, max(a.y, b.y))
-        return ImVec2(max(a.x, b.x), a.y + self.gap + b.y)
+    total_px: ImVec2
 
 
 def _arranged(
-    needed: ImVec2, size: Size, room: ImVec2, em: float, least: float, beside: bool, largest: float
+    needed: ImVec2, drawn: Drawn, room: ImVec2, em: float, beside: bool, largest: float
 ) -> Arranged:
-    """Arrange a program that needs some room, and a canvas of some pixels."""
+    """Arrange a program that needs some room, and its canvas."""
+    least = LEAST_WORDS if drawn.in_words else 1.0
     most = ImVec2(MOST_CODE * room.x, room.y) if beside else ImVec2(room.x, MOST_CODE * room.y)
     largest = min(most.x / needed.x, most.y / needed.y, largest)
     larger = max(theme.whole_px(largest * em - 0.5) / em, least)
-    code_px = ImVec2(min(larger * needed.x, most.x), min(larger * needed.y, most.y))
-    gap, margin = GAP_EM * em, _margin(size, em)
-    rest = room - (ImVec2(code_px.x + gap, 0) if beside else ImVec2(0, code_px.y + gap))
-    unit = canvas_unit(size, rest - margin)
-    canvas_px = margin + ImVec2(*size) * unit
-    return Arranged(beside, largest >= least, larger, unit, code_px, canvas_px, gap)
+    a = ImVec2(min(larger * needed.x, most.x), min(larger * needed.y, most.y))
+    gap, margin = GAP_EM * em, _margin(drawn.size, em)
+    beyond = ImVec2(0.25 * em * len(str(drawn.size[0])), 0.5 * em)  # halves of the last numbers
+    taken = ImVec2(a.x + gap, 0) if beside else ImVec2(0, a.y + gap)
+    unit = canvas_unit(drawn.size, room - taken - margin - beyond)
+    b = margin + ImVec2(*drawn.size) * unit + beyond
+    total = ImVec2(taken.x + b.x, max(a.y, b.y)) if beside else ImVec2(max(a.x, b.x), taken.y + b.y)
+    return Arranged(beside, largest >= least, larger, unit, a, b, total)
 
 
 def _margin(size: Size, em: float) -> ImVec2:

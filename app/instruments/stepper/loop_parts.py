@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lucida.app.instruments.probe.crossings import Index
+from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, Vector, three
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import Color, Scene
 from lucida.renderer.trace import pure_python as scalar
 
@@ -32,7 +34,7 @@ class ViewingRay(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Object:
-    """An object of the scene: a sphere, or triangles. low, high: the corners of its box."""
+    """An object of the scene: a sphere, or triangles. low, high: the corners of a box around it."""
 
     number: int
     name: str
@@ -60,11 +62,10 @@ MISS = Hit(math.inf)
 class Model:
     """A scene, prepared for the loops."""
 
-    def __init__(self, scene: Scene, index: Index | None = None) -> None:
+    def __init__(self, scene: Scene) -> None:
         scalar.load()
-        self.scene = scene
-        self.index = Index(flatten(scene)) if index is None else index
-        self.flat: FlatScene = self.index.flat
+        self.scene, self.flat = scene, flatten(scene)
+        self.index = Index(self.flat)
         self.background: Color = three(self.flat.background)
         self.objects = tuple(self._object(number) for number, _ in scene.visible)
 
@@ -73,46 +74,31 @@ class Model:
         first, count = flat.object_faces[number]
         used, faces = np.unique(flat.faces[first : first + count], return_inverse=True)
         vertices, faces = self.index.vertices[used], faces.reshape(-1, 3).astype(np.int64)
-        if sphere >= 0:
-            center, radius = flat.spheres[sphere, :3], float(flat.spheres[sphere, 3])
-            low, high = center - radius, center + radius
-        else:
-            low, high = vertices.min(axis=0), vertices.max(axis=0)
+        low, high = vertices.min(axis=0, initial=math.inf), vertices.max(axis=0, initial=-math.inf)
+        slack = 1e-9 * np.abs(vertices).max(initial=0.0)
         name = self.scene.objects[number].name or f"object {number}"
-        return Object(number, name, sphere, vertices, faces, three(low), three(high), self.index)
+        low, high = three(low - slack), three(high + slack)
+        return Object(number, name, sphere, vertices, faces, low, high, self.index)
 
 
 class Canvas:
-    """An array of colours, canvas[i, j], height by width. What is not yet set is NaN.
+    """An array of colours or of depths, canvas[i, j], height by width.
 
-    log: everything that was ever written, (i, j, colour).
+    empty: the array before anything is written. log: everything that was ever written, (i, j,
+    value).
     """
 
-    def __init__(self, size: Size, background: Color = (math.nan, math.nan, math.nan)) -> None:
-        width, height = size
-        self.background = background
-        self.array = np.full((height, width, 3), background)
-        self.log: list[tuple[int, int, Color]] = []
+    def __init__(self, size: Size, empty: ArrayLike = (math.nan, math.nan, math.nan)) -> None:
+        self.empty = np.full((size[1], size[0], *np.shape(empty)), empty)
+        self.array = self.empty.copy()
+        self.log: list[tuple[int, int, Any]] = []
 
-    def __setitem__(self, pixel: tuple[int, int], color: Color) -> None:
-        self.array[pixel] = color
-        self.log.append((*pixel, color))
+    def __getitem__(self, pixel: Pixel) -> Any:
+        return self.array[pixel]
 
-
-class DepthBuffer:
-    """For each pixel the t of the nearest hit so far; infinity in the beginning. log: as above."""
-
-    def __init__(self, size: Size) -> None:
-        width, height = size
-        self.array = np.full((height, width), math.inf)
-        self.log: list[tuple[int, int, float]] = []
-
-    def __getitem__(self, pixel: tuple[int, int]) -> float:
-        return float(self.array[pixel])
-
-    def __setitem__(self, pixel: tuple[int, int], t: float) -> None:
-        self.array[pixel] = t
-        self.log.append((*pixel, t))
+    def __setitem__(self, pixel: Pixel, value: Any) -> None:
+        self.array[pixel] = value
+        self.log.append((*pixel, value))
 
 
 def viewing_ray(camera: Camera, x: float, y: float) -> ViewingRay:
@@ -159,17 +145,10 @@ def light_at(
 
 
 def meets_box(low: Vector, high: Vector, origin: Vector, direction: Vector) -> bool:
-    """Return True if the ray's line meets a slightly enlarged box. Source: Kay and Kajiya's slabs,
-    1986.
-    """
+    """Return True if the ray's line meets a box. Source: Kay and Kajiya's slabs, 1986."""
     enter, leave = -math.inf, math.inf
-    for k in range(3):
-        slack = 1e-9 * (abs(low[k]) + abs(high[k]) + abs(origin[k]))
-        to_low, to_high = low[k] - slack - origin[k], high[k] + slack - origin[k]
-        if direction[k] == 0.0:
-            if to_low > 0.0 or to_high < 0.0:
-                return False
-            continue
-        first, second = to_low / direction[k], to_high / direction[k]
+    for a, b, at, way in zip(low, high, origin, direction, strict=True):
+        way = way or 1e-300  # along the face
+        first, second = (a - at) / way, (b - at) / way
         enter, leave = max(enter, min(first, second)), min(leave, max(first, second))
     return enter <= leave

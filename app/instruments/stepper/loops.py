@@ -58,3 +58,6 @@ def image_order(scene, camera, size):
                     closest = hit
             canvas[i, j] = color_at(scene, ray, closest)
     return canvas
+
+
+PROGRAMS = rasterization, image_order

@@ -6,46 +6,39 @@ A moment is assembled from a recording. Pixels are (row, column), 0-based.
 from __future__ import annotations
 
 import math
+from array import array
+from bisect import bisect_right
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from lucida.app.instruments.stepper.loop_parts import Hit, Object, ViewingRay
-from lucida.app.instruments.stepper.raster_parts import WHOLE, Corner, Triangle
+from lucida.app.instruments.stepper.raster_parts import Corner, Triangle
 from lucida.app.instruments.stepper.recording import Recording
-from lucida.app.ui.explaining.columns import Column
+from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.notation import number, text_tuple
 from lucida.renderer.camera.checks import Floats
 
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
-EDGES = ("ea", "eb", "ec")
-NEVER: tuple[Column, list[Any]] = Column("i4"), []  # a variable that was not set yet
+Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
 
 
-@dataclass(frozen=True)
-class Variable:
-    """A variable's name and value as text.
-
-    changed: set by the line that has just run.
-    note: the meaning of the value, for an edge
-    function: the side of the edge that the pixel is on.
-    """
+class Variable(NamedTuple):
+    """A variable. changed: set by the line that has just run."""
 
     name: str
-    text: str
+    value: Any
     changed: bool
-    note: str = ""
-    value: Any = None
 
 
 @dataclass(frozen=True, eq=False)
 class Moment:
     """The state before a step's line runs.
 
-    line: its number in the source. pixel, object (its number), ray, box (rows, columns), triangle
-    and corners (its own, in the image): None outside the loop that sets them.
+    line: its number in the source. pixel, ray, box (rows, columns), triangle and corners (its own,
+    in the image): None outside the loop that sets them.
     canvas: linear light (height, width, 3), NaN where unset.
     depth: (height, width), None in image order.
     t: of the closest hit so far of the pixel's ray; infinite for none.
@@ -54,8 +47,7 @@ class Moment:
     step: int
     line: int
     variables: tuple[Variable, ...]
-    pixel: tuple[int, int] | None
-    object: int | None
+    pixel: Pixel | None
     ray: ViewingRay | None
     box: tuple[range, range] | None
     triangle: Triangle | None
@@ -63,94 +55,65 @@ class Moment:
     canvas: Floats
     depth: Floats | None
     t: float
-    finished: bool
 
 
 def moment_at(recording: Recording, step: int) -> Moment:
-    """Return the moment before a step. Steps outside 0 to len(recording) - 1 are clamped.
-
-    Must not be called before there is a step.
-    """
+    """Return the moment before a step. Steps outside 0 to len(recording) - 1 are clamped."""
     step = max(0, min(step, len(recording) - 1))
-    source = recording.source
-    line = int(recording.lines[step])
-    now = {name: _since(recording, name, step)[1] for name in recording.values}
-    in_pixel, in_object = source.pixels.runs(line), source.objects.runs(line)
-    pixel = (now["i"], now["j"]) if in_pixel else None
-    triangle: Triangle | None = now.get("triangle") if in_object else None
-    thing: Object | None = now.get("object") if in_object else None
-    if triangle is not None:
-        thing = triangle.object
-    closest: Hit | None = now.get("closest")
-    box: tuple[Any, Any] = now.get("rows"), now.get("columns")
-    writes = recording.write_steps.count_upto(step)
+    line = recording.lines[step]
+    since: dict[str, int] = {}
+    now: dict[str, Any] = {}
+    for name, (steps, values) in recording.changes.items():
+        if count := bisect_right(steps, step):
+            since[name], now[name] = steps[count - 1], values[count - 1]
 
-    def is_fresh(name: str, turns: Column) -> bool:
-        """Return True if a variable was set since the loop's present turn began."""
-        return _since(recording, name, step)[0] > int(turns[turns.count_upto(step) - 1])
+    def fresh(name: str, body: range, turns: array[int]) -> Any:
+        """Return a variable that was set in the present turn of a loop, or None."""
+        begun = bisect_right(turns, step)
+        is_fresh = line in body and name in since and since[name] >= turns[begun - 1]
+        return now[name] if is_fresh else None
 
-    is_tested = in_pixel and is_fresh("closest", recording.pixel_steps)
+    in_pixel = recording.source.pixels, recording.pixel_steps
+    in_object = recording.source.objects, recording.object_steps
+    closest, rows = fresh("closest", *in_pixel), fresh("rows", *in_object)
     return Moment(
         step=step,
         line=line,
-        variables=tuple(_variables(recording, now, step)),
-        pixel=pixel,
-        object=None if thing is None else thing.number,
-        ray=now.get("ray") if in_pixel and is_fresh("ray", recording.pixel_steps) else None,
-        box=box if in_object and is_fresh("rows", recording.object_steps) else None,
-        triangle=triangle,
-        corners=(
-            tuple(now[name] for name in "abc")
-            if triangle is not None and is_fresh("c", recording.object_steps)
-            else None
+        variables=tuple(
+            Variable(name, now[name], since[name] == step) for name in SHOWN if name in now
         ),
-        canvas=_canvas(recording, writes, now),
-        depth=_depth(recording, step, now),
-        t=closest.t if closest and is_tested else math.inf,
-        finished=recording.complete and step == len(recording) - 1,
+        pixel=(now["i"], now["j"]) if line in recording.source.pixels else None,
+        ray=fresh("ray", *in_pixel),
+        box=None if rows is None else (rows, now["columns"]),
+        triangle=now.get("triangle") if line in recording.source.objects else None,
+        corners=None if fresh("c", *in_object) is None else (now["a"], now["b"], now["c"]),
+        canvas=_written(recording, "canvas", step, now),
+        depth=_written(recording, "depth", step, now) if "depth" in now else None,
+        t=math.inf if closest is None else closest.t,
     )
 
 
-# Ways to move on: each returns a step.
+def after(recording: Recording, step: int, wish: Wish, count: int = 1) -> int:
+    """Return the step after a wish. count: of the lines to go on."""
+    last = len(recording) - 1
+    if wish in ("pixel", "object"):
+        turns = recording.pixel_steps if wish == "pixel" else recording.object_steps
+        at = bisect_right(turns, step)
+        return turns[at] if at < len(turns) else last
+    to = {"first": 0, "last": last, "back": step - 1}.get(wish, step + count)
+    return min(max(to, 0), last)
 
 
-def next_pixel(recording: Recording, step: int) -> int:
-    """Return the step at which the next pixel's turn begins, or the last step."""
-    return _after(recording, recording.pixel_steps, step)
-
-
-def next_object(recording: Recording, step: int) -> int:
-    """Return the step at which the next object's turn begins, or the last step."""
-    return _after(recording, recording.object_steps, step)
-
-
-def _after(recording: Recording, steps: Column, step: int) -> int:
-    at = steps.count_upto(step)
-    return int(steps[at]) if at < len(steps) else len(recording) - 1
-
-
-# Parts of a moment.
-
-
-def _since(recording: Recording, name: str, step: int) -> tuple[int, Any]:
-    """Return a variable's value before a step, and since when it has it; (-1, None) for none."""
-    changes, values = recording.values.get(name, NEVER)
-    at = changes.count_upto(step)
-    return (int(changes[at - 1]), values[at - 1]) if at else (-1, None)
-
-
-def _variables(recording: Recording, now: dict[str, Any], step: int) -> list[Variable]:
-    return [
-        Variable(
-            name,
-            describe(now[name]),
-            _since(recording, name, step)[0] == step,
-            ("inside" if now[name] >= 0 else "outside") if name in EDGES else "",
-            now[name],
-        )
-        for name in SHOWN
-        if now.get(name) is not None
-    ]
+def _written(recording: Recording, name: str, step: int, now: dict[str, Any]) -> Floats:
+    """Return the canvas or the depth buffer before a step."""
+    width, height = recording.size
+    if (buffer := now.get(name)) is None:
+        return np.full((height, width, 3), math.nan)
+    array: Floats = buffer.empty.copy()
+    if count := bisect_right(recording.writes[name], step):
+        rows, columns, values = zip(*buffer.log[:count], strict=True)
+        array[rows, columns] = values  # of several writes to a pixel the last one stays
+    return array
 
 
 def describe(value: Any, first: int = 0) -> str:
@@ -164,7 +127,7 @@ def describe(value: Any, first: int = 0) -> str:
     if isinstance(value, Object):
         return value.name
     if isinstance(value, Triangle):
-        part = "" if value.shares is WHOLE else ", clipped"
+        part = "" if value.is_whole else ", clipped"
         return f"{value.object.name}, number {value.primitive}{part}"
     if isinstance(value, Corner):
         return f"({value.x:.2f}, {value.y:.2f}), z = {number(value.z, fixed=True)}"
@@ -178,25 +141,3 @@ def describe(value: Any, first: int = 0) -> str:
             return "miss, t = inf"
         return f"t = {number(value.t, fixed=True)}, {value.object.name}"
     return number(value, fixed=True) if isinstance(value, float) else str(value)
-
-
-def _canvas(recording: Recording, writes: int, now: dict[str, Any]) -> Floats:
-    width, height = recording.size
-    canvas = now.get("canvas")
-    background = (math.nan,) * 3 if canvas is None else canvas.background
-    array = np.full((height, width, 3), background)
-    pixels = recording.write_pixels.upto(writes)
-    # Of several writes to a pixel the last one stays: NumPy assigns in order.
-    array[pixels[:, 0], pixels[:, 1]] = recording.write_colors.upto(writes)
-    return array
-
-
-def _depth(recording: Recording, step: int, now: dict[str, Any]) -> Floats | None:
-    if now.get("depth") is None:
-        return None
-    width, height = recording.size
-    array = np.full((height, width), math.inf)
-    count = recording.depth_steps.count_upto(step)
-    pixels = recording.depth_pixels.upto(count)
-    array[pixels[:, 0], pixels[:, 1]] = recording.depth_t.upto(count)
-    return array

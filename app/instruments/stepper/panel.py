@@ -1,66 +1,181 @@
-"""One algorithm in the loop stepper: its code, canvas and variables.
+"""The loop stepper's controls, and one algorithm: its code, canvas and variables.
 
-Takes moments, returns wishes. controls.py has the buttons above.
+Takes states and moments, returns states and wishes.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import NamedTuple
+
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.stepper.drawing import Drawn, draw_program, written
-from lucida.app.instruments.stepper.model import Moment
-from lucida.app.instruments.stepper.numbers import numbers
-from lucida.app.instruments.stepper.recording import MOST_STEPS, Order, Recording
+from lucida.app.instruments.stepper.model import Moment, Variable, Wish, describe
+from lucida.app.instruments.stepper.recording import MOST_STEPS, Recording
 from lucida.app.state.app_state import AppState
+from lucida.app.state.bounds import range_of
+from lucida.app.state.options import Options
+from lucida.app.state.options.stepper import StepperOptions
+from lucida.app.ui import theme
 from lucida.app.ui.canvas import Marks
-from lucida.app.ui.rows import follow
-from lucida.app.ui.sliders import slider_int
+from lucida.app.ui.checks import checkbox
+from lucida.app.ui.explaining import symbols
+from lucida.app.ui.lettering import underline
+from lucida.app.ui.rows import button_width, follow, tip
 from lucida.app.ui.theme import Fonts
 
-TITLES = {Order.RASTER: "Object order: rasterization", Order.IMAGE: "Image order: ray tracing"}
+CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
+SPEED_EM = 6.5
 SLIDER_EM = 12.0  # the least width of the slider next to a title
 PROGRAM = 0.68  # of the height
+INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
+EDGES = ("ea", "eb", "ec")
+
+
+class Step(NamedTuple):
+    """A wish, its button, what it does, and its keys: shown, and as ImGui counts them."""
+
+    wish: Wish
+    button: str
+    told: str
+    shown: str
+    chord: int
+    repeats: bool = False
+
+
+_KEY = imgui.Key
+STEPS = (
+    Step("first", "First", "to the beginning", "Home", int(_KEY.home)),
+    Step("back", "Back", "one line back", "Left", int(_KEY.left_arrow), True),
+    Step("play", "Play", "play and pause", "Space", int(_KEY.space)),
+    Step("step", "Step", "one line on", "Right", int(_KEY.right_arrow), True),
+    Step("pixel", "Next pixel", "to the next pixel's turn", "Down", int(_KEY.down_arrow), True),
+    Step(
+        "object", "Next object", "to the next object's turn", "Shift+Down",
+        int(_KEY.mod_shift) | int(_KEY.down_arrow), True,
+    ),
+    Step("last", "Last", "to the end", "End", int(_KEY.end)),
+)  # fmt: skip
+
+
+def controls(state: AppState, playing: bool) -> tuple[AppState, Wish]:
+    """Draw the controls. Return the state after them, and the wish of a clicked button."""
+    wish: Wish = ""
+    for number, (name, label, told, keys, *_) in enumerate(STEPS):
+        # Play and Pause have the same width.
+        width = button_width("Pause" if name == "play" else label)
+        if number:
+            follow(width)
+        shown = "Pause" if name == "play" and playing else label
+        if imgui.button(f"{shown}###{name}", ImVec2(width, 0)):
+            wish = name
+        imgui.set_item_tooltip(f"{told} ({keys})")
+    options = state.options.stepper
+    _next(SPEED_EM * imgui.get_font_size())
+    flags = imgui.SliderFlags_.logarithmic
+    limits = range_of(StepperOptions, "speed")
+    changed, speed = imgui.slider_float("##speed", options.speed, *limits, "%.0f steps/s", flags)
+    if changed:
+        options = replace(options, speed=speed)
+    sizes = list(dict.fromkeys([*CANVASES, options.canvas]))  # a lecture may ask for any size
+    texts = [f"{width} x {height} pixels" for width, height in sizes]
+    _next(imgui.calc_text_size(texts[-1]).x + 2.2 * imgui.get_frame_height())
+    changed, number = imgui.combo("##pixels", sizes.index(options.canvas), texts)
+    if changed:
+        options = replace(options, canvas=sizes[number], steps=(0, 0))
+    follow(imgui.calc_text_size("depth").x + 1.5 * imgui.get_frame_height())
+    options = replace(options, depth=checkbox("depth", options.depth)[1])
+    tip("the nearest t of each pixel so far, near ones bright, in object order's canvas")
+    follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
+    changed, is_julia = checkbox("Julia", state.options.language == "julia")
+    tip("the same lines in Julia; what runs is Python")
+    if changed:
+        language = replace(state.options, language="julia" if is_julia else "python")
+        state = state.with_options(language)
+    return state.with_options(options), wish
+
+
+def _next(width: float) -> None:
+    """Place an item in the same row if there is room."""
+    follow(width)
+    imgui.set_next_item_width(width)
+
+
+def keys() -> Wish:
+    """Return what the keys ask for while the panel has them.
+
+    They are taken from ImGui's navigation, which keeps Tab and Enter.
+    """
+    focused, repeat = imgui.InputFlags_.route_focused, imgui.InputFlags_.repeat
+    pressed = [
+        step.wish
+        for step in STEPS
+        if imgui.shortcut(step.chord, int(focused) | int(repeat) * step.repeats)
+    ]
+    return pressed[0] if pressed and not imgui.is_any_item_active() else ""
 
 
 def run_panel(
-    recording: Recording, moment: Moment, texture: int, state: AppState, fonts: Fonts
+    title: str, recording: Recording, moment: Moment, texture: int, state: AppState, fonts: Fonts
 ) -> int | None:
-    """Draw the name, the slider of the step, code, canvas and variables.
+    """Draw the title, the slider of the step, code, canvas and variables.
 
     texture: of the canvas. Return the step that the slider asks for.
     """
     imgui.push_font(fonts.bold, 0.0)
     imgui.align_text_to_frame_padding()
-    imgui.text(TITLES[recording.order])
+    imgui.text(title)
     imgui.pop_font()
     follow(SLIDER_EM * imgui.get_font_size())
-    step = _slider(recording, moment)
-    options = state.options
-    lines, lit = written(recording.source.lines, {moment.line: 1.0}, state)
-    corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
-    drawn = Drawn(
-        lines, lit, texture, recording.size, Marks(moment.pixel, moment.box, corners),
-        options.indexing.value,
-    )  # fmt: skip
-    low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
-    high = PROGRAM * room.y
-    draw_program(drawn, low, ImVec2(room.x, high), fonts)
-    imgui.set_cursor_screen_pos(low + ImVec2(0, high))
-    imgui.begin_child("variables")
-    numbers(moment.variables, options.indexing, options.notation, fonts)
-    imgui.end_child()
-    return step
-
-
-def _slider(recording: Recording, moment: Moment) -> int | None:
-    """Draw the slider of the run's step. Return the step that it asks for."""
-    most = max(1, len(recording) - 1)
     imgui.set_next_item_width(-1)
+    most = max(1, len(recording) - 1)
     note = f"step %d of {most}"
     if recording.truncated:
         note += f" (stopped after {MOST_STEPS}: take fewer pixels)"
-    changed, step = slider_int(
-        f"##step {recording.order.name}", moment.step, 0, most, note,
-        imgui.SliderFlags_.always_clamp,
-    )  # fmt: skip
+    flags = imgui.SliderFlags_.always_clamp
+    changed, step = imgui.slider_int(f"##step {title}", moment.step, 0, most, note, flags)
+    lines, lit = written(recording.source.lines, {moment.line: 1.0}, state)
+    corners = tuple((corner.x, corner.y) for corner in moment.corners or ())
+    marks, base = Marks(moment.pixel, moment.box, corners), state.options.indexing.value
+    low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    high = PROGRAM * room.y
+    drawn = Drawn(lines, lit, texture, recording.size, marks, base)
+    draw_program(drawn, low, ImVec2(room.x, high), fonts)
+    imgui.set_cursor_screen_pos(low + ImVec2(0, high))
+    imgui.begin_child("variables")
+    _variables(moment.variables, state.options, fonts)
+    imgui.end_child()
     return step if changed else None
+
+
+def _variables(variables: tuple[Variable, ...], options: Options, fonts: Fonts) -> None:
+    """Draw the variables, each in a line."""
+    if not variables or not imgui.begin_table("numbers", 2, imgui.TableFlags_.no_saved_settings):
+        return
+    names = [symbols.program(one.name, options.notation) for one in variables]
+    widest = max(imgui.calc_text_size(name).x for name in names)
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
+    imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+    for shown, (name, value, changed) in zip(names, variables, strict=True):
+        text, note, indexing = describe(value), "", options.indexing
+        if name in INDICES:  # as the code next to it
+            text, note = describe(value, indexing.value), indexing.told
+        elif name in EDGES:
+            note = "inside" if value >= 0 else "outside"
+        color = theme.legible(theme.MARK) if changed else theme.TEXT
+        imgui.table_next_row()
+        imgui.table_next_column()
+        imgui.text_colored(theme.DIM, shown)
+        imgui.table_next_column()
+        imgui.push_text_wrap_pos(0.0)
+        imgui.push_font(fonts.mono, 0.0)
+        imgui.text_colored(color, text)
+        imgui.pop_font()
+        if changed:
+            underline(color)
+        if note:
+            follow(imgui.calc_text_size(note).x)
+            imgui.text_colored(theme.DIM, note)
+        imgui.pop_text_wrap_pos()
+    imgui.end_table()

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.instruments.stepper.drawing import Drawn, draw_program, written
+from lucida.app.instruments.stepper.drawing import Canvases, Drawn, draw_program, written
 from lucida.app.instruments.stepper.loop_parts import Model
 from lucida.app.instruments.stepper.outside_items import traced_items
 from lucida.app.instruments.stepper.programs import (
@@ -27,86 +26,58 @@ from lucida.app.instruments.stepper.programs import (
 from lucida.app.instruments.stepper.questions import draw_questions
 from lucida.app.instruments.stepper.runs import Prepared
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui import theme
-from lucida.app.ui.canvas import Marks, color_picture
+from lucida.app.ui.canvas import Marks
 from lucida.app.ui.host import Host
-from lucida.app.ui.uploads import Uploads
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 
 TEXT = 0.12  # of the height, above the two loops: for a text that lies over it
 
 
 class LoopPictures:
-    """wake: called from a thread when the hits are found."""
+    """hits: of the current scene, found on a thread. wake: called from it when they are found."""
 
-    def __init__(self, context: moderngl.Context, wake: Callable[[], None]) -> None:
-        self._uploads = Uploads(context)
-        self._hits = Prepared("lucida-loops", _hits, wake)
+    def __init__(self, canvases: Canvases, wake: Callable[[], None]) -> None:
+        self._canvases = canvases
+        self.hits = Prepared("lucida-loops", _hits, wake)
         self._runs = Memo(_runs)
         self._moment = Memo(_moment, 4)
-        self._put = {name: Memo(_put) for name in ("first", "second")}
-
-    @property
-    def busy(self) -> bool:
-        return self._hits.busy
-
-    def release(self) -> None:
-        self._hits.close()
-        self._uploads.release()
 
     def draw(self, host: Host, outside: OutsideView, source: str) -> None:
         """Draw the picture into the rest of the window, and its ray in the outside view."""
-        self._uploads.begin_frame()
         state, options = host.state, host.state.options.stepper
-        made = self._hits.of(state.scene, state.view.for_size(options.canvas), options.canvas)
         low, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
         if options.picture == "loops":
             low.y, room.y = low.y + TEXT * room.y, (1 - TEXT) * room.y
-        if self._hits.error is not None:
-            imgui.text_colored(theme.ERROR, describe(self._hits.error))
+        if (made := self.hits.current(host)) is None:
             return
-        if made is None:
-            host.animate()
-            return
-        camera, hits = made.camera, made.value
-        runs = self._runs(hits, options.picture, camera)
+        runs = self._runs(made.value, options.picture, made.camera)
+        in_words, exposure_ev = options.picture != "program", state.images.exposure_ev
         first = state.marked or (options.canvas[1] // 2, options.canvas[0] // 2)
-        moments = [
-            self._moment(run, part, first if options.picture == "rays" else None)
-            for run, part in zip(runs, options.parts[-len(runs) :], strict=True)
-        ]
         if options.picture == "questions":
-            texture = self._texture("first", runs[0].at(1).canvas, host)
-            draw_questions(low, room, texture, options.canvas, options.parts[0])
+            canvas = runs[0].at(1).canvas
+            texture = self._canvases.texture("run 0", canvas, exposure_ev)
+            draw_questions(low, room, texture.glo, options.canvas, options.parts[0])
             return
-        for run, moment, name, (corner, size) in zip(
-            runs, moments, self._put, _places(low, room, len(runs)), strict=False
+        for number, (run, (corner, size)) in enumerate(
+            zip(runs, _places(low, room, len(runs)), strict=True)
         ):
+            part = options.parts[number - len(runs)]
+            moment = self._moment(run, part, first if options.picture == "rays" else None)
             lines, lit = tuple(line.text for line in run.lines), moment.lit
-            if options.picture == "program":
+            if not in_words:
                 lines, lit = written(lines, lit, state)
-            texture, base = self._texture(name, moment.canvas, host), state.options.indexing.value
-            marks, canvas = Marks(moment.pixel), options.canvas
-            in_words = options.picture != "program"
-            drawn = Drawn(lines, lit, texture, canvas, marks, base, in_words)
+            texture = self._canvases.texture(f"run {number}", moment.canvas, exposure_ev)
+            marks, base = Marks(moment.pixel), state.options.indexing.value
+            drawn = Drawn(lines, lit, texture.glo, options.canvas, marks, base, in_words)
             draw_program(drawn, corner, size, host.fonts)
-        if options.picture == "rays" and camera == host.renderers.camera(state):
-            part, end = options.parts[1], end_parameter(camera, host.focus.framed)
-            items = traced_items(hits, camera, moments[0].pixel, part, end)
-            outside.show(source, items, picture=self._uploads.get("first"))
+        if options.picture == "rays" and made.camera == host.renderers.camera(state):
+            end = end_parameter(made.camera, host.focus.framed)
+            items = traced_items(made.value, made.camera, moment.pixel, options.parts[1], end)
+            outside.show(source, items, picture=self._canvases.get("run 0"))
         else:
             outside.show(source)
-
-    def _texture(self, name: str, canvas: Floats, host: Host) -> int:
-        exposure_ev = host.state.images.exposure_ev
-        self._put[name](self._uploads, name, canvas, exposure_ev, theme.used())
-        texture = self._uploads.get(name)
-        assert texture is not None
-        return texture.glo
 
 
 def _places(low: ImVec2, room: ImVec2, count: int) -> list[tuple[ImVec2, ImVec2]]:
@@ -135,12 +106,6 @@ def _moment(run: LoopRun, part: float, first: Pixel | None) -> LoopMoment:
         return moment
     line = min(math.ceil(part), len(RAY_TRACING) - 1)
     return LoopMoment(moment.canvas, first if part > 0 else None, {line: 1.0} if part > 0 else {})
-
-
-def _put(
-    uploads: Uploads, name: str, canvas: Floats, exposure_ev: float, look: theme.WindowLook
-) -> None:
-    uploads.put(name, color_picture(canvas, exposure_ev))
 
 
 def _hits(model: Model, camera: Camera, size: Size, is_wanted: Callable[[], bool]) -> Hits:

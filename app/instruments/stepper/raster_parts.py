@@ -10,15 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lucida.app.instruments.stepper.loop_parts import (
     Canvas,
-    DepthBuffer,
     Model,
     Object,
     color_at,
@@ -27,17 +24,12 @@ from lucida.app.instruments.stepper.loop_parts import (
     viewing_ray,
 )
 from lucida.renderer.camera.camera import NEAREST, Camera
-from lucida.renderer.camera.checks import Floats, Vector
+from lucida.renderer.camera.checks import Floats, three
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.scene.model import Color
-from lucida.renderer.scene.sampling import on_triangles, opacity
-from lucida.renderer.trace import pure_python as scalar
+from lucida.renderer.scene.sampling import are_passed
 
-WHOLE: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
-
-
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
 
 
@@ -50,26 +42,43 @@ class Corner(NamedTuple):
     z: float
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Triangle:
-    """The part of a triangle that the camera can see: clipping makes up to three of one.
+    """The part of a triangle that is in front of the camera: clipping makes up to two of one.
 
-    primitive: its number in the flat scene. points: its corners, world space. shares: the weights
-    of the whole triangle's corners at each of them, with sum 1.
+    primitive: its number in the flat scene. points (3, 3): its corners, world space. shares (3, 3):
+    of each corner, the weights of the whole triangle's corners, with sum 1.
     """
 
     scene: Model
     camera: Camera
     object: Object
     primitive: int
-    points: tuple[Vector, ...]
-    shares: tuple[Vector, ...] = WHOLE
+    points: Floats
+    shares: Floats
+
+    @property
+    def is_whole(self) -> bool:
+        return bool((self.shares == np.eye(3)).all())
+
+    def weights(self, ea: float, eb: float, ec: float) -> Floats:
+        """Return the corners' shares in a point that is given by its edge functions. In perspective
+        the near corners have a smaller share in the point than in its image."""
+        shares = np.array([ea, eb, ec])
+        if not self.camera.is_parallel:
+            shares /= _in_camera(self.points, self.camera)[2]
+            shares /= shares.sum()
+        return shares
+
+    def direction(self, point: Floats) -> Floats:
+        """Return the direction of the viewing ray to a point."""
+        return -np.array(self.camera.w) if self.camera.is_parallel else point - self.camera.eye
 
 
-def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuffer]:
+def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, Canvas]:
     """The canvas in the colour of the background, and infinite depths; then what has no triangles:
     spheres, each pixel by its ray."""
-    canvas, depth = Canvas(size, scene.background), DepthBuffer(size)
+    canvas, depth = Canvas(size, scene.background), Canvas(size, math.inf)
     spheres = [object for object in scene.objects if object.sphere >= 0]
     for i, j in np.ndindex(size[1], size[0] if spheres else 0):
         x, y = (float(place) for place in camera.image_point(i, j, size))
@@ -83,47 +92,31 @@ def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, DepthBuf
 
 
 def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
-    """The scene's triangles, one after another. What lies behind the eye, before near or beyond far
-    is cut off: of a triangle that reaches there, the rest comes as one to three triangles."""
+    """The scene's triangles, one after another. Of one that reaches behind the eye or before near,
+    the rest comes as one or two triangles."""
     for object in scene.objects:
-        if object.sphere >= 0:
-            continue
         first = int(scene.flat.object_faces[object.number, 0])
-        t = _parameters(object.vertices, camera)
-        t_min, t_max = camera.t_range
-        t_low, t_high = t[object.faces].min(axis=1), t[object.faces].max(axis=1)
-        if not camera.is_parallel and t_low.min() <= 0:
-            t_min = max(t_min, NEAREST * float(t_high.max()))  # where 1/t is still a number
-        whole = (t_low > t_min) & (t_high < t_max)
-        wanted = (t_high > t_min) & (t_low < t_max)
-        if scene.flat.single_sided[object.number]:
-            wanted &= ~_backs(scene.flat, object, camera)
-        for number in np.flatnonzero(wanted).tolist():
-            face = object.faces[number]
-            points = tuple(_vector(point) for point in object.vertices[face].tolist())
-            if whole[number]:
-                yield Triangle(scene, camera, object, first + number, points)
-                continue
-            corners = list(zip(points, WHOLE, t[face].tolist(), strict=True))
-            rest = _cut(_cut(corners, t_min, 1.0), t_max, -1.0)
+        t = _in_camera(object.vertices, camera)[2][object.faces]
+        t_min = camera.t_range[0]
+        if not camera.is_parallel:
+            t_min = max(t_min, NEAREST * float(t.max(initial=0.0)))  # where 1/t is still a number
+        for number in np.flatnonzero((t > t_min).any(axis=1)).tolist():
+            points = object.vertices[object.faces[number]]
+            rest = _clipped(np.column_stack([points, np.eye(3), t[number]]), t_min)
             for k in range(1, len(rest) - 1):  # a fan around the first corner
-                fan = rest[0], rest[k], rest[k + 1]
-                points, shares = tuple(one[0] for one in fan), tuple(one[1] for one in fan)
-                yield Triangle(scene, camera, object, first + number, points, shares)
-
-
-def _backs(flat: FlatScene, object: Object, camera: Camera) -> NDArray[np.bool_]:
-    """Return which of an object's triangles show their back, in the object's own space."""
-    a, b, c = (object.vertices[object.faces[:, k]] for k in range(3))
-    way = -np.asarray(camera.w) if camera.is_parallel else a - camera.eye
-    side = np.linalg.det(flat.world_from_object[object.number, :3, :3])
-    backs: NDArray[np.bool_] = side * (np.cross(b - a, c - a) * way).sum(axis=1) > 0
-    return backs
+                fan = np.array([rest[0], rest[k], rest[k + 1]])
+                yield Triangle(scene, camera, object, first + number, fan[:, :3], fan[:, 3:6])
 
 
 def project(triangle: Triangle, camera: Camera, size: Size) -> tuple[Corner, Corner, Corner]:
     """Return the triangle's corners in the image."""
-    a, b, c = (_corner(point, camera, size) for point in triangle.points)
+    x, y, t = _in_camera(triangle.points, camera)
+    left, right, bottom, top = camera.viewport
+    if not camera.is_parallel:
+        x, y, t = x / t, y / t, 1 / t
+    columns = (x - left) / (right - left) * size[0]
+    rows = (top - y) / (top - bottom) * size[1]
+    a, b, c = map(Corner, columns.tolist(), rows.tolist(), t.tolist())
     return a, b, c
 
 
@@ -132,18 +125,17 @@ def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, rang
     a triangle that is seen from its edge."""
     x, y = (a.x, b.x, c.x), (a.y, b.y, c.y)
     extent = max(max(x) - min(x), max(y) - min(y))
-    columns = whole_within(min(x) - 0.5, max(x) - 0.5, size[0])
-    rows = whole_within(min(y) - 0.5, max(y) - 0.5, size[1])
+    columns = _centres_within(min(x), max(x), size[0])
+    rows = _centres_within(min(y), max(y), size[1])
     if not (rows and columns and abs(edge(a, b, c)) > FLAT * extent * extent):
         return range(0), range(0)
     return rows, columns
 
 
-def whole_within(low: float, high: float, count: int) -> range:
-    """Return the whole numbers from low to high that are within 0 to count - 1."""
-    first = math.ceil(min(max(low - ROUNDING_PX, 0.0), count))
-    last = math.floor(max(min(high + ROUNDING_PX, count - 1.0), -1.0))
-    return range(first, max(first, last + 1))
+def _centres_within(low: float, high: float, count: int) -> range:
+    """Return the pixels, of 0 to count - 1, whose centres are between two places."""
+    ends = np.clip((low - 0.5 - ROUNDING_PX, high + 0.5 + ROUNDING_PX), 0, count)
+    return range(math.ceil(ends[0]), math.floor(ends[1]))
 
 
 def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:
@@ -155,93 +147,49 @@ def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:
 
 def t_of(z: float, triangle: Triangle, ea: float, eb: float, ec: float) -> float:
     """Return the ray parameter of a depth z in the image, of the point given by its edge functions;
-    infinite where the triangle has a hole."""
-    flat, number = triangle.scene.flat, triangle.object.number
-    if flat.textures[number, 1, 1] >= 0:  # its texture cuts holes
-        weights = _weights(triangle, ea, eb, ec) @ np.array(triangle.shares)
-        place = on_triangles(flat, np.array([triangle.primitive]), weights[None])
-        if opacity(flat, np.array([number]), place)[0, 0] < 0:
-            return math.inf
-    return z if triangle.camera.is_parallel else 1 / z
+    infinite beyond far, in a hole, and on a back that is not seen."""
+    weights, camera = triangle.weights(ea, eb, ec), triangle.camera
+    t = z if camera.is_parallel else 1 / z
+    passed = are_passed(
+        triangle.scene.flat,
+        np.array([triangle.primitive]),
+        (weights @ triangle.shares)[None],
+        triangle.direction(weights @ triangle.points),
+    )
+    return t if t < camera.t_range[1] and not passed[0] else math.inf
 
 
 def shade(triangle: Triangle, ea: float, eb: float, ec: float) -> Color:
     """The light that comes from a point of the triangle, given by its edge functions in the
     image."""
-    camera, shares = triangle.camera, _weights(triangle, ea, eb, ec)
-    point = _vector((shares @ triangle.points).tolist())
-    _, b1, b2 = _vector((shares @ triangle.shares).tolist())
-    back = scalar.times(-1.0, camera.w)
-    direction = back if camera.is_parallel else scalar.minus(point, camera.eye)
-    return light_at(triangle.scene, direction, point, (triangle.primitive, b1, b2))
+    weights = triangle.weights(ea, eb, ec)
+    point = weights @ triangle.points
+    _, b1, b2 = (weights @ triangle.shares).tolist()
+    direction = three(triangle.direction(point))
+    return light_at(triangle.scene, direction, three(point), (triangle.primitive, b1, b2))
 
 
-def _weights(triangle: Triangle, ea: float, eb: float, ec: float) -> Floats:
-    """Return the corners' shares in a point. In perspective the near corners have a smaller share
-    in the point than in its image."""
-    shares = np.array([ea, eb, ec])
-    if not triangle.camera.is_parallel:
-        shares /= _parameters(np.array(triangle.points), triangle.camera)
-        shares /= shares.sum()
-    return shares
+def _in_camera(points: Floats, camera: Camera) -> Floats:
+    """Return x and y, in units of u and v, and the ray parameter of points (n, 3), as (3, n)."""
+    # A sum of products rounds alike for any n, as a product of matrices need not.
+    found: Floats = (camera.camera_from_world[:3, None, :3] * (points - camera.eye)).sum(axis=2)
+    found[2] /= -1.0 if camera.is_parallel else -camera.distance
+    return found
 
 
-@lru_cache(maxsize=4)
-def _inverse(camera: Camera) -> tuple[Vector, Vector, Vector]:
-    """The rows of the basis's inverse."""
-    across, up, back = (_vector(row) for row in camera.camera_from_world[:3, :3].tolist())
-    return across, up, back
-
-
-def _parameters(points: Floats, camera: Camera) -> Floats:
-    """The ray parameters of points (n, 3), each by the same arithmetic as _corner's."""
-    x, y, z = (points - camera.eye).T
-    back = _inverse(camera)[2]
-    unit = 1.0 if camera.is_parallel else camera.distance
-    t: Floats = -(back[0] * x + back[1] * y + back[2] * z) / unit
-    return t
-
-
-def _corner(point: Vector, camera: Camera, size: Size) -> Corner:
-    offset = scalar.minus(point, camera.eye)
-    x, y, z = (scalar.dot(row, offset) for row in _inverse(camera))
-    t = -z / (1.0 if camera.is_parallel else camera.distance)
-    left, right, bottom, top = camera.viewport
-    if not camera.is_parallel:
-        x, y = x / t, y / t
-    return Corner(
-        (x - left) / (right - left) * size[0],
-        (top - y) / (top - bottom) * size[1],
-        t if camera.is_parallel else 1 / t,
-    )
-
-
-def _cut(
-    corners: list[tuple[Vector, Vector, float]], bound: float, side: float
-) -> list[tuple[Vector, Vector, float]]:
-    """Return the part of a polygon of (point, shares, t) beyond t = bound (side 1) or before it
-    (-1).
+def _clipped(corners: Floats, t_min: float) -> list[Floats]:
+    """Return the part of a polygon beyond t_min. corners (n, m): t is the last number of each.
 
     Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974.
     """
     kept = []
     for k, here in enumerate(corners):
         last = corners[k - 1]
-        inside, was_inside = side * (here[2] - bound) > 0, side * (last[2] - bound) > 0
+        inside, was_inside = here[-1] > t_min, last[-1] > t_min
         if inside != was_inside:
             # Always from without to within: two triangles with this edge get the same point.
             out, into = (last, here) if inside else (here, last)
-            part = (bound - out[2]) / (into[2] - out[2])
-            kept.append((_between(out[0], into[0], part), _between(out[1], into[1], part), bound))
+            kept.append(out + (t_min - out[-1]) / (into[-1] - out[-1]) * (into - out))
         if inside:
             kept.append(here)
     return kept
-
-
-def _between(a: Vector, b: Vector, part: float) -> Vector:
-    return scalar.plus(a, scalar.times(part, scalar.minus(b, a)))
-
-
-def _vector(values: Sequence[float]) -> Vector:
-    x, y, z = values
-    return x, y, z

@@ -5,12 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Generic, NamedTuple, TypeVar
 
+from imgui_bundle import imgui
+
 from lucida.app.instruments.stepper.loop_parts import Model
-from lucida.app.instruments.stepper.recording import Order, Recording
+from lucida.app.instruments.stepper.loops import PROGRAMS
+from lucida.app.instruments.stepper.recording import Recording
+from lucida.app.ui import theme
 from lucida.app.ui.background import Background
+from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo, same
 
 T = TypeVar("T")
@@ -51,16 +57,25 @@ class Prepared(Generic[T]):
     def of(self, scene: Scene, camera: Camera, size: Size) -> Made[T] | None:
         """Return the value of a scene and a canvas, of this camera or an earlier one; None before
         there is any.
-
-        error: the reason if there is none, such as an invalid canvas.
         """
         self._wanted = scene, size
-        outcome = self._background.poll()
-        if outcome is not None:
+        if (outcome := self._background.poll()) is not None:
             self.error, self._made = outcome.error, outcome.value or self._made
         self._background.ask(self._prepare, scene, camera, size)
         made = self._made
-        return made if made is not None and same((made.scene, made.size), (scene, size)) else None
+        return made if made is not None and same((made.scene, made.size), self._wanted) else None
+
+    def current(self, host: Host) -> Made[T] | None:
+        """Return of() for the window's scene and camera. Draw the reason if there is no value."""
+        state, canvas = host.state, host.state.options.stepper.canvas
+        made = self.of(state.scene, state.view.for_size(canvas), canvas)
+        if self.error is not None:
+            imgui.text_colored(theme.ERROR, describe(self.error))
+            return None
+        if made is None:
+            imgui.text_colored(theme.DIM, "preparing the scene ...")
+            host.animate()
+        return made
 
     def close(self) -> None:
         self._wanted = None
@@ -77,12 +92,9 @@ class Prepared(Generic[T]):
 
 def recordings(
     model: Model, camera: Camera, size: Size, is_wanted: Callable[[], bool]
-) -> dict[Order, Recording]:
-    """Record both algorithms. A run that is no longer wanted ends."""
-    runs = {order: Recording(model, camera, size, order) for order in Order}
-    for run in runs.values():
-        run.run(is_wanted)
-    return runs
+) -> tuple[Recording, ...]:
+    """Record both algorithms. A run that is no longer wanted ends early."""
+    return tuple(Recording(model, camera, size, program, is_wanted) for program in PROGRAMS)
 
 
 def _model(scene: Scene) -> Model:

@@ -12,8 +12,7 @@ Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Point = tuple[Coordinate, Coordinate, Coordinate]
 # Of the key formula as it grows: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
 STAGES = ("pixel", "centre", "w", "u", "v", "ray")
-# With a lens: between its centre and the terms, the pixel's ideal point.
-LENS_STAGES = (*STAGES[:2], "undistort", *STAGES[2:])
+MOST_GROWN = 7  # a session of an earlier version may say so
 Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
 
@@ -28,8 +27,7 @@ class OutsideOptions(OptionPart):
         or turn up, from which the basis then follows.
     target: a point to draw as **a**, with up as an arrow at the eye, from which a lecture makes a
         basis; None to draw neither.
-    formula: how far the marked pixel's formula has grown, in STAGES or LENS_STAGES; None to hide
-        it.
+    formula: how far the marked pixel's formula has grown, in STAGES; None to hide it.
     pixels: show the image plane in pixels, with K's numbers to drag.
 
     The numbers below are drawings of a lecture that grow: each counts the parts that are complete.
@@ -53,7 +51,7 @@ class OutsideOptions(OptionPart):
     gizmo: Literal["none", "move", "turn", "distance", "up"] = "none"
     target: Point | None = None
     up: Point = (0.0, 1.0, 0.0)
-    formula: Annotated[float, Range(0, len(LENS_STAGES))] | None = None
+    formula: Annotated[float, Range(0, MOST_GROWN)] | None = None
     pixels: bool = False
     points: Annotated[tuple[Point, ...], AtMost(16)] = ()
     points_grown: Annotated[float, Range(0, 2)] = 2.0

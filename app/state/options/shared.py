@@ -110,9 +110,8 @@ class SharedOptions:
     shadows, mirrors: effects that only image order has. one_based: pixels are counted from 1, as in
     the
     lecture, or from 0, as in arrays. notation: the symbols of formulas and programs, see
-    explaining/symbols.py. language: of the shown programs. presets_in_perspective:
-    presets of the camera are in perspective if they can be. pixel_origin: the place of K's whole
-    numbers, pixels' centres or corners. bookmarks: in the order of their numbers.
+    explaining/symbols.py. language: of the shown programs. pixel_origin: the place of
+    K's whole numbers, pixels' centres or corners. bookmarks: in the order of their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)
@@ -124,7 +123,6 @@ class SharedOptions:
     one_based: bool = True
     notation: Notation = "book"
     language: Language = "python"
-    presets_in_perspective: bool = False
     pixel_origin: PixelOrigin = "center"
     bookmarks: Annotated[tuple[Bookmark, ...], AtMost(MOST_BOOKMARKS)] = ()
 

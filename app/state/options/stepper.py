@@ -22,7 +22,6 @@ class StepperOptions(OptionPart):
     each whole number and is complete at the next. Ray tracing's lines are executed at the marked
     pixel up to 1, 2 and 3, and at the other pixels up to 4. The questions appear up to 1, 2 and 3.
     canvas: (width, height).
-    order: the visible algorithms.
     steps: of the run in object order, and of the one in image order; a step past the end is the
     last.
     depth: show object order's depth buffer in place of its canvas.
@@ -32,7 +31,6 @@ class StepperOptions(OptionPart):
     picture: Literal["loops", "rays", "program", "questions"] = "loops"
     parts: tuple[Runs, Runs] = (0.0, 0.0)
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)
-    order: Literal["both", "object", "image"] = "both"
     steps: tuple[Step, Step] = (0, 0)
     depth: bool = False
     speed: Annotated[float, Range(1, 20_000)] = 8.0

@@ -1,4 +1,4 @@
-"""Numbers and vectors as formulas write them: as LaTeX, and as plain text."""
+"""Numbers and vectors as formulas write them, in LaTeX; and numbers as plain text."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ FRACTION = 1600  # parts of 1 that have at most six decimals: those of 32 or 160
 
 @dataclass(frozen=True)
 class Line:
-    """One step: in symbols, followed by a pixel's numbers.
+    """One step as LaTeX: in symbols, followed by a pixel's numbers.
 
     key: the step's id, the same for every pixel.
     name: in words.
-    latex, text: `u = ...`.
-    latex_numbers, text_numbers: `= ... = 0.125`.
+    latex: `u = ...`.
+    latex_numbers: `= ... = 0.125`.
     value: the result, as numbers.
     """
 
@@ -25,77 +25,62 @@ class Line:
     name: str
     latex: str
     latex_numbers: str
-    text: str
-    text_numbers: str
     value: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
 class Slot:
-    """A quantity of a formula: its symbol and its value, each as LaTeX and as text."""
+    """A quantity of a formula: its symbol and its value as LaTeX."""
 
     latex: str
-    text: str
     latex_value: str
-    text_value: str
 
 
-def scalar_slot(latex: str, value: float, text: str | None = None, factor: bool = False) -> Slot:
+def scalar_slot(latex: str, value: float, factor: bool = False) -> Slot:
     """Return a number for a formula. factor: part of a product, so negative ones get brackets."""
-    shown, plain = latex_number(value), number(value)
-    if factor and (value < 0 or "e" in plain):
-        shown, plain = rf"({shown})", f"({plain})"
-    return Slot(latex, latex if text is None else text, shown, plain)
+    shown = latex_number(value)
+    bracketed = factor and (value < 0 or "cdot" in shown)
+    return Slot(latex, f"({shown})" if bracketed else shown)
 
 
-def vector_slot(name: str, value: Iterable[float], text: str | None = None) -> Slot:
-    r"""Return a bold vector: `\mathbf{name}`, as text `vec(name)`."""
-    value = tuple(value)
-    plain = f"vec({name})" if text is None else text
-    return Slot(bold(name), plain, latex_tuple(value), text_tuple(value))
+def vector_slot(name: str, value: Iterable[float]) -> Slot:
+    r"""Return a bold vector, `\mathbf{name}`."""
+    return Slot(bold(name), latex_tuple(value))
 
 
 def formula(
     key: str,
     name: str,
-    left: tuple[str, str],
-    right: tuple[str, str],
+    left: str,
+    right: str,
     slots: Mapping[str, Slot],
     value: float | Iterable[float],
-    result: tuple[str, str] | None = None,
+    result: str | None = None,
 ) -> Line:
     """Return a line `left = right`.
 
-    left, right: as LaTeX and as text; on the right side, `<name>` is a slot. result: how the value
-    is written, if not as a number or a tuple.
+    right: `<name>` is a slot. result: how the value is written, if not as a number or a tuple.
     """
     values = (value,) if isinstance(value, int | float) else tuple(value)
-    if result is None:
-        result = results(values)
-    latex, latex_numbers = (_filled(right[0], slots, kind) for kind in ("latex", "latex_value"))
-    text, text_numbers = (_filled(right[1], slots, kind) for kind in ("text", "text_value"))
-    return Line(
-        key,
-        name,
-        f"{left[0]} = {latex}",
-        _equal(latex_numbers if slots else "", result[0]),
-        f"{left[1]} = {text}",
-        _equal(text_numbers if slots else "", result[1]),
-        values,
-    )
+    result = results(values) if result is None else result
+    symbols = numbers = right
+    for slot_name, slot in slots.items():
+        symbols = symbols.replace(f"<{slot_name}>", slot.latex)
+        numbers = numbers.replace(f"<{slot_name}>", slot.latex_value)
+    is_plain = not slots or numbers in ("", result)
+    shown = f"= {result}" if is_plain else f"= {numbers} = {result}"
+    return Line(key, name, f"{left} = {symbols}", shown, values)
 
 
-def results(values: Iterable[float]) -> tuple[str, str]:
-    """Return a computed number, or a tuple, as LaTeX and as text.
+def results(values: Iterable[float]) -> str:
+    """Return a computed number, or a tuple.
 
     It always has four decimals, so that nothing jumps while it changes. Exact numbers are shorter,
     and a pixel's fractions are complete, so that they match calculations by hand.
     """
     values = _rounded(values)
     fixed = not all(_is_exact(value) for value in values)
-    if len(values) == 1:
-        return latex_number(values[0], fixed), number(values[0], fixed)
-    return latex_tuple(values, fixed), text_tuple(values, fixed)
+    return latex_number(values[0], fixed) if len(values) == 1 else latex_tuple(values, fixed)
 
 
 def bold(name: str) -> str:
@@ -149,14 +134,3 @@ def _is_exact(value: float) -> bool:
     least = 1e-9 * abs(value)
     fraction = round(value * FRACTION) / FRACTION if math.isfinite(value) else value
     return abs(value - round(value, DECIMALS)) <= least or abs(value - fraction) <= least
-
-
-def _filled(template: str, slots: Mapping[str, Slot], kind: str) -> str:
-    for name, slot in slots.items():
-        template = template.replace(f"<{name}>", getattr(slot, kind))
-    return template
-
-
-def _equal(expression: str, result: str) -> str:
-    """Return `= expression = result`, or only the result."""
-    return f"= {result}" if expression in ("", result) else f"= {expression} = {result}"

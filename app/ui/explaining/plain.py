@@ -10,12 +10,12 @@ import re
 
 SIGNS = {
     "cdot": "·", "times": "\u00d7", "to": "→", "infty": "∞", "leq": "<=", "geq": ">=", "neq": "!=",
-    "quad": "  ", "qquad": "    ", "dots": "...", "pm": "±", "alpha": "alpha", "theta": "theta",
-    "left": "", "right": "", "displaystyle": "", ",": " ", ";": " ", ":": " ", "!": "", " ": " ",
-    "{": "{", "}": "}", "|": "|", "\\": "; ",
+    "quad": "  ", "qquad": "    ", "dots": "...", "ldots": "...", "pm": "±",
+    "left": "", "right": "", "lfloor": "floor(", "rfloor": ")", "displaystyle": "",
+    ",": " ", ";": " ", ":": " ", "!": "", " ": " ", "{": "{", "}": "}", "|": "|", "\\": "; ",
 }  # fmt: skip
 _TOKEN = re.compile(r"\\([A-Za-z]+|.)|([{}])|(\^|_)|([^\\{}^_]+)", re.DOTALL)
-_STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "hat", "vec")
+_STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "vec")
 
 
 def plain_math(latex: str) -> str:
@@ -65,6 +65,9 @@ class _LatexReader:
         if command == "mathbf":
             name = self._argument()
             return f"vec({name})" if len(name) == 1 else name
+        if command == "hat":  # a unit vector
+            name = self._argument()
+            return f"{name}/|{name}|"
         if command in _STYLES:
             return self._argument()
         return SIGNS.get(command, command)
@@ -86,4 +89,4 @@ class _LatexReader:
 def _bracketed(text: str) -> str:
     """Return sums and products in brackets, single terms without."""
     text = text.strip()
-    return text if re.fullmatch(r"[\w.²³]*|\|.*\||\(.*\)", text) else f"({text})"
+    return text if re.fullmatch(r"[\w.²³]*|\|[^|]*\||\([^()]*\)", text) else f"({text})"

@@ -118,8 +118,6 @@ def in_notation(line: Line, notation: Notation) -> Line:
         name=plain(line.name, notation),
         latex=latex(line.latex, notation),
         latex_numbers=latex(line.latex_numbers, notation),
-        text=plain(line.text, notation),
-        text_numbers=plain(line.text_numbers, notation),
     )
 
 

@@ -42,6 +42,6 @@ def drawing(themes: tuple[Page, Page], form: Form = "webp") -> str:
         is_small = pixels.shape[1] <= SMALL_PX
         return data_uri(pixels, "webp" if is_small else form, is_small)
 
-    light, dark = ("\n".join(content(drawn(page.options.page, page), address)) for page in themes)
+    light, dark = ("\n".join(content(drawn(page), address)) for page in themes)
     others = iter(COLOR.findall(dark))  # both themes draw the same elements
     return COLOR.sub(lambda color: f'"light-dark({color[1]}, {next(others)})"', light)

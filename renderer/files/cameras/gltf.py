@@ -19,9 +19,9 @@ from lucida.renderer.files.cameras.entries import sized
 from lucida.renderer.files.cameras.given import Given, Options
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
 from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
+from lucida.renderer.files.models.gltf import placed_nodes
 from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
 from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
-from lucida.renderer.files.models.gltf_nodes import placed_nodes
 from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.system.errors import LucidaError
 
@@ -75,7 +75,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lenses, nodes = [], []
     for number, posed in enumerate(cameras):
         camera, size = sized(posed, options)
-        camera = rigid(camera, "gltf", size)
+        camera = rigid(camera, "gltf")
         lenses.append(camera_table(camera, size))
         nodes.append({"name": posed.name, "camera": number, "matrix": node_matrix(camera)})
         if not posed.name:

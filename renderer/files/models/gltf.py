@@ -6,35 +6,27 @@ Source: Khronos, glTF 2.0 Specification.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lucida.renderer.files.cameras.rotations import rotation_of
 from lucida.renderer.files.models.gltf_file import (
+    AGAIN,
     MATERIALS,
     READ,
     TRIANGLE_FAN,
     TRIANGLE_LIST,
     TRIANGLE_STRIP,
-    Accessor,
     Gltf,
+    Node,
     OpenGltf,
     Primitive,
-    entry_at,
 )
 from lucida.renderer.files.models.gltf_materials import read_materials
-from lucida.renderer.files.models.gltf_nodes import PlacedNode, placed_nodes
-from lucida.renderer.files.models.gltf_numbers import (
-    read_numbers,
-    scaled,
-    triangles_of,
-    whole_numbers,
-)
-from lucida.renderer.files.models.gltf_textures import read_coordinates
 from lucida.renderer.files.models.parts import Part, linear_colors
 from lucida.renderer.files.reading import check_count
 from lucida.renderer.files.texture_images import ModelImages
@@ -43,30 +35,20 @@ from lucida.renderer.scene.material import Material
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError
 
-# The types of accessors that primitives may name.
-TYPES = {
-    "POSITION": ("VEC3",),
-    "NORMAL": ("VEC3",),
-    "COLOR_0": ("VEC3", "VEC4"),
-    "indices": ("SCALAR",),
-}
 SURFACES = TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN
 
 
 @dataclass(frozen=True, eq=False)
-class Instance:
-    """A primitive of a mesh at a node. matrix: world_from_object. field: of the primitive."""
+class PlacedNode:
+    """matrix: float64 (4, 4), world_from_node."""
 
-    primitive: Primitive
-    name: str
-    mesh_name: str
+    node: Node
     matrix: NDArray[np.float64]
-    field: str
 
 
 @dataclass(frozen=True, eq=False)
 class PlacedPart:
-    """The primitive that an instance draws. Instances of the same numbers share their part."""
+    """A primitive of a mesh at a node. Instances of the same numbers share their part."""
 
     part: Part
     name: str
@@ -76,7 +58,7 @@ class PlacedPart:
 
 @dataclass(frozen=True, eq=False)
 class GltfContent:
-    """The instances; the tree and its placed nodes, for cameras and lights."""
+    """The primitives at their nodes; the tree and its placed nodes, for cameras and lights."""
 
     parts: list[PlacedPart]
     tree: Gltf
@@ -88,119 +70,158 @@ def read_gltf(path: Path, images: ModelImages) -> GltfContent:
     file = OpenGltf(path)
     tree = file.tree
     nodes = list(placed_nodes(tree))
-    instances = _instances(tree, nodes)
-    check_count(
-        sum(_triangles(tree, entry.primitive) for entry in instances), TRIANGLES, "triangles"
-    )
-    if still := list(_not_moved(tree, nodes)):
+    if still := list(_not_moved(tree)):
         images.note(f"not shown: {', '.join(still)}", "shapes")
     if left := [n for n in tree.extensions_used if n not in READ and not MATERIALS.match(n)]:
         images.note(f"not read: {', '.join(left)}", "extensions")
-    materials = read_materials(file, {entry.primitive.material for entry in instances}, images)
+    shown = [
+        (placed, mesh, primitive)
+        for placed in nodes
+        if placed.node.mesh is not None
+        for mesh in (tree.entry("meshes", placed.node.mesh),)
+        for primitive in mesh.primitives
+        if primitive.mode in SURFACES
+    ]
+    check_count(len(shown), OBJECTS, "objects", "nodes")
+    triangles = sum(_triangles(tree, primitive) for _, _, primitive in shown)
+    check_count(triangles, TRIANGLES, "triangles")
+    materials = read_materials(file, {primitive.material for _, _, primitive in shown}, images)
     parts: dict[Hashable, Part] = {}
-    placed = []
-    for entry in instances:
-        given = entry.primitive
-        material = None if given.material is None else materials[given.material]
+    found = []
+    for placed, mesh, primitive in shown:
+        material = None if primitive.material is None else materials[primitive.material]
         has_backs = material is not None and material.single_sided
-        places = _coordinates_of(tree, given)
         # A few bytes of JSON can show one buffer a thousand times: it is built once.
-        numbers = given.indices, *map(given.attributes.get, TYPES), places
-        key = given.mode, has_backs, *(_accessor(tree, number) for number in numbers)
+        used = _accessors(tree, primitive)
+        views = (None if number is None else tree.entry("accessors", number) for number in used)
+        key = primitive.mode, has_backs, *views
         if key not in parts:
             check_cancelled()
-            fields = _fields(file, given, entry.field)
-            fields["vertex_colors"] = linear_colors(fields["vertex_colors"], linear=True)
-            fields["uv"] = _coordinates(file, places, images)
-            parts[key] = Part(entry.mesh_name, **fields, has_backs=has_backs)
-        placed.append(PlacedPart(parts[key], entry.name, entry.matrix, material))
-    return GltfContent(placed, tree, nodes)
+            parts[key] = _part(file, mesh.name, primitive.mode, used, has_backs, images)
+        found.append(PlacedPart(parts[key], placed.node.name or mesh.name, placed.matrix, material))
+    return GltfContent(found, tree, nodes)
 
 
-def _not_moved(tree: Gltf, nodes: Iterable[PlacedNode]) -> Iterator[str]:
-    """Yield what would move the meshes' vertices."""
-    if any(placed.node.skin is not None for placed in nodes):
+def placed_nodes(tree: Gltf) -> Iterator[PlacedNode]:
+    """Yield the nodes of the scene, depth first, in the file's order. Raises LucidaError if they
+    are not a tree.
+    """
+    if tree.scenes:
+        roots = tree.entry("scenes", tree.scene).nodes
+    else:
+        children = {child for node in tree.nodes for child in node.children}
+        roots = [number for number in range(len(tree.nodes)) if number not in children]
+    seen: set[int] = set()
+    stack = [(number, np.eye(4)) for number in reversed(roots)]
+    while stack:
+        number, parent = stack.pop()
+        node: Node = tree.entry("nodes", number)
+        if number in seen:
+            problem = "has two parents, or is its own ancestor"
+            raise LucidaError(f"nodes[{number}]", problem, "give each node one parent")
+        seen.add(number)
+        with np.errstate(all="ignore"):
+            matrix = parent @ _node_matrix(node)
+        yield PlacedNode(node, matrix)
+        stack += [(child, matrix) for child in reversed(node.children)]
+
+
+def _node_matrix(node: Node) -> NDArray[np.float64]:
+    """Return parent_from_node: `matrix` (column-major), or translation * rotation * scale."""
+    if node.matrix is not None:
+        matrix = np.array(node.matrix).reshape(4, 4).T
+        matrix[3] = 0, 0, 0, 1
+        return matrix
+    x, y, z, w = node.rotation
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation_of([w, x, y, z]) * node.scale
+    matrix[:3, 3] = node.translation
+    return matrix
+
+
+def _not_moved(tree: Gltf) -> Iterator[str]:
+    """Yield what would move the meshes' vertices, and what is no surface."""
+    primitives = [primitive for mesh in tree.meshes for primitive in mesh.primitives]
+    if any(node.skin is not None for node in tree.nodes):
         yield "skins"
-    if any(primitive.targets for mesh in tree.meshes for primitive in mesh.primitives):
+    if any(primitive.targets for primitive in primitives):
         yield "morph targets"
     if tree.animations:
         yield "animations"
-    if any(part.mode not in SURFACES for mesh in tree.meshes for part in mesh.primitives):
+    if any(primitive.mode not in SURFACES for primitive in primitives):
         yield "points and lines"
 
 
-def _instances(tree: Gltf, nodes: Iterable[PlacedNode]) -> list[Instance]:
-    """Return every triangle primitive at every node, depth first, in the file's order."""
-    instances: list[Instance] = []
-    for placed in nodes:
-        number = placed.node.mesh
-        if number is None:
-            continue
-        mesh = entry_at(tree.meshes, number, f"{placed.field}.mesh")
-        for k, primitive in enumerate(mesh.primitives):
-            where = f"meshes[{number}].primitives[{k}]"
-            if primitive.mode not in SURFACES:
-                continue
-            if "POSITION" not in primitive.attributes:
-                raise LucidaError(where, "has no POSITION", "export it again")
-            if primitive.material is not None:
-                entry_at(tree.materials, primitive.material, f"{where}.material")
-            name = placed.node.name or mesh.name
-            instances.append(Instance(primitive, name, mesh.name, placed.matrix, where))
-        if len(instances) > OBJECTS:
-            raise LucidaError("nodes", f"make more than {OBJECTS} objects", "split the model")
-    return instances
-
-
-def _accessor(tree: Gltf, number: int | None) -> Accessor | None:
-    return None if number is None else entry_at(tree.accessors, number, "accessors")
+def _accessors(tree: Gltf, primitive: Primitive) -> tuple[int | None, ...]:
+    """Return the accessors of a primitive's positions, normals, colours, indices, and texture
+    coordinates: those of its material's image.
+    """
+    if "POSITION" not in primitive.attributes:
+        raise LucidaError("meshes", "have a primitive without POSITION", AGAIN)
+    places = "TEXCOORD_0"
+    if primitive.material is not None:
+        pbr = tree.materials[primitive.material].pbr_metallic_roughness
+        if info := pbr.base_color_texture or pbr.metallic_roughness_texture:
+            places = info.attribute
+    given = primitive.attributes.get
+    return given("POSITION"), given("NORMAL"), given("COLOR_0"), primitive.indices, given(places)
 
 
 def _triangles(tree: Gltf, primitive: Primitive) -> int:
     """Return the number of triangles of a primitive, which has not been read."""
     number = primitive.indices
-    corners = _accessor(tree, primitive.attributes["POSITION"] if number is None else number)
-    count = 0 if corners is None else corners.count
+    if number is None:
+        number = primitive.attributes.get("POSITION")
+    count = 0 if number is None else tree.entry("accessors", number).count
     return count // 3 if primitive.mode == TRIANGLE_LIST else max(count - 2, 0)
 
 
-def _coordinates_of(tree: Gltf, primitive: Primitive) -> int | None:
-    """Return the accessor of a primitive's texture coordinates: those of its material's image."""
-    name = "TEXCOORD_0"
-    if primitive.material is not None:
-        pbr = tree.materials[primitive.material].pbr_metallic_roughness
-        if info := pbr.base_color_texture or pbr.metallic_roughness_texture:
-            name = info.attribute
-    return primitive.attributes.get(name)
+def _part(
+    file: OpenGltf,
+    name: str,
+    mode: int,
+    used: tuple[int | None, ...],
+    has_backs: bool,
+    images: ModelImages,
+) -> Part:
+    """Return a primitive's part. used: the result of _accessors()."""
+    position, normal, color, indices, place = used
+    assert position is not None
+    vertices = file.fractions(position, "VEC3")
+    corners = np.arange(len(vertices))
+    if indices is not None:
+        found = file.numbers(indices, "SCALAR")
+        if found.dtype.kind != "u":
+            raise LucidaError(f"accessors[{indices}]", f"has indices of {found.dtype}", AGAIN)
+        corners = found[:, 0].astype(np.int64)
+    uv = None
+    if place is not None:
+        try:
+            uv = file.fractions(place, "VEC2").astype(np.float32)
+            uv[:, 1] = 1 - uv[:, 1]
+        except LucidaError as error:
+            images.note(str(error))
+    colors = None if color is None else file.numbers(color, "VEC3", "VEC4")
+    return Part(
+        name,
+        vertices,
+        triangles_of(corners, mode),
+        None if normal is None else file.numbers(normal, "VEC3"),
+        linear_colors(colors, linear=True),
+        uv=uv,
+        has_backs=has_backs,
+    )
 
 
-def _coordinates(file: OpenGltf, number: int | None, images: ModelImages) -> NDArray[Any] | None:
-    """Return texture coordinates; None if there are none, or they cannot be read."""
-    try:
-        return None if number is None else read_coordinates(file, number)
-    except LucidaError as error:
-        images.note(str(error))
-        return None
-
-
-def _fields(file: OpenGltf, primitive: Primitive, where: str) -> dict[str, Any]:
-    """Return the fields of a primitive's Part, the colours as they are in the file."""
-
-    def read(name: str) -> NDArray[Any] | None:
-        source = primitive.indices if name == "indices" else primitive.attributes.get(name)
-        if source is None:
-            return None
-        return read_numbers(file, source, TYPES[name], f"{where}.{name}")
-
-    vertices, corners = read("POSITION"), read("indices")
-    assert vertices is not None
-    if corners is None:
-        numbers = np.arange(len(vertices))
-    else:
-        numbers = whole_numbers(corners, f"{where}.indices")
-    return {
-        "vertices": scaled(vertices, file, primitive.attributes["POSITION"]),
-        "faces": triangles_of(numbers, primitive.mode),
-        "normals": read("NORMAL"),
-        "vertex_colors": read("COLOR_0"),
-    }
+def triangles_of(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
+    """Return the triangles (m, 3) of a list, strip or fan of vertices, counter-clockwise from the
+    front. Those that repeat a vertex only join strips: they have no area.
+    """
+    if mode == TRIANGLE_LIST:
+        return corners[: len(corners) // 3 * 3].reshape(-1, 3)
+    first, second, third = corners[:-2], corners[1:-1], corners[2:]
+    if mode == TRIANGLE_FAN:
+        return np.stack([second, third, np.broadcast_to(corners[:1], second.shape)], axis=1)
+    faces = np.stack([first, second, third], axis=1)
+    faces[1::2, 1:] = faces[1::2, :0:-1]  # every other one goes the other way round
+    return faces

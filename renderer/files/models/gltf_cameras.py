@@ -6,19 +6,18 @@ Source: Khronos, glTF 2.0 Specification, "Cameras".
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import volume
-from lucida.renderer.files.models.gltf_file import Gltf, Table, entry_at
-from lucida.renderer.files.models.gltf_nodes import PlacedNode
+from lucida.renderer.files.models.gltf import PlacedNode
+from lucida.renderer.files.models.gltf_file import AGAIN, Gltf, Table
 from lucida.renderer.files.tables import explained
 from lucida.renderer.scene.limits import VIEWS
 from lucida.renderer.scene.model import NamedView, View
@@ -53,12 +52,8 @@ class GltfCamera(Table):
     extras: Any = None
 
 
-@dataclass(frozen=True)
-class FoundCamera:
-    """A camera of the file.
-
-    has_aspect: the viewport has the file's own aspect ratio; otherwise it is 1.
-    """
+class FoundCamera(NamedTuple):
+    """has_aspect: the viewport has the file's own aspect ratio; otherwise it is 1."""
 
     name: str
     camera: Camera
@@ -72,35 +67,34 @@ def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ..
     views: list[NamedView] = []
     for placed in nodes:
         if placed.node.camera is not None and len(views) < VIEWS:
-            try:
+            with contextlib.suppress(LucidaError):
                 found = gltf_camera(tree, placed)
-            except LucidaError:
-                continue
-            name = found.name or f"camera {len(views) + 1}"
-            views.append(NamedView(name, View(found.camera, fit=True)))
+                name = found.name or f"camera {len(views) + 1}"
+                views.append(NamedView(name, View(found.camera, fit=True)))
     return tuple(views)
 
 
 def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
     """Return the camera of a node that has one. Raises LucidaError naming the field."""
-    number = placed.node.camera
-    assert number is not None
-    given = entry_at(tree.cameras, number, f"{placed.field}.camera")
-    field = f"cameras[{number}]"
-    try:
-        fields = msgspec.convert(given, GltfCamera)
-    except msgspec.ValidationError as error:
-        raise explained(str(error)).within(field) from None
-    eye, (u, v, w) = _pose(placed)
-    name = placed.node.name or fields.name
-    with under(field):
-        lens, has_aspect = _lens(fields)
-        camera = Camera(eye=eye, u=u, v=v, w=w, **lens).orthonormalized()
-    return FoundCamera(name, _unclipped(camera, fields.extras), has_aspect)
+    assert placed.node.camera is not None
+    given = tree.entry("cameras", placed.node.camera)
+    with under(f"cameras[{placed.node.camera}]"):
+        try:
+            fields = msgspec.convert(given, GltfCamera)
+        except msgspec.ValidationError as error:
+            raise explained(str(error)) from None
+        with np.errstate(all="ignore"):
+            axes = (placed.matrix[:3, :3] / np.linalg.norm(placed.matrix[:3, :3], axis=0)).T
+        if volume(*axes) < 0:  # a camera is not mirrored like its node
+            axes[0] *= -1
+        u, v, w = axes.tolist()
+        camera = Camera(placed.matrix[:3, 3].tolist(), u, v, w, **_lens(fields)).orthonormalized()
+    has_aspect = fields.perspective is None or fields.perspective.aspect_ratio is not None
+    return FoundCamera(placed.node.name or fields.name, camera, has_aspect)
 
 
-def _lens(fields: GltfCamera) -> tuple[dict[str, Any], bool]:
-    """Return the camera's fields except its pose, and True if the aspect ratio is the file's."""
+def _lens(fields: GltfCamera) -> dict[str, Any]:
+    """Return the camera's fields except its pose."""
     if fields.type == "perspective" and (seen := fields.perspective) is not None:
         half = (seen.aspect_ratio or 1.0) / 2
         lens: dict[str, Any] = {
@@ -109,40 +103,17 @@ def _lens(fields: GltfCamera) -> tuple[dict[str, Any], bool]:
             "near": seen.znear,
             "far": seen.zfar,
         }
-        return lens, seen.aspect_ratio is not None
-    if fields.type == "orthographic" and (box := fields.orthographic) is not None:
+    elif fields.type == "orthographic" and (box := fields.orthographic) is not None:
         lens = {
             "viewport": (-box.xmag, box.xmag, -box.ymag, box.ymag),
             "projection": "parallel",
             "near": box.znear or None,  # 0 is the eye's own plane, where rays begin
             "far": box.zfar,
         }
-        return lens, True
-    problem = f"{fields.type[:20]!r} is neither perspective nor orthographic, or its numbers lack"
-    raise LucidaError("type", problem, "export it again")
-
-
-def _unclipped(camera: Camera, extras: Any) -> Camera:
-    """Return the camera without the clip planes that were written only because the format needs
-    them.
-    """
-    names = extras.get(UNCLIPPED) if isinstance(extras, dict) else None
-    if isinstance(names, list):
-        camera = replace(camera, near=None) if "znear" in names else camera
-        camera = replace(camera, far=None) if "zfar" in names else camera
-    return camera
-
-
-def _pose(placed: PlacedNode) -> tuple[Any, NDArray[np.float64]]:
-    """Return the eye, and the unit directions u, v, w, right-handed: a camera's axes are not
-    scaled or mirrored like its node.
-    """
-    linear = placed.matrix[:3, :3]
-    lengths = np.linalg.norm(linear, axis=0)
-    if not (np.isfinite(placed.matrix).all() and (lengths > 1e-12).all()):
-        problem = "is scaled to nothing, or beyond all numbers, and holds a camera"
-        raise LucidaError(placed.field, problem, "give it a scale other than 0")
-    axes = (linear / lengths).T
-    if volume(*axes) < 0:
-        axes[0] *= -1
-    return placed.matrix[:3, 3].tolist(), axes
+    else:
+        problem = f"{fields.type[:20]!r} is neither perspective nor orthographic with its numbers"
+        raise LucidaError("type", problem, AGAIN)
+    unclipped = fields.extras.get(UNCLIPPED) if isinstance(fields.extras, dict) else None
+    for name in unclipped if isinstance(unclipped, list) else ():
+        lens |= {"znear": {"near": None}, "zfar": {"far": None}}.get(str(name), {})
+    return lens

@@ -1,4 +1,4 @@
-"""glTF 2.0 files: the tree's structures, the .glb container, the buffers.
+"""glTF 2.0 files: the tree's structures, the .glb container, the buffers, the accessors.
 
 Files are read only from the model's own folder, nothing over a network.
 Source: Khronos, glTF 2.0 Specification.
@@ -15,8 +15,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
-from lucida.renderer.files.reading import check_bytes, damaged, read_file, size_text
+from lucida.renderer.files.reading import check_bytes, damaged, read_file
 from lucida.renderer.files.tables import explained
 from lucida.renderer.files.texture_images import inner_path, shown
 from lucida.renderer.scene.limits import BINARY_MODEL_BYTES, GLTF_JSON_BYTES, TEXT_MODEL_BYTES
@@ -26,16 +28,33 @@ Count = Annotated[int, msgspec.Meta(ge=0, le=1 << 40)]
 Index = Annotated[int, msgspec.Meta(ge=0, le=1 << 31)]
 
 TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN = 4, 5, 6
-TRANSFORM, WEBP = "KHR_texture_transform", "EXT_texture_webp"
-LIGHTS = "KHR_lights_punctual"
-READ = (TRANSFORM, WEBP, LIGHTS, "KHR_mesh_quantization")
+TRANSFORM, LIGHTS = "KHR_texture_transform", "KHR_lights_punctual"
+READ = (TRANSFORM, LIGHTS, "KHR_mesh_quantization")
 MATERIALS = re.compile(
     "KHR_materials_(?!variants)"
 )  # these change no geometry: gltf_materials.py names what is not shown
+AGAIN = "export it again"
+COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
+    5120: np.dtype("i1"),
+    5121: np.dtype("u1"),
+    5122: np.dtype("<i2"),
+    5123: np.dtype("<u2"),
+    5125: np.dtype("<u4"),
+    5126: np.dtype("<f4"),
+}
+COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 class Table(msgspec.Struct, rename="camel"):
     """A table of the tree. Fields that it does not name are ignored."""
+
+    def entry(self, kind: str, number: int) -> Any:
+        """Return an entry of one of the lists. Raises LucidaError."""
+        entries = getattr(self, kind)
+        if number >= len(entries):
+            problem = f"names entry {number}, counted from 0, of {len(entries)}"
+            raise LucidaError(kind, problem, AGAIN)
+        return entries[number]
 
 
 class Value(msgspec.Struct, rename="camel", frozen=True):
@@ -47,7 +66,6 @@ class Asset(Table):
 
 
 class Buffer(Table):
-    byte_length: Count
     uri: str | None = None
 
 
@@ -58,10 +76,6 @@ class BufferView(Table):
     byte_stride: Count | None = None
 
 
-class Sparse(Value, frozen=True):
-    """Sparse numbers, which are refused."""
-
-
 class Accessor(Value, frozen=True):
     component_type: int
     count: Count
@@ -69,7 +83,7 @@ class Accessor(Value, frozen=True):
     buffer_view: Index | None = None
     byte_offset: Count = 0
     normalized: bool = False
-    sparse: Sparse | None = None
+    sparse: dict[str, Any] | None = None  # refused
 
 
 class Primitive(Table):
@@ -108,18 +122,9 @@ class TextureInfo(Table):
         return f"TEXCOORD_{self.tex_coord if own is None else own}"
 
 
-class Webp(Table):
-    source: Index
-
-
-class TextureExtensions(Value, frozen=True):
-    webp: Webp | None = msgspec.field(default=None, name=WEBP)
-
-
 class GltfTexture(Table):
     source: Index | None = None
     sampler: Index | None = None
-    extensions: TextureExtensions = TextureExtensions()
 
 
 class GltfImage(Table):
@@ -192,15 +197,10 @@ class GltfScene(Table):
     nodes: list[Index] = []
 
 
-class GltfVersion(Table):
-    """Fields of every version. glTF 1.0 has tables for 2.0's lists, and may omit its version."""
-
-    asset: Asset
-
-
-class Gltf(GltfVersion):
+class Gltf(Table):
     """The parts of a glTF tree that become objects and cameras; all others are ignored."""
 
+    asset: Asset
     extensions_required: list[str] = []
     extensions_used: list[str] = []
     extensions: GltfExtensions = msgspec.field(default_factory=GltfExtensions)
@@ -225,19 +225,17 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     text: bytes | memoryview = data.removeprefix(codecs.BOM_UTF8)
     if data[:4] == b"glTF":
         text, binary = _chunks(data)
-        if len(text) > GLTF_JSON_BYTES:
-            raise LucidaError("", f"has {size_text(len(text))} of JSON", "split the model")
+        check_bytes(len(text), GLTF_JSON_BYTES, source)
     else:  # its buffers may be inside, as base64
         check_bytes(len(data), TEXT_MODEL_BYTES, source)
     try:
-        version = msgspec.json.decode(text, type=GltfVersion).asset.version
-        if version.split(".")[0] != "2":
-            raise _of_version(version)
         tree = msgspec.json.decode(text, type=Gltf)
     except msgspec.ValidationError as error:
         raise explained(str(error)) from None
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError):
         raise damaged("is not glTF: its JSON cannot be read") from None
+    if not tree.asset.version.startswith("2."):
+        raise LucidaError("asset.version", f"is {tree.asset.version[:20]}", "export glTF 2.0")
     for name in tree.extensions_required:
         if name not in READ and not MATERIALS.match(name):
             remedy = "open it in Blender, say, and export it without"
@@ -245,27 +243,18 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     return tree, binary
 
 
-def _of_version(version: str) -> LucidaError:
-    return LucidaError("", f"is glTF {version[:20]}", "export it as glTF 2.0")
-
-
 def _chunks(data: bytes) -> tuple[memoryview, bytes]:
     """Return the JSON chunk and the binary chunk (b"" if there is none) of a .glb file."""
     version, length = (int.from_bytes(data[at : at + 4], "little") for at in (4, 8))
-    if len(data) >= 12 and version != 2:
-        raise _of_version(f"{version}.0")
-    if len(data) < 20 or length > len(data):
-        raise damaged(f"declares {length} bytes and has {len(data)}")
     chunks: dict[bytes, memoryview] = {}
     at = 12
-    while at + 8 <= length:
+    while at + 8 <= length <= len(data):
         size = int.from_bytes(data[at : at + 4], "little")
-        if at + 8 + size > length:
-            raise damaged(f"declares a chunk of {size} bytes, {length - at - 8} are left")
         chunks.setdefault(data[at + 4 : at + 8], memoryview(data)[at + 8 : at + 8 + size])
         at += 8 + size
-    if b"JSON" not in chunks:
-        raise damaged("has no JSON chunk")
+    if version != 2 or b"JSON" not in chunks:
+        problem = f"is no whole glTF 2.0: version {version}, {length} bytes of which {len(data)}"
+        raise damaged(f"{problem} are there")
     return chunks[b"JSON"], bytes(chunks.get(b"BIN\0", b""))
 
 
@@ -275,38 +264,26 @@ class OpenGltf:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.tree, self._binary = parse_gltf(read_file(path, BINARY_MODEL_BYTES), str(path))
-        self._read: dict[int, bytes] = {}
+        self._read: dict[int, bytes | None] = {}
 
-    def view(self, number: int | None, field: str) -> tuple[memoryview, int | None]:
-        """Return the bytes of a buffer view, and its stride. field: what names it. Raises
-        LucidaError.
-        """
-        if number is None:
-            raise LucidaError(field, "has no bufferView", "export it uncompressed")
-        view: BufferView = entry_at(self.tree.buffer_views, number, f"{field}.bufferView")
+    def view(self, number: int | None) -> tuple[memoryview, int | None]:
+        """Return the bytes of a buffer view, and its stride. Raises LucidaError."""
+        views = self.tree.buffer_views
+        if number is None or number >= len(views):
+            raise LucidaError("bufferView", "is missing", "export it uncompressed")
+        view = views[number]
         if view.buffer not in self._read:
-            self._read[view.buffer] = self._buffer(view.buffer, f"bufferViews[{number}].buffer")
-        data = self._read[view.buffer]
+            uri = self.tree.entry("buffers", view.buffer).uri
+            found = self._binary if uri is None else self.resource(uri, BINARY_MODEL_BYTES)[0]
+            self._read[view.buffer] = found
+        data = self._read[view.buffer] or b""
         end = view.byte_offset + view.byte_length
         if end > len(data):
             problem = f"ends behind its buffer of {len(data)} bytes"
-            raise LucidaError(f"bufferViews[{number}]", problem, "export it again")
+            raise LucidaError(f"bufferViews[{number}]", problem, AGAIN)
         return memoryview(data)[view.byte_offset : end], view.byte_stride
 
-    def _buffer(self, number: int, named_by: str) -> bytes:
-        buffer, field = entry_at(self.tree.buffers, number, named_by), f"buffers[{number}]"
-        if buffer.uri is not None:
-            data, _ = self.resource(buffer.uri, f"{field}.uri", BINARY_MODEL_BYTES)
-        elif number or self._binary is None:
-            raise LucidaError(field, "has no uri and no binary chunk", "export it again")
-        else:
-            data = self._binary
-        if len(data) < buffer.byte_length:
-            problem = f"declares {buffer.byte_length:,} bytes and has {len(data):,}"
-            raise LucidaError(field, problem, "it is cut off; export it again")
-        return data
-
-    def resource(self, uri: str, field: str, most_bytes: int) -> tuple[bytes, Path | None]:
+    def resource(self, uri: str, most_bytes: int) -> tuple[bytes, Path | None]:
         """Return the bytes of a data URI, or of a file in the model's folder or below it, and that
         file. Raises LucidaError.
         """
@@ -314,20 +291,39 @@ class OpenGltf:
             try:
                 return base64.b64decode(uri.partition(",")[2], validate=True), None
             except (binascii.Error, ValueError):
-                raise LucidaError(field, "is not base64", "export it again") from None
+                raise LucidaError("uri", "is not base64", AGAIN) from None
         name = urllib.parse.unquote(uri)
-        with under(field):
+        with under("uri"):
             path = inner_path(name, self.path.parent)
         try:
             return read_file(path, most_bytes), path.absolute()
         except LucidaError as error:
-            raise LucidaError(field, f"{shown(name)} {error.problem}", error.remedy) from None
+            raise LucidaError("uri", f"{shown(name)} {error.problem}", error.remedy) from None
 
+    def numbers(self, number: int, *types: str) -> NDArray[Any]:
+        """Return the numbers of an accessor, (count, components), of the file's own type.
 
-def entry_at(entries: list[Any], number: int, field: str) -> Any:
-    """Return an entry of a list of the tree. field: what names it. Raises LucidaError."""
-    if number >= len(entries):
-        raise LucidaError(
-            field, f"names entry {number}, counted from 0, of {len(entries)}", "export it again"
-        )
-    return entries[number]
+        types: the allowed ones. Raises LucidaError.
+        """
+        accessor: Accessor = self.tree.entry("accessors", number)
+        field = f"accessors[{number}]"
+        kind = COMPONENT_TYPES.get(accessor.component_type)
+        if accessor.type not in types or kind is None or accessor.sparse is not None:
+            sparse = ", sparse" * (accessor.sparse is not None)
+            problem = f"is {accessor.type[:20]} of type {accessor.component_type}{sparse}"
+            raise LucidaError(field, problem, "export it without")
+        data, stride = self.view(accessor.buffer_view)
+        shape = accessor.count, COMPONENTS[accessor.type]
+        strides = stride or shape[1] * kind.itemsize, kind.itemsize
+        try:
+            return np.ndarray(shape, kind, data, accessor.byte_offset, strides)
+        except (TypeError, ValueError):  # NumPy compares them with the buffer
+            problem = f"declares {accessor.count} elements in a view of {len(data)} bytes"
+            raise LucidaError(field, problem, "it is damaged; export it again") from None
+
+    def fractions(self, number: int, *types: str) -> NDArray[Any]:
+        """Return the numbers of an accessor as it means them: normalized ones as fractions."""
+        found = self.numbers(number, *types)
+        if found.dtype.kind not in "ui" or not self.tree.accessors[number].normalized:
+            return found
+        return np.maximum(found / np.iinfo(found.dtype).max, -1).astype(np.float32)

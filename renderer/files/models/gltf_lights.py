@@ -12,8 +12,8 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models.gltf_file import LIGHTS, Gltf, GltfLight, entry_at
-from lucida.renderer.files.models.gltf_nodes import PlacedNode
+from lucida.renderer.files.models.gltf import PlacedNode
+from lucida.renderer.files.models.gltf_file import Gltf, GltfLight
 from lucida.renderer.files.texture_images import ModelImages
 from lucida.renderer.scene.framing import median_distance
 from lucida.renderer.scene.material import vector
@@ -32,8 +32,7 @@ def scene_lights(
     for placed in nodes:
         if (given := placed.node.extensions.light) is None:
             continue
-        field = f"{placed.field}.extensions.{LIGHTS}.light"
-        light: GltfLight = entry_at(tree.extensions.punctual.lights, given.light, field)
+        light: GltfLight = tree.extensions.punctual.entry("lights", given.light)
         strength = np.nan_to_num(light.color).clip(0) * max(light.intensity, 0) / math.pi
         if light.type == "directional":
             found.append((False, -placed.matrix[:3, 2], strength))

@@ -1,6 +1,7 @@
 """The materials of a glTF file: the nearest of this project's, and notes on what is not shown.
 
-Source: Khronos, glTF 2.0 Specification.
+A fault in an image costs a note, not the model.
+Source: Khronos, glTF 2.0 Specification; KHR_texture_transform.
 """
 
 from __future__ import annotations
@@ -10,19 +11,24 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from lucida.renderer.files.models.gltf_file import MATERIALS, GltfMaterial, OpenGltf
-from lucida.renderer.files.models.gltf_textures import read_texture
-from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.files.models.gltf_file import (
+    MATERIALS,
+    GltfImage,
+    GltfMaterial,
+    GltfSampler,
+    GltfTexture,
+    OpenGltf,
+    TextureInfo,
+)
+from lucida.renderer.files.texture_images import FoundImage, ModelImages, decode_image
+from lucida.renderer.scene.limits import IMAGE_BYTES
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
 from lucida.renderer.scene.model import Color
 from lucida.renderer.scene.texture import WHITE, Texture, placed_alike
+from lucida.renderer.system.errors import LucidaError
 
-WORDS = {
-    "clearcoat": "clear coat",
-    "emissive_strength": "emission",
-    "unlit": "unlit colours, which are shaded",
-}
+WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
 
 
 def read_materials(
@@ -31,7 +37,7 @@ def read_materials(
     """Return the materials that are used, with their images. Note what is not shown."""
     found, missing = {}, {}
     for number in sorted(number for number in used if number is not None):
-        given = file.tree.materials[number]
+        given = file.tree.entry("materials", number)
         found[number] = _material(file, given, images)
         missing.update(dict.fromkeys(_not_shown(given)))
     if missing:
@@ -50,8 +56,7 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
     if any(given.emissive_factor):  # it multiplies the texture
         yield "emission"
     for name in given.extensions:
-        word = MATERIALS.sub("", name)
-        yield WORDS.get(word, word.replace("_", " ")[:40])
+        yield MATERIALS.sub("", name).replace("_", " ")[:40]
 
 
 def _material(file: OpenGltf, given: GltfMaterial, images: ModelImages) -> Material:
@@ -66,10 +71,10 @@ def _material(file: OpenGltf, given: GltfMaterial, images: ModelImages) -> Mater
     single_sided = not given.double_sided
     texture, metal = None, None
     if (base_map := pbr.base_color_texture) is not None:
-        texture = read_texture(file, base_map, images, cutout is not None)
+        texture = _texture(file, base_map, images, cutout is not None)
     metalness, roughness = _factor(pbr.metallic_factor), _factor(pbr.roughness_factor)
     if (metal_map := pbr.metallic_roughness_texture) is not None:
-        of_metal = read_texture(file, metal_map, images)
+        of_metal = _texture(file, metal_map, images)
         if of_metal is not None:
             metal = Metal(of_metal.texels, metalness, roughness, of_metal.file)
             metalness, roughness = metal.mean
@@ -103,3 +108,50 @@ def _white(metal: Texture) -> Texture | None:
         return None
     place = metal.wrap, metal.scale, metal.offset
     return Texture(WHITE.texels, *place, None, metal.rotate_deg)
+
+
+def _texture(
+    file: OpenGltf, info: TextureInfo, images: ModelImages, has_opacity: bool = False
+) -> Texture | None:
+    """Return the texture of a material's textureInfo; None if it cannot be read, which is noted.
+
+    has_opacity: keep the image's opacity.
+    """
+    tree = file.tree
+    try:
+        given: GltfTexture = tree.entry("textures", info.index)
+        if given.source is None:
+            raise LucidaError("textures", "have no image of a known kind", "export it with PNG")
+        image: GltfImage = tree.entry("images", given.source)
+        sampler = GltfSampler()
+        if given.sampler is not None:
+            sampler = tree.entry("samplers", given.sampler)
+        found = images.get(
+            f"images[{given.source}]" + ", opacity" * has_opacity,
+            lambda: _image(file, image, has_opacity),
+        )
+        if found is None:
+            return None
+        transform, wrap = info.extensions.transform, WRAP_NAMES.get
+        (scale_u, scale_v), (offset_u, offset_v) = transform.scale, transform.offset
+        # In glTF, v counts downwards, and the rotation is about the upper left corner.
+        sine, cosine = math.sin(transform.rotation), math.cos(transform.rotation)
+        return Texture(
+            found.pixels,
+            (wrap(sampler.wrap_s, "repeat"), wrap(sampler.wrap_t, "repeat")),
+            (scale_u, scale_v),
+            (offset_u + scale_v * sine, 1.0 - scale_v * cosine - offset_v),
+            found.file,
+            math.degrees(transform.rotation),
+        )
+    except LucidaError as error:
+        images.note(f"{error}; the plain colour is shown")
+    return None
+
+
+def _image(file: OpenGltf, image: GltfImage, has_opacity: bool) -> FoundImage:
+    if image.uri is None:
+        data, path = bytes(file.view(image.buffer_view)[0]), None
+    else:
+        data, path = file.resource(image.uri, IMAGE_BYTES)
+    return FoundImage(decode_image(data, has_opacity), path)

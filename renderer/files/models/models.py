@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from lucida.renderer.files.models.apart import parts_apart
 from lucida.renderer.files.models.gltf import PlacedPart, read_gltf
 from lucida.renderer.files.models.gltf_cameras import camera_views
 from lucida.renderer.files.models.gltf_lights import scene_lights
@@ -131,7 +130,7 @@ def model_scene(path: str | Path) -> Scene:
 
 def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> list[SceneObject]:
     """Return the objects of a file's parts. Instances of one part share its arrays."""
-    built: dict[int, list[Mesh]] = {}
+    built: dict[int, Mesh | None] = {}
     objects = []
     for instance in instances:
         part, matrix = instance.part, instance.matrix
@@ -141,25 +140,21 @@ def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> li
         check_cancelled()
         if is_flat(linear):
             points = np.asarray(part.vertices, np.float64) @ linear.T
-            meshes = _meshes(replace(part, vertices=points, normals=None), images)
+            mesh = build_mesh(replace(part, vertices=points, normals=None))
             matrix = shapes.placement(matrix[:3, 3])
         else:
             if id(part) not in built:
-                built[id(part)] = _meshes(part, images)
-            meshes = built[id(part)]
-        for number, mesh in enumerate(meshes, start=1):
-            name = (instance.name or path.stem) + f"_{number}" * (len(meshes) > 1)
-            material = _shown_on(mesh, instance.material or _material(part), name, images)
-            with under(f"node {name!r}"[:80]):
-                placed = mesh.placed(matrix @ mesh.transform)
-            is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
-            objects.append(SceneObject(placed, material, name, is_gone))
+                built[id(part)] = build_mesh(part)
+            mesh = built[id(part)]
+        if mesh is None:
+            continue
+        name = instance.name or path.stem
+        material = _shown_on(mesh, instance.material or _material(part), name, images)
+        with under(f"node {name!r}"[:80]):
+            placed = mesh.placed(matrix @ mesh.transform)
+        is_gone = material.cutout is not None and material.cutout > 1  # a hole everywhere
+        objects.append(SceneObject(placed, material, name, is_gone))
     return objects
-
-
-def _meshes(part: Part, images: ModelImages) -> list[Mesh]:
-    built = [build_mesh(piece) for piece in parts_apart(part, images)]
-    return [mesh for mesh in built if mesh is not None]
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:

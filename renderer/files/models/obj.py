@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -25,9 +23,6 @@ from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.scene.material import Material
 from lucida.renderer.system.errors import LucidaError
 
-_CORNER = re.compile(r"([-+]?\d{1,18})(?:/(?:[-+]?\d{1,18})?){0,2}")
-_VALUES = {"v": "a vertex", "vn": "a normal"}
-_NOT_SHOWN = {"l": "lines", "p": "points"}
 # What changes no picture: smoothing and groups, without values; levels of detail, bevels.
 _HARMLESS = ("s", "g", "mg", "lod", "bevel", "c_interp", "d_interp", "end")
 Floats = NDArray[np.float64]
@@ -44,25 +39,22 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
         if not len(lines.numbers("v")):
             raise damaged("has no line that begins with v or f")
         return []
-    last = lines.line(lines.numbers("f")[-1]).partition("#")[0].split()[1:]
     try:
-        if len(last) < 3 or len({corner.count("/") for corner in last}) > 1:
-            raise ValueError
-        vertices, normals = _rows(lines, "v", images), _rows(lines, "vn", images)
+        vertices, coordinates, normals = (_rows(lines, kind) for kind in ("v", "vt", "vn"))
         columns, counts = _corners(lines)
-        if vertices.shape[1] < 3 or not _are_within(columns[0], len(vertices)):
+        # A last face of two corners is cut off.
+        if vertices.shape[1] < 3 or counts[-1] < 3 or not _are_within(columns[0], len(vertices)):
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
-    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
-        images.note("not read: the weights of vertices", "OBJ")
-    places, owner = triangulated(vertices[:, :3], columns[0], counts, images)
+    places, owner = triangulated(vertices[:, :3], columns[0], counts)
     corners = [column if column is None else column[places] for column in columns]
     if normals.shape[1] != 3:
         normals = np.zeros((0, 3))
     normals = np.vstack([normals, np.zeros(3)])  # the last one makes a face flat
     named = _named_parts(path, lines, lines.numbers("f")[owner], images)
-    coordinates = _coordinates(lines, images)
+    if coordinates.shape[1] < 2:
+        coordinates = np.zeros((0, 2))
     if corners[1] is not None:
         has_uv = np.all((corners[1] >= 0) & (corners[1] < len(coordinates)), axis=1)
         named = list(_by_coordinates(named, has_uv, images))
@@ -102,28 +94,12 @@ def _by_coordinates(
         yield f"{name}_plain", bare, replace(material, texture=None)
 
 
-def _coordinates(lines: Lines, images: ModelImages) -> Floats:
-    """Return texture coordinates, of two numbers or more; none if they cannot be read."""
-    with contextlib.suppress(ValueError):
-        found = _rows(lines, "vt", images)
-        if found.shape[1] >= 2:
-            return found
-    return np.zeros((0, 0))
-
-
-def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
-    """Return the numbers of all lines of a kind, as many of each as the shortest line has. Note
-    that there are more, such as colours that only some vertices have.
-    """
+def _rows(lines: Lines, kind: str) -> Floats:
+    """Return the numbers of all lines of a kind, as many of each as the shortest line has."""
     text = lines.of(kind)
     begins, counts = numerals.words(text)
     values = numerals.floats(text, begins)
-    if not len(counts):
-        return np.zeros((0, 0))
-    width, most = int(counts.min()), int(counts.max())
-    if width == most:
-        return values.reshape(-1, width)
-    images.note(f"not read: numbers that only some lines of the kind {kind} have", "OBJ")
+    width = int(counts.min(initial=9)) if len(counts) else 0
     return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)]
 
 
@@ -191,7 +167,7 @@ def _named_parts(
     at, states = [-1], [0]
     found = used = ""
     libraries = []
-    left = [word for kind, word in _NOT_SHOWN.items() if len(lines.numbers(kind))]
+    left = [kind for kind in ("l", "p") if len(lines.numbers(kind))]
     for number, keyword, rest in lines.statements():
         if keyword == "mtllib":
             libraries.append(rest)
@@ -214,15 +190,9 @@ def _named_parts(
     materials = _materials(path.parent, libraries, images)
     all_keys = list(keys)
     named: list[Named] = []
-    taken: dict[str, int] = {}
     for group in groups:
         found, used = all_keys[part[group[0]]]
-        name = "_".join(filter(None, (found, used if len(materials) > 1 else "")))
-        name = name or "geometry"
-        while name in taken:
-            taken[name] += 1
-            name = f"{name}_{taken[name]}"
-        taken[name] = 0
+        name = "_".join(filter(None, (found, used if len(materials) > 1 else ""))) or "geometry"
         given = materials.get(used)
         if used and materials and given is None:
             problem = f"{shown(used)} is not in {', '.join(libraries)}; default colours are shown"
@@ -251,26 +221,19 @@ def _materials(folder: Path, libraries: list[str], images: ModelImages) -> dict[
 
 def _blame_line(path: Path, lines: Lines) -> NoReturn:
     """Raise LucidaError for the first line that is at fault."""
-    count, last = len(lines.numbers("v")), lines.numbers("f")[-1]
-    above = 0
+    vertices = len(lines.numbers("v"))
     for number, line in enumerate(lines.text.decode("utf-8", "replace").split("\n")):
         keyword, *words = line.partition("#")[0].split() or [""]
-        problem = ""
-        if keyword in _VALUES:
-            above += keyword == "v"
-            if (keyword == "v" and len(words) < 3) or not all(map(numerals.is_number, words)):
-                problem = f"is not {_VALUES[keyword]}"
-        elif keyword == "f":
-            corners = [_CORNER.fullmatch(word) for word in words]
-            indices = [int(corner[1]) for corner in corners if corner]
-            wrong = [k for k in indices if k == 0 or not -above <= k <= count]
-            if len(indices) < len(words):
-                problem = "is not a face"
-            elif wrong:
-                problem = f"uses vertex {wrong[0]} of {count}"
-            elif number == last:
-                problem = "is not a whole face: the file is cut off"
-        if problem:
-            where = f"line {number}"
-            raise LucidaError(where, f"{line[:60]!r} {problem}", "repair the line", str(path))
+        try:
+            if keyword in ("v", "vn", "vt"):
+                is_sound = len([float(word) for word in words]) >= (2 if keyword == "vt" else 3)
+            else:
+                corners = [abs(int(word.partition("/")[0])) for word in words if keyword == "f"]
+                is_sound = keyword != "f" or (min(corners) > 0 and max(corners) <= vertices)
+                is_sound &= number != lines.numbers("f")[-1] or len(words) > 2
+        except ValueError:
+            is_sound = False
+        if not is_sound:
+            problem = f"{line[:60]!r} is no line of an OBJ with {vertices} vertices"
+            raise LucidaError(f"line {number}", problem, "repair the line", str(path))
     raise LucidaError("", "cannot be read as OBJ", "export it again, as triangles", str(path))

@@ -22,6 +22,7 @@ NEEDLE = 1e-9  # height over longest side below which a triangle has no area tha
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
 LARGEST_UV = 1e6  # times an image: float32 knows no place in it beyond that
 FAR = 16.0  # times its own size: farther from the file's origin than that, a mesh gets its own
+SPREAD = (5, 50, 95)  # percentiles of a mesh's vertices: a few stray ones do not count
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,6 @@ class Part:
     linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
     uv (n, 2), v up, or None; where a texture needs them. has_backs: whether a face that repeats
     another one turned over stays: where a material is single-sided, each is seen from its side.
-    origin (3,): of the mesh's own space; None for that of own_origin().
     """
 
     name: str
@@ -44,7 +44,6 @@ class Part:
     material: Material | None = None
     uv: Any = None
     has_backs: bool = False
-    origin: NDArray[np.float64] | None = None
 
 
 def build_mesh(part: Part) -> Mesh | None:
@@ -71,7 +70,7 @@ def build_mesh(part: Part) -> Mesh | None:
     if uv is not None:
         uv = np.where(np.abs(uv) <= LARGEST_UV, uv, 0.0).astype(np.float32)  # 0 for NaN too
     _check_used(vertices, faces)
-    origin = own_origin(vertices, faces) if part.origin is None else part.origin
+    origin = _own_origin(vertices, faces)
     with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
     merged = merge_positions(positions)
@@ -144,17 +143,21 @@ def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None
         )
 
 
-def own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the origin of the mesh's own space: the file's origin, or a point near a far mesh.
 
     That point is a multiple of a power of two of about the mesh's size: exact, and a pattern of
-    cells whose side is a smaller power of two does not shift.
+    cells whose side is a smaller power of two does not shift. Stray vertices, such as a marker at
+    the origin of a map, change neither the size nor the point.
     """
     used = np.zeros(len(vertices), bool)
     used[faces] = True
-    low, high = extent(vertices[used])
+    points = vertices[used]
+    low, high = extent(points)
+    if not np.abs(low + high).max() / 2 > (high - low).max() / 4:
+        return np.zeros(3)  # about the file's origin
+    low, middle, high = np.percentile(points, SPREAD, axis=0)
     size = float((high - low).max())
-    middle = (low + high) / 2
     if not np.abs(middle).max() > FAR * size > 0:
         return np.zeros(3)
     step = 2.0 ** math.ceil(math.log2(size))

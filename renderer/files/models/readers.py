@@ -6,26 +6,21 @@ Each count that a file declares is compared with the data that is there before m
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models.gltf_file import TRIANGLE_STRIP
-from lucida.renderer.files.models.gltf_numbers import triangles_of
-from lucida.renderer.files.models.mtl import ImageMap, MtlMaterial
 from lucida.renderer.files.models.numerals import floats, words
 from lucida.renderer.files.models.parts import Part, linear_colors
 from lucida.renderer.files.models.polygons import check_corners, triangulated
 from lucida.renderer.files.models.texts import read_text_bytes, tidy
 from lucida.renderer.files.reading import check_bytes, check_count, damaged, read_file
 from lucida.renderer.files.texture_images import ModelImages
-from lucida.renderer.scene.limits import BINARY_MODEL_BYTES, OBJECTS, TEXT_MODEL_BYTES, TRIANGLES
+from lucida.renderer.scene.limits import BINARY_MODEL_BYTES, TEXT_MODEL_BYTES, TRIANGLES
 from lucida.renderer.system.errors import LucidaError
 
-_SOLID = re.compile(rb"(?is)\n[ \t]*solid\b([^\n]*)(.*?)endsolid")
 _VERTEX = re.compile(rb"(?i)vertex([^\n]*)")
 _FACET = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attribute", "<u2")])
 _PLY_END = re.compile(rb"end_header[ \t\r]*\n")
@@ -34,28 +29,21 @@ _PLY_TYPES = {
     "float": "f4", "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2",
     "int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8",
 }  # fmt: skip
-_PLY_LISTS = ("vertex_indices", "vertex_index")
-_COLORS = ("red", "green", "blue", "alpha")
-_PLACES = ("s", "t", "u", "v", "texture_u", "texture_v")
-# By element, the properties that are read, and those that change no picture.
-_PLY_READ = {
-    "vertex": (*"xyz", "nx", "ny", "nz", *_COLORS, *_PLACES, "confidence", "intensity", "quality"),
-    "face": (*_PLY_LISTS, *_COLORS, "texcoord", "texnumber", "flags", "quality"),
-    "tristrips": _PLY_LISTS,
-}
-_PLY_TEXTURE = re.compile(r"(?m)^comment TextureFile (.*)$")
+_POINT, _NORMAL, _COLORS = "xyz", ("nx", "ny", "nz"), ("red", "green", "blue")
+_PLACES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
+_CORNERS = ("vertex_indices", "vertex_index")
+_PLY_READ = {*_POINT, *_NORMAL, *_COLORS, "alpha", *np.ravel(_PLACES).tolist(), *_CORNERS}
 Columns = dict[str, NDArray[Any]]
 
 
 def read_ply(path: Path, images: ModelImages) -> list[Part]:
-    """Return the mesh of a .ply file, text or binary. images: for its texture; notes what is not
-    read.
-    """
+    """Return the mesh of a .ply file, text or binary. images: notes what is not read."""
     data = read_file(path, BINARY_MODEL_BYTES)
     end = _PLY_END.search(data[: 1 << 16])
     if not data.startswith(b"ply") or not end:
         raise damaged("has no PLY header")
     header, body = data[: end.end()].decode("utf-8", "replace"), data[end.end() :]
+    found: dict[str, Columns] = {}
     try:
         elements, form = _ply_header(header)
         if is_text := form == "ascii":
@@ -63,27 +51,17 @@ def read_ply(path: Path, images: ModelImages) -> list[Part]:
             text = tidy(body)
             body = floats(text, words(text)[0]).tobytes()
         order = ">" if form == "binary_big_endian" else "<"
-        found: dict[str, Columns] = {}
         at = 0
         for element in elements:
             found[element.name], at = _ply_columns(body, at, element, order, is_text)
     except (ValueError, TypeError, LookupError, OverflowError):
         raise damaged("does not hold what its PLY header declares") from None
-    not_read = [e.name for e in elements if e.rows and e.name not in _PLY_READ]
-    for element in elements:
-        names = [name for name, _, _ in element.properties]
-        not_read += [n for n in names if n not in _PLY_READ.get(element.name, names)]
-    part, material = _ply_part(found, path.stem, images), None
-    if at < len(body):
-        not_read.append("what follows the last element")
-    match _PLY_TEXTURE.findall(header):
-        case [name]:
-            material = MtlMaterial(path.parent, image=ImageMap(name.strip())).material(images)
-        case several:
-            not_read += several
-    if not_read:
-        images.note(f"not read: {', '.join(not_read)}", "PLY")
-    return [replace(part, material=material)]
+    if "tristrips" in found:
+        raise LucidaError("tristrips", "are not read", "export triangles")
+    names = [name for element in elements for name, _, _ in element.properties]
+    if left := [name for name in names if name not in _PLY_READ]:
+        images.note(f"not read: {', '.join(left)}", "PLY")
+    return [_ply_part(found.get("vertex", {}), found.get("face", {}), path.stem)]
 
 
 class _PlyElement(NamedTuple):
@@ -169,134 +147,87 @@ def _ragged_columns(
     return {name: np.concatenate(pieces) for name, pieces in found.items()}, at
 
 
-def _ply_part(found: dict[str, Columns], name: str, images: ModelImages) -> Part:
-    vertex, face = found.get("vertex", {}), found.get("face", {})
+def _ply_part(vertex: Columns, face: Columns, name: str) -> Part:
+    def rows(columns: Columns, *choices: tuple[str, ...]) -> NDArray[Any] | None:
+        whole = (names for names in choices if set(names) <= columns.keys())
+        return next((np.column_stack([columns[n] for n in names]) for names in whole), None)
 
-    def rows(columns: Columns, *names: str, least: int = 3) -> NDArray[Any] | None:
-        there = [columns[name] for name in names if name in columns]
-        return np.column_stack(there) if len(there) >= least else None
-
-    def lists(columns: Columns) -> tuple[NDArray[Any], NDArray[Any]]:
-        for name in _PLY_LISTS:
-            if f"{name} count" in columns:
-                return columns[name], columns[f"{name} count"]
-        return np.zeros(0), np.zeros(0)
-
-    vertices: dict[str, Any] = {
-        "vertices": rows(vertex, *"xyz"),
-        "normals": rows(vertex, "nx", "ny", "nz"),
-        "vertex_colors": linear_colors(rows(vertex, *_COLORS)),
-        "uv": rows(vertex, *_PLACES, least=2),
-    }
-    if (points := vertices["vertices"]) is None:
+    points = rows(vertex, tuple(_POINT))
+    listed = next((name for name in _CORNERS if f"{name} count" in face), None)
+    if points is None or listed is None:
         return Part(name, np.zeros((0, 3)), np.zeros((0, 3), np.int64))
-    corners, counts = lists(face)
-    corners, places, owner = _faces(points, corners, counts, images)
-    faces, colors = corners[places], linear_colors(rows(face, *_COLORS))
-    if len(strips := _strips(*lists(found.get("tristrips", {})))):
-        check_corners(strips.reshape(-1), len(points))
-        faces, colors = np.concatenate([faces, strips]), None
-    elif "texcoord count" in face and np.array_equal(
-        face["texcoord count"], 2 * counts
-    ):  # a vertex for each corner
-        vertices = {key: rows if rows is None else rows[corners] for key, rows in vertices.items()}
-        vertices["uv"], faces = face["texcoord"].reshape(-1, 2), places
+    faces, owner = _faces(points, face[listed], face[f"{listed} count"])
+    colors = linear_colors(rows(face, _COLORS))
     return Part(
-        name, faces=faces, face_colors=None if colors is None else colors[owner], **vertices
+        name,
+        points,
+        faces,
+        rows(vertex, _NORMAL),
+        linear_colors(rows(vertex, _COLORS)),
+        None if colors is None else colors[owner],
+        uv=rows(vertex, *_PLACES),
     )
 
 
-def _strips(corners: NDArray[Any], counts: NDArray[Any]) -> NDArray[np.int64]:
-    """Return the triangles of strips, which end with their list or at -1."""
-    found = [np.zeros((0, 3), np.int64)]
-    ends = np.append(np.cumsum(counts[:-1]), np.flatnonzero(corners == -1))
-    for strip in np.split(corners.astype(np.int64), np.sort(ends.astype(np.int64))):
-        found.append(triangles_of(strip[strip != -1], TRIANGLE_STRIP))
-    return np.concatenate(found)
-
-
 def _faces(
-    points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any], images: ModelImages
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Return the polygons' corners, and triangulated() of them."""
+    points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the triangles of polygons, and the polygon of each."""
     with np.errstate(invalid="ignore"):
         corners = corners.astype(np.int64)
     check_corners(corners, len(points))
-    points, counts = points.astype(np.float64), counts.astype(np.int64)
-    return corners, *triangulated(points, corners, counts, images)
+    places, owner = triangulated(points.astype(np.float64), corners, counts.astype(np.int64))
+    return corners[places], owner
 
 
 def read_off(path: Path, images: ModelImages) -> list[Part]:
     """Return the mesh of an .off file, a text. images: notes what is not read."""
     text = re.sub(rb"#[^\n]*", b"", read_text_bytes(path)).lstrip()
-    kind = re.match(rb"(?i)([a-z0-9]*?)off", text)
+    kind = re.match(rb"(?i)(ST)?(C)?(N)?OFF(?!\s*BINARY)", text)
     if kind is None:
-        raise damaged("does not begin with OFF")
-    rest = text[kind.end() :]
-    if kind[1].upper() not in (b"", b"C", b"N", b"CN", b"ST") or rest.lstrip()[:6] == b"BINARY":
-        raise LucidaError("", f"is of the kind {kind[0].decode()}", "export a plain OFF")
-    rest = b" %s\n" % rest
-    begins, lengths = words(rest)
+        raise damaged("does not begin with OFF, or is binary")
+    text = b" %s\n" % text[kind.end() :]
+    begins, lengths = words(text)
     lengths = lengths[lengths > 0]
     rows = np.cumsum(lengths) - lengths
     try:
-        numbers = floats(rest, begins)
+        numbers = floats(text, begins)
         vertices, faces = (int(numbers[k]) for k in (0, 1))
-        is_whole = min(vertices, faces) >= 0 and vertices + faces < len(rows)
-        if not is_whole or (lengths[1 : vertices + 1] < 3).any():
+        which = slice(vertices + 1, vertices + 1 + faces)
+        first = rows[which]
+        counts = numbers[first].astype(np.int64)
+        is_whole = len(first) == faces and (lengths[1 : vertices + 1] >= 3).all()
+        if vertices < 0 or not is_whole or not ((counts >= 0) & (counts < lengths[which])).all():
             raise ValueError
         points = numbers[rows[1 : vertices + 1, None] + np.arange(3)]
-        which = slice(vertices + 1, vertices + 1 + faces)
-        first, room = rows[which], lengths[which]
-        sides = numbers[first]
-        if not ((sides >= 0) & (sides < room)).all():
-            raise ValueError
-        counts = sides.astype(np.int64)
         places = np.repeat(first + 1 - (np.cumsum(counts) - counts), counts)
         corners = numbers[places + np.arange(len(places))]
     except (ValueError, IndexError, OverflowError):
         raise damaged("does not hold what its OFF header declares") from None
-    if kind[1] or (room > sides + 1).any():
+    if kind[0].upper() != b"OFF" or (lengths[which] > counts + 1).any():
         images.note("not read: colours, normals and texture coordinates", "OFF")
-    indices, cut, _ = _faces(points, corners, counts, images)
-    return [Part(path.stem, points, indices[cut])]
+    return [Part(path.stem, points, _faces(points, corners, counts)[0])]
 
 
 def read_stl(path: Path, images: ModelImages) -> list[Part]:
-    """Return the solids of an .stl file, text or binary. images: notes what is not read."""
+    """Return the mesh of an .stl file, text or binary: of all its solids together. images: notes
+    what is not read.
+    """
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")
-    solids: list[tuple[str, NDArray[Any]]] = []
     behind = len(data) - 84 - 50 * triangles
-    if len(data) >= 84 and (behind == 0 or behind > 0 < triangles):
+    if behind == 0 or behind > 0 < triangles:
         check_count(triangles, TRIANGLES, "triangles")
-        facets = np.frombuffer(data, _FACET, triangles, 84)
+        points = np.frombuffer(data, _FACET, triangles, 84)["vertices"].reshape(-1, 3)
         if behind:
             images.note(f"not read: {behind} bytes behind the triangles", "STL")
-        if facets["attribute"].any() or b"COLOR=" in data[:80]:
-            images.note(
-                "not read: attributes of triangles, which some programs use for colours", "STL"
-            )
-        solids.append(("", facets["vertices"].reshape(-1, 3)))
-    elif data.lstrip()[:5].lower() == b"solid":
+    elif data.lstrip()[:5].lower() == b"solid" and b"endsolid" in data.lower():
         check_bytes(len(data), TEXT_MODEL_BYTES, "")
-        found = _SOLID.findall(tidy(data))
-        if not found:
-            raise damaged("has no 'endsolid'")
-        check_count(len(found), OBJECTS, "solids")
-        for name, lines in found:
-            text = b" %s\n" % b"\n ".join(_VERTEX.findall(lines))
-            try:
-                points = floats(text, words(text)[0]).reshape(-1, 3)
-            except ValueError:
-                raise damaged("has a vertex that is not three numbers") from None
-            solids.append((name.decode("utf-8", "replace").strip(), points))
-    elif len(data) < 84:
-        raise damaged("is too short to be STL")
+        text = b" %s\n" % b"\n ".join(_VERTEX.findall(tidy(data)))
+        try:
+            points = floats(text, words(text)[0]).reshape(-1, 3)
+        except ValueError:
+            raise damaged("has a vertex that is not three numbers") from None
     else:
-        declared = f"{triangles} triangles, {84 + 50 * triangles:,} bytes"
-        raise damaged(f"declares {declared}, and has {len(data):,} bytes")
-    return [
-        Part(name or path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))
-        for name, points in solids
-    ]
+        raise damaged(f"is no STL of {triangles} triangles: it has {len(data):,} bytes")
+    return [Part(path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))]

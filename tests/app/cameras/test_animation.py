@@ -158,7 +158,7 @@ def test_half_a_turn_goes_about_the_upright_axis() -> None:
 
 @pytest.mark.parametrize("scale", [1.0, 2.5])
 def test_half_way_is_half_of_the_turn_and_the_mean_of_the_stretch(scale: float) -> None:
-    """About one axis, evenly; lengths pass in their logarithm."""
+    """About one axis, evenly; lengths pass evenly, too."""
     axis = np.array([1.0, 2.0, -2.0]) / 3
     cross = np.cross(np.eye(3), -axis)
 
@@ -171,7 +171,8 @@ def test_half_way_is_half_of_the_turn_and_the_mean_of_the_stretch(scale: float) 
         passage = Passage(View(Camera(eye=(0, 0, 5))), View(end), (0, 0, 0), SIZE)
         for part, way in ((0.25, 0.15625), (0.5, 0.5)):
             basis = passage.at(part).camera.basis
-            np.testing.assert_allclose(basis, scale**way * turn(way * angle), atol=1e-9)
+            length = 1 + way * (scale - 1)
+            np.testing.assert_allclose(basis, length * turn(way * angle), atol=1e-9)
 
 
 def test_between_a_view_that_is_fitted_and_one_that_is_not_nothing_is_fitted() -> None:

@@ -15,7 +15,7 @@ from lucida.app.cameras.lens_choices import (
     of_model,
     with_lens,
 )
-from lucida.app.cameras.presets import PRESETS, framed, preset_view
+from lucida.app.cameras.presets import framed
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
@@ -68,14 +68,6 @@ def test_what_is_framed_is_in_the_image(preset):
     row, column, _ = camera.project(BOX, SIZE)
     assert ((row >= -0.5) & (row <= SIZE[1] - 0.5)).all()
     assert ((column >= -0.5) & (column <= SIZE[0] - 0.5)).all()
-
-
-def test_presets_of_the_camera_keep_the_lens_in_perspective():
-    view = View(LENS_PRESETS[0].of(BASE, 1.5))
-    front = PRESETS[0]
-    seen = preset_view(front, view, BOX, BOX, 1.5, perspective=True)
-    assert seen.camera.lens == view.camera.lens
-    assert preset_view(front, view, BOX, BOX, 1.5).camera.lens is None
 
 
 BARREL = Lens("brown", {"k1": -0.2, "p1": 0.01})

@@ -68,23 +68,6 @@ def test_no_place_is_minus_zero() -> None:
         assert "-0," not in one.words and "-0)" not in one.words
 
 
-def test_r_and_t_are_a_pose() -> None:
-    pose = CAMERA.camera_from_world
-    matrix = matrix_in(f"R = {pose[:3, :3].tolist()}\nt = {pose[:3, 3].tolist()}")
-    found = meanings(matrix, NOW, (0, 0, 0))
-    (meaning,) = (
-        one for one in found if one.words.startswith("world to camera, y up, z back (OpenGL)\n")
-    )
-    np.testing.assert_allclose(pixels(meaning.view.camera), pixels(CAMERA), atol=1e-6)
-
-
-def test_a_projection_alone_leaves_the_eye() -> None:
-    found = meanings(OFF_AXIS.clip_from_camera(0.1, 100), NOW, (0, 0, 0))
-    (meaning,) = (one for one in found if one.words.startswith("projection alone"))
-    wanted = replace(NOW.camera, distance=OFF_AXIS.distance, viewport=OFF_AXIS.viewport)
-    np.testing.assert_allclose(pixels(meaning.view.camera), pixels(wanted), atol=1e-6)
-
-
 @pytest.mark.parametrize(
     ("text", "count"),
     [

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult, check
-from lucida.app.checking.reports.told import told
+from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
+from lucida.app.checking.task_file import BUILTIN
 
 Edits = Sequence[tuple[str, str]]
 
@@ -253,7 +253,7 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FileStudent]:
 def assert_found(result: TaskResult, says: str, known: bool | None) -> None:
     found = told(result)
     assert result.status == "wrong" and result.diagnosis is not None, found.lines
-    assert says in " ".join(found.diagnosis).replace("`", ""), found.diagnosis
+    assert says in " ".join(result.diagnosis.sentences).replace("`", ""), found.lines
     assert known is None or bool(result.diagnosis.candidates) == known
 
 
@@ -297,6 +297,6 @@ def test_wrong_programs(tmp_path: Path, name: str) -> None:
             assert result.status == "right", told(result).lines
         elif says.startswith("failed: "):
             assert result.status == "failed"
-            assert says.removeprefix("failed: ") in told(result).failure[0]
+            assert says.removeprefix("failed: ") in told(result).lines[0]
         else:
             assert_found(result, says, bool(says))

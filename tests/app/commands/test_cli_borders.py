@@ -109,8 +109,7 @@ def test_a_special_file_is_not_opened_in_the_window(
 RAYS = "def viewing_ray(i, j, width, height, camera):\n    return camera.eye, (0, 0, -1)\n"
 WRITERS = [
     "check --starter all -o out.py",
-    "check rays.py --view view.toml --size 1x1 --json out.json",
-    "check rays.py --view view.toml --size 1x1 --html out.html",
+    "check rays.py --task viewing-ray --json out.json",
     "camera view.toml --size 640x480 --to colmap -o out",
     "camera view.toml --size 640x480 -o out.yml --to opencv",
     "export spheres -o out.glb",
@@ -154,7 +153,7 @@ def test_no_earlier_results_stay_if_new_ones_cannot_be_written(
 ) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
     (folder / "rays.py").write_text(RAYS, "utf-8")
-    line = ["check", "rays.py", "--view", "view.toml", "--size", "1x1", "--json", "out.json"]
+    line = ["check", "rays.py", "--json", "out.json"]
     assert main(line) != 2
     assert (folder / "out.json").exists()
     with files_up_to(0):
@@ -196,7 +195,7 @@ text = "{HOSTILE}"
 @pytest.mark.parametrize("line", [
     "tasks --tasks tasks.toml",
     "tasks --tasks tasks.toml \x1b[31mred\x9b2J\u202e",
-    "check rays.py --tasks tasks.toml --view view.toml --size 1x1",
+    "check rays.py --tasks tasks.toml",
     "check --starter all --tasks tasks.toml",
     "scene scene.toml",
     "pick scene.toml 360 640",

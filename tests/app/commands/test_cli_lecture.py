@@ -76,15 +76,6 @@ options = [
         assert "formulas not checked" in said.out
 
 
-def test_answers_in_the_place_of_a_scene(tmp_path, capsys):
-    path = tmp_path / "answers.jsonl"
-    path.write_text('{"lucida": "answer"}\n')
-    assert main([str(path)]) == 2
-    said = capsys.readouterr().err
-    problem = "holds a class's answers, not a scene"
-    assert said == f"lucida: {path}: {problem}; lucida lecture --results {path} -o class.html\n"
-
-
 @pytest.mark.parametrize("text", [LECTURE, LECTURE.replace('"spheres"', '"spheres')])
 def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
     path = tmp_path / "x.toml"

@@ -39,9 +39,9 @@ def test_where_there_is_no_eye_none_is_drawn():
             parallel = step.view.camera.is_parallel
             kinds = {type(item) for item in items_of(title)}
             assert (Eye in kinds) != parallel, title
-            assert parallel or {"e", "(0, 0, 0)"} & labels_of(title), title
-    assert "e" not in labels_of("Parallel projection")
-    assert "e" in labels_of("Parallel: the pixel moves the origin")  # its formula has it
+            assert parallel or {"vec(e)", "(0, 0, 0)"} & labels_of(title), title
+    assert "vec(e)" not in labels_of("Parallel projection")
+    assert "vec(e)" in labels_of("Parallel: the pixel moves the origin")  # its formula has it
 
 
 @pytest.mark.parametrize("title", ["The basis from a target", "Exercise: find the basis"])
@@ -66,5 +66,5 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named():
     items = diagram(Content(camera, size, options_of(title), 9.0, marked=marked))
     at = {item.name: item.point for item in items if isinstance(item, Dot)}
     ray = camera.ray(*step.pixel, size)
-    assert np.allclose(at["t = 0"], ray.origin)
+    assert np.allclose(at["p"], ray.origin)
     assert np.allclose(at["t = 1"], ray.origin + ray.direction)

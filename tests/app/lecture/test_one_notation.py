@@ -4,7 +4,6 @@ Walks the texts that the rooms' pure models produce: the lecture's steps and exe
 the mistakes, the stepper, the labels of the outside view, the laboratory, tasks and what is copied.
 """
 
-import inspect
 import itertools
 import re
 from collections.abc import Iterator
@@ -14,20 +13,20 @@ import pytest
 from both_lectures import both_lectures
 
 from lucida.app.cameras.camera_panel import panel, projection
-from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
 from lucida.app.checking.own_words import starter
+from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.ruler import ruler
 from lucida.app.instruments.laboratory.sheet import Look
 from lucida.app.instruments.outside import figure
-from lucida.app.instruments.outside.camera_diagram import Content, diagram
+from lucida.app.instruments.outside.camera_diagram import Content
 from lucida.app.instruments.outside.diagram import Label, RayEnd
-from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python, as_text
+from lucida.app.instruments.outside.growing import grown_diagram
+from lucida.app.instruments.probe.copying import all_lines, as_latex, as_python
 from lucida.app.instruments.probe.model import Probe
-from lucida.app.instruments.stepper import loop_parts, raster_parts
-from lucida.app.instruments.stepper.recording import Order
-from lucida.app.instruments.stepper.source import shown_code, shown_lines, source_of
+from lucida.app.instruments.stepper.loops import PROGRAMS
+from lucida.app.instruments.stepper.source import shown_lines, source_of
 from lucida.app.lecture import text as texts
 from lucida.app.lecture.notation import in_notation
 from lucida.app.state.options.laboratory import LaboratoryOptions
@@ -73,10 +72,10 @@ def probe(notation):
         reading = Probe(scene).at((24, 32), scene.view.for_size((64, 48)), (64, 48))
         for line in all_lines(reading, Indexing.LECTURE, notation):
             yield "probe", "latex", f"{line.latex} {line.latex_numbers}"
-            yield "probe", "plain", f"{line.name}: {line.text} {line.text_numbers}"
-        yield "copied", "plain", as_text(reading, Indexing.ARRAY, notation).partition("\n")[2]
+            yield "probe", "plain", line.name
         yield "copied", "latex", as_latex(reading, Indexing.ARRAY, notation).partition("\n")[2]
-        yield "copied", "program", as_python(reading, Indexing.LECTURE, notation)
+        if notation == "code":
+            yield "copied", "program", as_python(reading, Indexing.LECTURE)
 
 
 def mistakes(notation):
@@ -90,13 +89,10 @@ def mistakes(notation):
 
 
 def stepper(notation):
-    for order in Order:
+    for program in PROGRAMS:
         for indexing in Indexing:
-            for line in shown_lines(source_of(order.renderer).lines, notation, indexing):
+            for line in shown_lines(source_of(program).lines, notation, indexing):
                 yield "stepper", "program", line
-    for part in (loop_parts.viewing_ray, loop_parts.color_at, raster_parts.prepared):
-        code = shown_code(inspect.getsource(part), notation)
-        yield part.__name__, "program", "".join(code.split('"""')[::2])
 
 
 def drawn(notation):
@@ -104,7 +100,8 @@ def drawn(notation):
     for step, options in itertools.product(STEPS, both):
         camera = step.view.for_size((64, 48))
         end = RayEnd((24, 32), 2.0)
-        for item in diagram(Content(camera, (64, 48), options, 9.0, (), end, notation=notation)):
+        content = Content(camera, (64, 48), options, 9.0, (), end, notation=notation)
+        for item in grown_diagram(content):
             if isinstance(item, Label):
                 yield "outside view", "label", item.text
 

@@ -30,7 +30,6 @@ from lucida.renderer.system.errors import LucidaError
 ARRANGEMENT = Arrangement(
     "Compare",
     ("Camera", "Raster"),
-    "[Window][Camera]\nPos=0,24\n",
     {"Camera": ("Look at",)},
     parts={"Lecture/RightSpace": 0.36},
 )

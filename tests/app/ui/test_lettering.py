@@ -11,7 +11,6 @@ from lucida.app.images.pair.pixelgrid import ADVANCE, DIGITS_HIGH, LEADING, text
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.shared import Preferences
 from lucida.app.ui.explaining.breaking import broken, narrowed
-from lucida.app.ui.sliders import part_of
 from lucida.app.ui.theme import CAPITAL, LARGEST, TEXT_PX, look_of
 
 
@@ -52,13 +51,6 @@ def test_values_stay_in_their_pixel(letters, lines):
     assert letters * ADVANCE * size_px < side
     assert ((lines - 1) * LEADING + DIGITS_HIGH) * size_px < 0.9 * side
     assert LEADING > DIGITS_HIGH  # lines do not touch
-
-
-def test_a_slider_shows_where_its_value_stands():
-    assert part_of(5, 0, 10, False) == 0.5
-    assert part_of(10, 1, 100, True) == pytest.approx(0.5)
-    assert part_of(-3, 0, 10, False) == 0.0 and part_of(99, 0, 10, False) == 1.0
-    assert part_of(1, 1, 1, False) == 0.0
 
 
 @pytest.mark.parametrize("presentation", [False, True])

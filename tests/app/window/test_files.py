@@ -9,7 +9,6 @@ from opened_things import found
 from PIL import Image
 from waiting import wait_for
 
-from lucida.app.ui.dialog import read_folder
 from lucida.app.ui.recent import MOST, RecentFiles
 from lucida.app.ui.surface import Target
 from lucida.app.window import capture
@@ -63,15 +62,6 @@ def test_a_broken_list_is_an_empty_one(tmp_path, content):
 
 
 # Folders.
-
-
-def test_a_folder_is_listed_folders_first(tmp_path):
-    for name in ("b.OBJ", "a.toml", "c.txt", ".hidden.obj"):
-        (tmp_path / name).write_text("")
-    (tmp_path / "Zoo").mkdir()
-    listing = read_folder(tmp_path, (".obj", ".toml"))
-    assert (listing.folders, listing.files) == (("Zoo",), ("a.toml", "b.OBJ"))
-    assert read_folder(tmp_path / "nowhere", ("",)).error != ""
 
 
 # Several sources at once.

@@ -4,7 +4,6 @@ import io
 import os
 import subprocess
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import msgspec
@@ -15,7 +14,6 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import is_unicode, restored, stored
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from lucida.app.ui.background import Background
-from lucida.app.ui.dialog import FOLDER, FileDialog, FileQuestion, read_folder
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.toasts import Toasts
 from lucida.app.window import process
@@ -101,34 +99,6 @@ def test_notifications_are_text():
     toasts = Toasts()
     toasts.add("Saved /tmp/\udcff.png.")
     assert toasts.texts == [r"Saved /tmp/\xff.png."]
-
-
-def test_the_dialog_opens_the_file_whose_name_it_shows(model):
-    chosen = []
-    dialog = FileDialog()
-    question = FileQuestion("Open", False, (".obj",), "", chosen.extend)
-    dialog.ask(question)
-    folder, name = os.path.split(model)
-    # What ImGui would be needed for: to show the folder, to type and to confirm a name.
-    dialog.listing = read_folder(Path(folder), (".obj",))
-    dialog._name = one_line(name)  # as it is shown and can be typed
-    dialog._finish(question)
-    assert chosen == [model]
-    dialog.close()
-
-
-def test_a_folder_to_write_into_may_be_there(tmp_path):
-    (tmp_path / "out").mkdir()
-    chosen = []
-    dialog = FileDialog()
-    question = FileQuestion("Save", True, FOLDER, "film", chosen.extend)
-    dialog.ask(question)
-    for name in ("out/", "../out"):  # a slash enters it
-        dialog.listing = read_folder(tmp_path if "." not in name else dialog.folder, FOLDER)
-        dialog._name = name
-        dialog._finish(question)
-    assert dialog.folder == tmp_path / "out" and chosen == [str(tmp_path / "out" / ".." / "out")]
-    dialog.close()
 
 
 def test_the_command_line_to_copy_names_it(model):

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from lucida.app.ui.fields import short_number
 from lucida.app.window.status import (
     Status,
     agreement_text,
@@ -20,9 +19,6 @@ STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spher
 def test_texts_keep_their_width():
     assert {len(milliseconds(time_s)) for time_s in (0.0, 1e-4, 0.0123, 0.9, 1.5, 99.0)} == {8}
     assert len({len(ray_text(replace(STATUS, factor=factor))) for factor in (0, 1, 4, 8)}) == 1
-    numbers = (0.0, -0.8, 9.99951, -42.708, 99.996, 123.45, -999.96, 1e6, -1e12)
-    assert {len(short_number(number)) for number in numbers} == {7}
-    assert all(short_number(number)[0] in " -" for number in numbers)
 
 
 def test_an_image_that_no_view_has_wanted_has_no_time():

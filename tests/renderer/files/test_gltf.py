@@ -80,7 +80,7 @@ def test_what_of_gltf_materials_is_not_shown_is_one_line(
     )
     (note,) = load_scene(tmp_path / "t.gltf").notes
     told = (
-        "normal maps, emission, transparency (BLEND), which is drawn opaque, clear coat, X\\x1b[31m"
+        "normal maps, emission, transparency (BLEND), which is drawn opaque, clearcoat, X\\x1b[31m"
     )
     assert note.endswith(f"t.gltf: materials: not shown: {told}")
     assert main(["scene", str(tmp_path / "t.gltf")]) == 0

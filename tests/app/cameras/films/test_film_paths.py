@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lucida import LucidaError, View, load_scene, save_view
 from lucida.app.cameras.films.key_file import keys_text, load_keys
-from lucida.app.cameras.films.paths import Key, around, dolly_zoom, through, to_parallel
+from lucida.app.cameras.films.paths import Key, around, dolly_zoom, through
 from lucida.renderer.scene.focus import scene_focus
 
 SIZE = (64, 36)
@@ -35,15 +37,9 @@ def test_a_dolly_zoom_keeps_the_focus_in_place():
     assert cameras[-1].distance == pytest.approx(4 * cameras[0].distance)
     assert np.ptp([seen(camera) for camera in cameras], axis=0).max() < 1e-6
     with pytest.raises(LucidaError, match="parallel rays have no distance"):
-        dolly_zoom(View(to_parallel(VIEW, FOCUS, SIZE, 3)[-1]), FOCUS, SIZE, 5)
-
-
-def test_perspective_becomes_parallel():
-    cameras = to_parallel(VIEW, FOCUS, SIZE, 9)
-    assert [cameras[n].projection for n in (0, -1)] == ["perspective", "parallel"]
-    assert np.ptp([seen(camera) for camera in cameras], axis=0).max() < 0.1
-    with pytest.raises(LucidaError, match="is parallel already"):
-        to_parallel(View(cameras[-1]), FOCUS, SIZE, 9)
+        dolly_zoom(
+            replace(VIEW, camera=replace(VIEW.camera, projection="parallel")), FOCUS, SIZE, 5
+        )
 
 
 def test_keys_are_passed_in_time(tmp_path):

@@ -14,7 +14,7 @@ import pytest
 
 from lucida.app.checking.checked import check
 from lucida.app.checking.courses import course_names, task_path
-from lucida.app.checking.reports.told import told
+from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.task_file import load_tasks
 from lucida.renderer.system.errors import LucidaError

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.checking.reports.picture import MARK
 from lucida.app.checking.your_code.code_pictures import SAME, SAME_COLOR, compared, image_pair
+from lucida.app.images.changed_pixels import MARK
 
 YES = np.ones((2, 3), bool)
 NO = np.zeros((2, 3), bool)

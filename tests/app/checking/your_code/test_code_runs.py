@@ -118,7 +118,6 @@ def test_the_camera_s_rays_come_first_then_the_tasks(desk):
     assert [task.name for task in report.tasks] == ["viewing-ray", "viewing-ray-parallel"]
     assert report.output == "printed"
     assert report.results.keys() == {"viewing-ray", "viewing-ray-parallel"}
-    assert report.at > 0
     (student,) = desk.made
     assert student.path == Path("rays.py")
     assert desk.runs.files == ("vectors.py",)
@@ -151,10 +150,10 @@ def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].hanging)
     assert desk.runs.running_s > 0
-    desk.runs.tick()
+    desk.runs.poll()
     assert not desk.made[0].ended.is_set()  # it is still wanted
     desk.runs.follow(OTHER)
-    wait_for(lambda: desk.runs.tick() or desk.made[0].ended.is_set())
+    wait_for(lambda: desk.runs.poll() or desk.made[0].ended.is_set())
     report = desk.settled()
     assert report.question == OTHER
     assert report.rays.result.status == "right"
@@ -166,8 +165,7 @@ def test_what_was_stopped_is_not_run_again_by_itself(desk):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].hanging)
     desk.runs.stop()
-    assert not desk.made[0].ended.is_set()  # that takes long: not in the window's thread
-    desk.runs.tick()
+    desk.runs.poll()
     report = desk.settled()
     assert report.rays.result.failure.text == "rays.py: was stopped"
     assert report.halted
@@ -208,7 +206,7 @@ def test_tasks_of_a_function_that_runs_endlessly_are_not_tried(desk):
     ("error", "text", "output"),
     [
         (
-            NotRunnableError(Failure("syntax", "rays.py, line 3: SyntaxError"), "said"),
+            NotRunnableError(Failure("exception", "rays.py, line 3: SyntaxError"), "said"),
             "line 3",
             "said",
         ),
@@ -239,9 +237,9 @@ def test_forgetting_ends_the_process(desk):
     desk.told(QUESTION)
     desk.runs.forget()
     assert desk.runs.report is None
-    wait_for(lambda: desk.made[0].closed)
+    assert desk.made[0].ended.is_set()
     assert desk.told(QUESTION).rays.result.status == "right"
-    assert len(desk.made) == 2
+    assert desk.made[0].closed and len(desk.made) == 2
     assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
 
 
@@ -271,8 +269,6 @@ def test_wrong_rays_are_told_first_then_why(desk):
     desk.prepare = mirrored
     report = desk.told(QUESTION)
     assert seen[0].rays.result.status == "wrong"
-    assert seen[0].diagnosis is None
-    assert report.diagnosis is not None
-    assert report.diagnosis.sentences
+    assert not seen[0].results
     assert report.results["viewing-ray"].diagnosis is not None
     assert report.rays is seen[0].rays  # the pictures stay

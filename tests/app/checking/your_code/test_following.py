@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from pathlib import Path
 
 from waiting import wait_for
@@ -22,14 +21,13 @@ def save(file: Path, text: str) -> None:
 def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
     file = tmp_path / "rays.py"
     file.write_text("one")
-    woken, ticks = threading.Event(), threading.Event()
-    follower = FileFollower(woken.set, lambda: False, ticks.set)
+    woken = threading.Event()
+    follower = FileFollower(woken.set, lambda: False)
     try:
         assert follower.version == 0
-        follower.follow(str(file))
+        follower.follow((str(file),))
         first = follower.version
         assert first == 1
-        wait_for(ticks.is_set)
         save(file, "two")
         wait_for(lambda: follower.version == first + 1)
         wait_for(woken.is_set)
@@ -38,13 +36,13 @@ def test_a_saved_file_is_another_version_and_wakes_the_window(tmp_path: Path):
         wait_for(lambda: follower.version == first + 2)
         follower.again()
         assert follower.version == first + 3
-        follower.follow(str(tmp_path / "other.py"))
+        follower.follow((str(tmp_path / "other.py"),))
         assert follower.version == first + 4
         follower.rest()
-        follower.follow(str(tmp_path / "other.py"))
+        follower.follow((str(tmp_path / "other.py"),))
         assert follower.version == first + 4  # it was only out of sight
         follower.forget()
-        follower.follow(str(tmp_path / "other.py"))
+        follower.follow((str(tmp_path / "other.py"),))
         assert follower.version == first + 5
     finally:
         follower.close()
@@ -54,10 +52,10 @@ def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
     file, module, later = (tmp_path / name for name in ("rays.py", "vectors.py", "later.py"))
     file.write_text("one")
     module.write_text("one")
-    follower = FileFollower(lambda: None, lambda: False, lambda: None)
+    follower = FileFollower(lambda: None, lambda: False)
     try:
-        follower.follow(str(file))
-        follower.follow_too((str(module), str(later)), time.time())
+        follower.follow((str(file),))
+        follower.follow((str(file),), (str(module), str(later)))
         assert follower.version == 1  # it has been run with them
         save(module, "two, saved")
         wait_for(lambda: follower.version == 2)
@@ -66,22 +64,6 @@ def test_a_module_that_it_needs_is_looked_at_too(tmp_path: Path):
         later.unlink()
         save(file, "two, saved")
         wait_for(lambda: follower.version == 4)
-    finally:
-        follower.close()
-
-
-def test_a_module_that_was_saved_while_it_was_read_makes_another_version(tmp_path: Path):
-    file, module = tmp_path / "rays.py", tmp_path / "vectors.py"
-    file.write_text("one")
-    module.write_text("one")
-    follower = FileFollower(lambda: None, lambda: False, lambda: None)
-    try:
-        follower.follow(str(file))
-        read_s = module.stat().st_mtime - 1.0
-        follower.follow_too((str(module),), read_s)
-        assert follower.version == 2
-        follower.follow_too((str(module),), read_s)
-        assert follower.version == 2  # once: the next reading has seen it
     finally:
         follower.close()
 

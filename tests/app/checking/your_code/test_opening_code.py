@@ -11,7 +11,6 @@ import pytest
 from opened_things import found
 from option_changes import with_options
 
-from lucida.app.checking.your_code.view import source_text
 from lucida.app.lecture.reading import load_lecture
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored, stored
@@ -94,16 +93,6 @@ def test_a_session_keeps_the_file_whatever_its_name(tmp_path: Path):
     kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.your_code
     assert restored(kept.file) == path
     assert kept == replace(state.options.your_code)
-
-
-def test_what_is_in_a_file_that_is_not_run(tmp_path: Path):
-    file = tmp_path / "rays.py"
-    file.write_bytes(b"x = 1\n\xff\0")
-    assert source_text(str(file)) == "x = 1\n\N{REPLACEMENT CHARACTER} "
-    file.write_text("#" * 200_000)
-    assert source_text(str(file)).endswith("#\n...")
-    assert len(source_text(str(file))) == 100_004
-    assert "cannot be read" in source_text(str(tmp_path / "away.py"))
 
 
 def tasks_in(folder: Path, text: str = 'lucida = 1\n[[tasks]]\nkind = "basis"\n') -> Path:

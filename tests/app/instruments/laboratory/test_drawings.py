@@ -33,7 +33,7 @@ def page_of(page: str, size=(853, 720), progress: float = 0.0, **options) -> Pag
 
 
 def figure_of(page: str, *args, **options) -> Figure:
-    return drawn(page, page_of(page, *args, **options))
+    return drawn(page_of(page, *args, **options))
 
 
 def points_of(figure: Figure) -> np.ndarray:

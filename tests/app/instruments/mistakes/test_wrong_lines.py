@@ -9,7 +9,7 @@ import pytest
 from option_changes import with_options
 
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
-from lucida.app.checking.reports.picture import MARK, changed_pixels, difference_picture
+from lucida.app.images.changed_pixels import MARK, changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPainter
 from lucida.app.instruments.mistakes import model
 from lucida.app.instruments.mistakes.model import Situation

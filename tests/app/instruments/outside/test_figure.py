@@ -18,10 +18,9 @@ from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Item, Label, RayEnd, Segments
 from lucida.app.instruments.outside.figure import (
     Figure,
-    PlaneImage,
     dashes,
     figure_parts,
-    plane_t,
+    on_plane,
     with_picture,
 )
 from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
@@ -82,7 +81,7 @@ def test_a_files_coordinates_are_the_projections(looking: Camera) -> None:
     root = parsed(of_camera(looking))
     assert root.get("viewBox") == "0 0 320 240" and root.findtext(f"{SPACE}title") == "a < b & c"
     lines, labels = root.findall(f"{SPACE}g")
-    assert {"u", "v", "w", "e", "t = 2"} <= {text.text for text in labels}
+    assert {"u", "v", "w", "e", "t = 2"} <= {"".join(text.itertext()) for text in labels}
     names = {part.get("data-name") for part in lines}
     assert "image plane" in names
     (outline,) = [part for part in lines if part.get("data-name") == "image plane"]
@@ -91,7 +90,7 @@ def test_a_files_coordinates_are_the_projections(looking: Camera) -> None:
     for corner in np.stack([columns + 0.5, rows + 0.5], axis=1):
         assert np.abs(found - corner).max(axis=1).min() < 2e-3
     for name in "uvw":  # each letter is next to its arrow's tip
-        rim, text = [part for part in labels if part.text == name]
+        rim, text = [part for part in labels if "".join(part.itertext()) == name]
         assert rim.get("fill") == "none" and rim.get("x") == text.get("x")
         tip = np.asarray(CAMERA.eye) + np.asarray(getattr(CAMERA, name))
         row, column, _ = looking.project(tip, SIZE)
@@ -124,10 +123,10 @@ def test_the_image_plane_hides_lines_behind_it_but_not_its_own() -> None:
     middle, across = corners.mean(axis=0), 0.2 * (corners[1] - corners[0])
     away = middle - np.asarray(LOOKING.eye)
     plane = image_plane(CAMERA, LOOKING, SIZE)
-    for shift, on_plane, behind in ((-0.1, False, False), (0.1, False, True), (0, True, False)):
+    for shift, is_own, behind in ((-0.1, False, False), (0.1, False, True), (0, True, False)):
         center = middle + shift * away
         ends = np.array([[center - across, center + across]])
-        line = Segments("l", "extra", ends, hidden=0.3, on_plane=on_plane)
+        line = Segments("l", "extra", ends, hidden=0.3, on_plane=is_own)
         parts = drawn([line], plane=plane).parts
         assert [(p.dashed, p.opacity) for p in parts] == [(behind, 0.3 if behind else 1.0)]
 
@@ -142,11 +141,11 @@ def test_the_picture_is_on_the_image_plane_before_what_is_behind_it(
     pixels = np.stack([10 * rows, 10 * columns, 0 * rows], axis=-1).astype(np.uint8)
     plane = image_plane(CAMERA, looking, SIZE)
     assert plane is not None
-    picture, is_parallel = PlaneImage(pixels, plane, 1.0), looking.is_parallel
+    screen = OutsideScreen(looking, SIZE)
     image = np.zeros((fine * SIZE[1], fine * SIZE[0], 4), np.uint8)
-    t = plane_t(plane, SIZE, is_parallel, fine)
+    t = on_plane(screen, plane, fine)[0]
     for factor, is_shown in ((1.1, True), (0.9, False)):
-        found = with_picture(image, factor * t, picture, SIZE, is_parallel)
+        found = with_picture(image, factor * t, screen, plane, pixels, 1.0)
         assert not image.any()
         for i, j in ((0, 0), (5, 8), (11, 15), (2, 13)):
             corners = pixel_corners(CAMERA, (i, j), (width, height))

@@ -14,11 +14,12 @@ from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Arrow, Label, RayEnd, Segments
 from lucida.app.instruments.outside.growing import (
     STAGES,
+    Term,
     grown_diagram,
-    growth,
     lit_in,
-    shares,
     stage_at,
+    stage_shares,
+    terms,
 )
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.text import formulas
@@ -31,9 +32,14 @@ positions = st.floats(0, END)
 pixels = st.tuples(st.integers(0, SIZE[1] - 1), st.integers(0, SIZE[0] - 1))
 
 
+def _terms(camera: Camera, pixel: tuple[int, int], position: float) -> list[Term]:
+    x, y = (float(value) for value in camera.image_point(*pixel, SIZE))
+    return terms(camera, x, y, stage_shares(position))
+
+
 @given(cameras(), pixels)
 def test_the_whole_formula_is_the_viewing_ray_head_to_tail(camera, pixel) -> None:
-    vectors = {one.name: one for one in growth(camera, SIZE, pixel, END).vectors}
+    vectors = {one.name: one for one in _terms(camera, pixel, END)}
     ray = camera.ray(*pixel, SIZE)
     length = np.linalg.norm(ray.direction)
     assert np.allclose(vectors["d"].start, ray.origin)
@@ -50,14 +56,14 @@ def test_the_whole_formula_is_the_viewing_ray_head_to_tail(camera, pixel) -> Non
 def test_it_only_grows(camera, pixel, one, other) -> None:
     """No term gets shorter, and none begins before the one it is added to has arrived."""
     first, last = sorted((one, other))
-    before, after = (growth(camera, SIZE, pixel, position) for position in (first, last))
+    before, after = (_terms(camera, pixel, position) for position in (first, last))
     for name in ("w", "u", "v"):
         lengths = [
-            sum(np.linalg.norm(v.end - v.start) for v in now.vectors if v.name == name)
+            sum(np.linalg.norm(v.end - v.start) for v in now if v.name == name)
             for now in (before, after)
         ]
         assert lengths[0] <= lengths[1] * (1 + 1e-9) + 1e-12
-    parts = list(shares(last).values())
+    parts = list(stage_shares(last).values())
     assert all(part == 1 for part, later in itertools.pairwise(parts) if later > 0)
 
 
@@ -109,4 +115,4 @@ def test_each_term_is_in_the_formulas_of_its_step(title) -> None:
         lit = [lit_in(latex, stage) for latex in formulas(step.blocks)]
         assert any(lit), stage
         assert all(part in latex for part, latex in zip(lit, formulas(step.blocks), strict=True))
-    assert stage_at(END) == "" and not any(lit_in(f, "") for f in formulas(step.blocks))
+    assert stage_at(END, CAMERA) == "" and not any(lit_in(f, "") for f in formulas(step.blocks))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
-from lucida.app.instruments.outside.diagram import Arrow, Face, Label, RayEnd, Segments
+from lucida.app.instruments.outside.diagram import Face, Label, RayEnd, Segments
 from lucida.app.instruments.outside.frustum import (
     CURVE,
     border,
@@ -17,11 +17,11 @@ from lucida.app.instruments.outside.frustum import (
     image_point,
     ways,
 )
-from lucida.app.instruments.outside.growing import grown_diagram, growth, stages_of
+from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.lens_diagram import OUTSIDE
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen
-from lucida.app.state.options.outside import LENS_STAGES, OutsideOptions
+from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
 
@@ -106,26 +106,12 @@ def test_a_pixel_outside_of_the_lens_is_named_and_has_no_ray():
     assert [item.text for item in items if isinstance(item, Label) and item.name == "outside"] == [
         OUTSIDE
     ]
-    assert not {"ray", "bundle 0 0"} & {item.name for item in items}
+    assert not {"ray", "bundle"} & {item.name for item in items}
     assert all(np.isfinite(item.corners).all() for item in items if isinstance(item, Face))
 
 
 @each
-def test_the_formula_grows_through_the_ideal_point_to_the_ray(name):
-    lens, end = CAMERAS[name], len(LENS_STAGES)
-    assert (
-        stages_of(lens) == LENS_STAGES
-        and stages_of(lens.pinhole) == LENS_STAGES[:2] + (LENS_STAGES[3:])
-    )
-    whole = {one.name: one for one in growth(lens, SIZE, MARKED.pixel, end).vectors}
-    origin, direction = lens.ray(*MARKED.pixel, SIZE)
-    np.testing.assert_allclose(whole["v"].end, origin + direction)
-    np.testing.assert_allclose(whole["d"].end, origin + direction)
-    at = LENS_STAGES.index("undistort") + 0.99
-    options = OutsideOptions(formula=at)
-    items = grown_diagram(Content(lens, SIZE, options, 5.0, (), MARKED))
-    assert {"lens", "ideal"} <= {item.name for item in items}
-    assert not any(isinstance(item, Arrow) and item.name == "term w" for item in items)
-    named = [item for item in items if isinstance(item, Label) and item.name == "ideal"]
-    x, y = lens.image_point(*MARKED.pixel, SIZE)
-    np.testing.assert_allclose(named[0].point, ideal_point(lens, x, y))
+def test_a_lens_has_no_growing_formula(name):
+    content = Content(CAMERAS[name], SIZE, OutsideOptions(formula=3.5), 5.0, (), MARKED)
+    assert {"ray", "hit"} <= {item.name for item in grown_diagram(content)}
+    assert not any("term" in item.name for item in grown_diagram(content))

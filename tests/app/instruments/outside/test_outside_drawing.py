@@ -220,24 +220,6 @@ def test_pictures_that_are_shifted_have_a_mean_with_smooth_edges(rasterizer: Ras
     assert np.abs(pixels[..., :3] - wanted).max() < 2e-3
 
 
-def test_the_scenes_parameter_is_read_at_a_place(rasterizer: Rasterizer) -> None:
-    camera = outsides()[0]
-    rasterizer.set_scene(BALL)
-    row, column, _ = camera.project(np.zeros(3), SIZE)
-    place = (float(column) + 0.5) / SIZE[0], (float(row) + 0.5) / SIZE[1]
-    way = np.linalg.norm(np.asarray(camera.eye))
-    for size in (SIZE, (SIZE[0] // 2, SIZE[1] // 2)):
-        with rasterizer.current() as gl:
-            overlay = Overlay(gl)
-            drawn_scene = rasterizer.draw(camera, size, "outside")
-            found = overlay.t_at(drawn_scene, place)
-            missed = overlay.t_at(drawn_scene, (0.0, 1.0))
-            overlay.release()
-        ray = camera.ray(row, column, SIZE)
-        assert found * np.linalg.norm(ray.direction) == pytest.approx(way - 1.0, rel=2e-3)
-        assert missed == np.inf
-
-
 @pytest.mark.parametrize("look", ["dark", "light"])
 @pytest.mark.parametrize("presented", [False, True])
 @pytest.mark.parametrize("background", [(0, 0, 0), (0.02, 0.03, 0.04), (0.2, 0.2, 0.2), (1, 1, 1)])

@@ -9,8 +9,9 @@ import pytest
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, RayEnd, Segments
+from lucida.app.instruments.outside.pixel_drawing import pixel_numbers
 from lucida.app.instruments.outside.ray_drawing import half_line, meetings, rays_to
-from lucida.app.instruments.outside.simple_camera import pixel_numbers, simple_camera, simple_ray
+from lucida.app.instruments.outside.simple_camera import simple_camera, simple_ray
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 
@@ -28,7 +29,7 @@ def _names(items: list[Item], kind: type) -> list[str]:
 
 
 def test_half_a_line_grows_from_p_by_d_to_all_t_above_0() -> None:
-    stages = [half_line(CAMERA, SIZE, PIXEL, grown, None, "book") for grown in (0.0, 1, 2, 3, 4)]
+    stages = [half_line(CAMERA, SIZE, PIXEL, grown, None) for grown in (0.0, 1, 2, 3, 4)]
     assert stages[0] == []
     assert _names(stages[1], Arrow) == [] and _names(stages[2], Arrow) == ["d"]
     assert {"t = 1", "t = 2", "t = 3"} <= _texts(stages[3]) and "t < 0" not in _texts(stages[3])
@@ -39,9 +40,9 @@ def test_half_a_line_grows_from_p_by_d_to_all_t_above_0() -> None:
 
 
 def test_the_t_under_the_mouse_is_on_the_ray_only() -> None:
-    assert "t = 1.50" in _texts(half_line(CAMERA, SIZE, PIXEL, 4.0, 1.5, "book"))
-    assert "t = -0.50" in _texts(half_line(CAMERA, SIZE, PIXEL, 3.0, -0.5, "book"))
-    assert "t = -0.50" not in _texts(half_line(CAMERA, SIZE, PIXEL, 4.0, -0.5, "book"))
+    assert "t = 1.50" in _texts(half_line(CAMERA, SIZE, PIXEL, 4.0, 1.5))
+    assert "t = -0.50" in _texts(half_line(CAMERA, SIZE, PIXEL, 3.0, -0.5))
+    assert "t = -0.50" not in _texts(half_line(CAMERA, SIZE, PIXEL, 4.0, -0.5))
 
 
 def test_of_all_meetings_the_least_t_above_0_wins() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from read_pixels import BALL, SIZE, line
 
-from lucida.app.instruments.probe.copying import all_lines, as_latex, as_text
+from lucida.app.instruments.probe.copying import all_lines, as_latex
 from lucida.app.instruments.probe.model import Probe
 from lucida.app.instruments.probe.reading import OUTSIDE
 from lucida.renderer.camera.camera import Camera
@@ -36,21 +36,11 @@ def test_the_lines_lead_from_the_pixel_to_the_ray(lens):
     a, b = line(lines, "distorted").value
     x, y = camera.image_point(*PIXEL, SIZE)
     np.testing.assert_allclose((a, b), (x / 1.3, -y / 1.3))
-    np.testing.assert_allclose(
-        line(lines, "ideal").value,
-        np.ravel(lens.direction(a, b))[: 2 if lens.model == "brown" else 3],
-    )
+    np.testing.assert_allclose(line(lines, "ideal").value, np.ravel(lens.direction(a, b)))
     direction = np.array(line(lines, "direction").value)
     np.testing.assert_allclose(direction, camera.ray(*PIXEL, SIZE).direction)
-    own = np.array(line(lines, "camera direction").value)
-    np.testing.assert_allclose(camera.basis @ own, direction)
-    steps = [one for one in lines if one.key.startswith("step ")]
-    assert bool(steps) == (bool(lens.coefficients) and lens.model != "fov")
-    if steps:  # it converges: the last step is not off any more
-        off = [float(one.name.rpartition(": ")[2].split()[0]) for one in steps]
-        assert off[0] > 0.001 and off[-1] < 1e-9 and off == sorted(off, reverse=True)
-        wanted = lens.image_point(*lens.direction(a, b))
-        np.testing.assert_allclose(wanted, (a, b), atol=1e-12)
+    distorted = bool(lens.coefficients) and lens.model != "fov"
+    assert any(one.key == "distortion" for one in lines) is distorted
 
 
 @pytest.mark.parametrize("notation", ["book", "code"])
@@ -60,7 +50,6 @@ def test_outside_of_the_lens_no_ray_is_written(notation):
     assert reading.is_outside and reading.hit is None
     assert not any(meeting.crossings for meeting in reading.meetings)
     assert [one.key for one in all_lines(reading)][-1] == "outside"
-    for text in (as_text, as_latex):
-        shown = text(reading, Indexing.LECTURE, notation)
-        assert "none" in shown and "nan" not in shown.lower()
+    shown = as_latex(reading, Indexing.LECTURE, notation)
+    assert "none" in shown and "nan" not in shown.lower()
     assert "no direction" in OUTSIDE

@@ -105,7 +105,8 @@ def test_a_colour_term_by_term():
     terms = [line(lines, key).value for key in ("ambient", "diffuse 1", "specular 1", "diffuse 2")]
     terms.append(line(lines, "specular 2").value)
     assert tuple(map(sum, zip(*terms, strict=True))) == pytest.approx(line(lines, "sum").value)
-    assert f"max(0, {number(shading.lamps[0].n_dot_l)})" in line(lines, "diffuse 1").text_numbers
+    cosine = number(shading.lamps[0].n_dot_l)
+    assert rf"\max(0,\ {cosine})" in line(lines, "diffuse 1").latex_numbers
 
 
 def floor_and_ball(mirror: float) -> Scene:

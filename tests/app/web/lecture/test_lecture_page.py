@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 
-from lucida.app.checking.results.model import read_answers
+from lucida.app.checking.results import read_answers
 from lucida.app.cli import main
 from lucida.app.lecture.exercises import RayExercise
 from lucida.app.lecture.reading import lecture_from_toml

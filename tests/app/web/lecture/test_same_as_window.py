@@ -78,7 +78,7 @@ def window_says(lecture):
         state = state_of(lecture, build)
         size = state.images.resolution or SEEN
         name, camera = f"{build.number + 1}.{build.build + 1}", state.view.for_size(size)
-        figure = drawn(page_of(state).options.page, page_of(state))
+        figure = drawn(page_of(state))
         ray = None
         if state.marked is not None:
             found = camera.ray(*state.marked, size)

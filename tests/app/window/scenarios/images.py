@@ -137,12 +137,8 @@ def drive_the_strip_does_the_same(d):
         ("channel", "Depth", lambda images: images.channel == "depth"),
         ("resolution", "160 x 90", lambda images: images.resolution == (160, 90)),
         ("magnification", "16x", lambda images: images.magnification == 16),
-        (
-            "transfer",
-            LINEAR.name,
-            lambda images: images.transfer == "linear",
-        ),
-        ("component", "Red only", lambda images: images.component == "red"),
+        ("channel", LINEAR.name, lambda images: images.transfer == "linear"),
+        ("channel", "Red only", lambda images: images.component == "red"),
     ):
         d.click(f"**/##{name}")
         d.click(f"//$FOCUSED/{item}")

@@ -102,10 +102,9 @@ def drive_saving_as_begins_beside_the_scene_s_file(d):
     enter(d)
     window, path = d.window, opened(d, name="begun")
     (d.folder / "elsewhere").mkdir()
-    window.files.dialog.go(d.folder / "elsewhere")
+    window.files.dialog.folder = d.folder / "elsewhere"
     d.press(CTRL | SHIFT | Key.s)
     assert window.files.dialog.folder == path.parent
-    d.until(lambda: bool(window.files.dialog.listing.files))
     d.picture()
     d.ctx.key_chars("copy")  # in the place of its own name
     d.press(Key.enter)

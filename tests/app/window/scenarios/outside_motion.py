@@ -63,7 +63,7 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
     assert d.steps == 1
     assert window.state.view == inner
     # Back to the view of all, which the state leaves to the view: at the end, without a step.
-    press(d, "fit all")
+    press(d, "Fit all")
     clock.s += 0.999 * DURATION_S
     moving = window.motions.transition
     d.until(lambda: window.state.options.outside.camera is not None and moving.under_way)
@@ -132,7 +132,7 @@ def drive_the_mouse_moves_the_camera_that_looks(d):
     middle = np.asarray(scope(d).center)
     assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
     assert window.state.camera == inner  # the other camera stays
-    press(d, "fit all")
+    press(d, "Fit all")
     assert window.state.options.outside.camera is None
     d.undo()
     assert window.state.options.outside.camera == closer

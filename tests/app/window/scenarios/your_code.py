@@ -100,7 +100,7 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     parallel = replace(state.camera, projection="parallel")
     d.window.change(d.state.with_camera(parallel))
     d.until(lambda: view(d).report is not None and view(d).report.rays.camera.is_parallel)
-    until_told(d, "Every ray is correct.", "viewing-ray is for perspective")
+    until_told(d, "Every ray is correct.")
     d.settle()
     assert view(d).pictures.size == (16, 12)
     assert before.shape == (24, 32, 3)

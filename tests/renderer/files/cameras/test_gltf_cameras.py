@@ -156,7 +156,7 @@ BROKEN = {
 
     "type": (tree({"type": "fisheye"}), r"cameras\[0\]\.type: 'fisheye' is neither"),
 
-    "nobody": (tree(nodes=[{"camera": 3}]), r"nodes\[0\]\.camera: names entry 3"),
+    "nobody": (tree(nodes=[{"camera": 3}]), r"cameras: names entry 3"),
 
     "none": (tree(), r"holds no camera"),
     "mag": (

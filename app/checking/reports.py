@@ -4,13 +4,12 @@ Gradescope's autograder.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
-from lucida.app.checking.checked import Status, TaskResult, WrongCase
+from lucida.app.checking.checked import Status, TaskResult
 from lucida.app.checking.own_words import signature
 from lucida.app.checking.tasks import FEEDBACK, CheckTask, Failure
 from lucida.renderer.system.errors import one_line, visible
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 
 VERDICTS = {"right": "correct"}  # a status in words, where it is not its own
 MOST = 8  # printed lines to show on the terminal
-COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
 OUTPUT_LETTERS = 4000  # characters of the student's output for Gradescope
 
 
@@ -30,40 +28,19 @@ class Told:
 
     verdict: None if it is withheld.
     is_right: also if the verdict is withheld.
-    diagnosis: sentences.
-    wrong: the number of wrong cases, in words.
-    first: the first wrong case.
-    failure: the reason why the task could not be tried, with the student's own lines.
+    lines: all that helps: the reason for a failure with the student's own lines, or the diagnosis
+    and the first wrong case.
     output: the text that the student's code printed.
-    mistakes: those of the diagnosis, as class_results reads them.
+    mistakes: those of the diagnosis, as results.py reads them.
     """
 
     task: CheckTask
     verdict: Status | None
     points: float = 0.0
     is_right: bool = False
-    diagnosis: tuple[str, ...] = ()
-    wrong: str = ""
-    first: WrongCase | None = None
-    failure: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
     output: str = ""
     mistakes: tuple[dict[str, str], ...] = ()
-
-    @property
-    def lines(self) -> tuple[str, ...]:
-        """All helpful lines, without the printed output."""
-        found = [*self.failure, *self.diagnosis]
-        if self.first is not None:
-            found += [f"{self.wrong}; the first one:", *self.first_lines]
-        return tuple(found)
-
-    @property
-    def first_lines(self) -> tuple[str, ...]:
-        """The first wrong case."""
-        assert self.first is not None
-        called = f"{self.task.function}({self.first.arguments})"
-        answers = f"correct: {self.first.right}", f"given: {self.first.given}"
-        return (*[self.first.where] * bool(self.first.where), called, *answers)
 
 
 def told(result: TaskResult) -> Told:
@@ -76,27 +53,34 @@ def told(result: TaskResult) -> Told:
     feedback = FEEDBACK.index(task.feedback)
     output = visible(result.output.replace("\r\n", "\n")).rstrip()
     if result.failure is not None:
-        why = one_line(result.failure.text)
-        return Told(task, "failed", failure=(why, *failure_lines(result.failure)), output=output)
+        lines = one_line(result.failure.text), *failure_lines(result.failure)
+        return Told(task, "failed", lines=lines, output=output)
     is_right = result.status == "right"
     if feedback == 0:
         return Told(task, None, result.points, is_right)
     if is_right or feedback == 1:
         return Told(task, result.status, result.points, is_right, output=output)
     diagnosis = result.diagnosis if feedback == 3 else None
-    return Told(
-        task,
-        "wrong",
-        diagnosis=diagnosis.sentences if diagnosis else (),
-        wrong=f"{result.wrong} of {result.cases} cases {_are(result.wrong)} wrong",
-        first=result.first,
-        output=output,
-        mistakes=_mistakes(diagnosis) if diagnosis else (),
-    )
+    sentences = diagnosis.sentences if diagnosis else ()
+    mistakes = _mistakes(diagnosis) if diagnosis else ()
+    lines = *sentences, *_first_wrong(result)
+    return Told(task, "wrong", lines=lines, output=output, mistakes=mistakes)
 
 
-def _are(count: int) -> str:
-    return "is" if count == 1 else "are"
+def _first_wrong(result: TaskResult) -> list[str]:
+    """Return the number of wrong cases, and the first one."""
+    first = result.first
+    if first is None:
+        return []
+    are = "is" if result.wrong == 1 else "are"
+    lines = [
+        f"{result.wrong} of {result.cases} cases {are} wrong; the first one:",
+        first.where,
+        f"{result.task.function}({first.arguments})",
+        f"correct: {first.right}",
+        f"given: {first.given}",
+    ]
+    return [line for line in lines if line]
 
 
 def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
@@ -107,19 +91,6 @@ def _mistakes(diagnosis: Diagnosis) -> tuple[dict[str, str], ...]:
         {"mistake": mistake.name, "reply": mistake.hint, "read": mistake.part}
         for mistake in diagnosis.candidates[0]
     )
-
-
-def reported(tried: Sequence[TaskResult], tasks: Sequence[CheckTask], problem: str) -> list[Told]:
-    """Return all tasks for a report. Those without a result failed.
-
-    tried: the results that exist.
-    tasks: all required tasks.
-    problem: the reason if nothing could be run at all.
-    """
-    names = {result.task.name for result in tried}
-    why = (problem or "was not tried",)
-    untried = [Told(task, "failed", failure=why) for task in tasks if task.name not in names]
-    return [*map(told, tried), *untried]
 
 
 def summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
@@ -143,29 +114,18 @@ def failure_lines(failure: Failure) -> list[str]:
     return lines if len(lines) > 1 else []
 
 
-def is_colored(stream: TextIO) -> bool:
-    """Return True if a stream is a terminal and may be coloured: https://no-color.org."""
-    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-
-
-def terminal_lines(result: TaskResult, colored: bool = False) -> list[str]:
+def terminal_lines(result: TaskResult) -> list[str]:
     """Return a task's verdict in a line for the terminal, and help if it is not correct."""
     say = told(result)
-
-    def painted(text: str, color: str) -> str:
-        return f"\x1b[{COLORS[color]}m{text}\x1b[0m" if colored else text
-
     name = one_line(result.task.name)
     if say.verdict is None:
-        return [f"{painted('tried  ', 'dim')} {name}"]
-    points = painted(f"  {of_points(result.points, result.task.points)}", "dim")
-    head = f"{painted(f'{VERDICTS.get(say.verdict, say.verdict):7}', say.verdict)} {name}{points}"
+        return [f"tried   {name}"]
+    points = of_points(result.points, result.task.points)
+    head = f"{VERDICTS.get(say.verdict, say.verdict):7} {name}  {points}"
     printed = say.output.split("\n") if say.output else []
     if len(printed) > MOST:
         printed[MOST:] = [f"... and {len(printed) - MOST} lines more"]
-    if printed:
-        printed = ["printed:", *(f"  {line}" for line in printed)]
-    lines = [*map(visible, say.lines), *(painted(line, "dim") for line in printed)]
+    lines = [*map(visible, say.lines), *["printed:"][: len(printed)], *(f"  {p}" for p in printed)]
     return [head, *(f"        {line}" for line in lines)]
 
 
@@ -181,9 +141,14 @@ def gradescope(
 
     A test omits what the task's feedback withholds. It is hidden if nothing may be shown.
 
-    tried, tasks, problem: as in reported.
+    tried: the results that exist.
+    tasks: all required tasks. Those without a result failed.
+    problem: the reason if nothing could be run at all.
     """
-    every = enumerate(reported(tried, tasks, problem), 1)
+    names = {result.task.name for result in tried}
+    why = (problem or "was not tried",)
+    untried = [Told(task, "failed", lines=why) for task in tasks if task.name not in names]
+    every = enumerate([*map(told, tried), *untried], 1)
     return {
         "score": round(sum(result.points for result in tried), 6),
         "execution_time": round(seconds, 3),

@@ -1,1 +1,0 @@
-"""Reports of a check: on the terminal, for an autograder, and as a page."""

@@ -1,1 +1,0 @@
-"""The answers of a class: which mistakes it makes, and in which steps."""
