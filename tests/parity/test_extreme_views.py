@@ -3,8 +3,6 @@
 Each was wrong once. The reference, plain rays in float64, says what is right.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -20,7 +18,7 @@ from lucida.renderer.scene.model import Checker, Mesh, PointLight, Scene, SceneO
 SIZE = (48, 36)
 
 
-def agrees(scene: Scene, camera: Camera, size: tuple[int, int], first, second) -> str:
+def agrees(scene, camera, size, first, second):
     """Return in words what is unexplained in two renderers' images; "" for nothing."""
     for renderer in (first, second):
         renderer.set_scene(scene)
@@ -41,7 +39,7 @@ def reference():
         yield tracer
 
 
-def from_afar(rng: np.random.Generator, projection: str, far: float, pixels: float) -> Camera:
+def from_afar(rng, projection, far, pixels):
     """A camera `far` from the origin, which it sees off the image's centre; `pixels`: how large a
     thing one unit long is."""
     eye = rng.normal(size=3)
@@ -105,13 +103,13 @@ def test_a_very_small_sphere_far_away_shows_its_near_side(packets, reference):
         assert not (wrong := agrees(scene, camera, SIZE, reference, packets)), wrong
 
 
-def sliver(turn: np.ndarray, **arrays) -> Mesh:
+def sliver(turn, **arrays):
     """A triangle a thousand units long and 0.03 high, turned."""
     corners = np.array([(-500, 0, 0), (500, -0.015, 0), (500, 0.015, 0)]) @ turn.T
     return Mesh(corners, [[0, 1, 2]], **arrays)
 
 
-def along_the_sliver(turn: np.ndarray, far: float, projection: str = "parallel") -> Camera:
+def along_the_sliver(turn, far, projection="parallel"):
     """Looks straight down on it; what it is high, or a little less, fills the image."""
     eye = tuple(turn @ (0, 0, far))
     viewport = (-500.0, 500.0, -0.01, 0.01)
@@ -120,7 +118,7 @@ def along_the_sliver(turn: np.ndarray, far: float, projection: str = "parallel")
     return Camera(eye, *(tuple(v) for v in turn.T), viewport=viewport, projection=projection)
 
 
-def turned(seed: int) -> np.ndarray:
+def turned(seed):
     """A rotation matrix."""
     q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     return q * np.sign(np.linalg.det(q))

@@ -3,8 +3,6 @@
 Between 1e3 and 1e6 units off they are as exact as there; up to 1e9 the renderers agree.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -33,7 +31,7 @@ VIEWS = ["perspective", "parallel", "inside", "clipped"]
 SAME = {"depth": 2e-5, "normal": 2e-4, "color": 2e-3}
 
 
-def camera_of(view: str, by: np.ndarray | float = 0.0) -> Camera:
+def camera_of(view, by=0.0):
     eye, target = np.array([1.5, 1.4, 3.1]) + by, np.array([0.2, 0.1, 0.0]) + by
     if view == "inside":
         eye = np.array([0.21, 0.61, -0.58]) + by  # in a sphere

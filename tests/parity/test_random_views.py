@@ -1,7 +1,5 @@
 """Random views: forty of them, and those that were wrong once."""
 
-from __future__ import annotations
-
 import pytest
 
 from tools.attack import random_views

@@ -1,7 +1,5 @@
 """Cases at the limits of the shading rules: every renderer, and the reference, decide alike."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from agreeing import agree
@@ -11,7 +9,6 @@ from trace_reference import reference
 from lucida import Camera, Rasterizer, Tracer
 from lucida.app.instruments.probe.model import Probe
 from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
-from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import DirectionalLight, Mesh, PointLight, Scene, SceneObject
@@ -21,7 +18,7 @@ LIGHTS = (PointLight((0.5, 1, 0.5)), DirectionalLight((-1, -1, -2), (0.5, 0.4, 0
 MATERIAL = Material((0.6, 0.5, 0.4), (0.4, 0.4, 0.4), 20)
 
 
-def all_agree(scene: Scene, camera: Camera, size=SIZE) -> Frame:
+def all_agree(scene, camera, size=SIZE):
     """The rasterizer's image, with which four others agree: the tracers', the reference's, and
     the probe's in the middle."""
     frame, _, _ = agree(scene, camera, size)

@@ -1,7 +1,5 @@
 """Backs, holes and metals: all renderers, single rays, shadows and the probe see the same."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -31,15 +29,13 @@ LEFT_HANDED = Camera(u=(-1, 0.1, 0), v=(0, 1, 0.1), w=(0.1, 0, 1))
 CAMERAS = pytest.mark.parametrize("camera", [Camera(), PARALLEL, LEFT_HANDED], ids=range(3))
 
 
-def speckled(size: int, seed: int = 5) -> Texture:
+def speckled(size, seed=5):
     """An image whose opacity is noise."""
     alpha = np.random.default_rng(seed).integers(0, 256, (size, size, 1)).astype(np.uint8)
     return Texture(np.concatenate([noise(size, size), alpha], axis=2))
 
 
-def sheet(
-    z: float, is_front: bool, side: float = 1.0, transform: np.ndarray = TURNED, **material: object
-) -> SceneObject:
+def sheet(z, is_front, side=1.0, transform=TURNED, **material):
     """A square; is_front: its front faces +z in its own space."""
     corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * side + (0, 0, z)
     faces = [[0, 1, 2], [0, 2, 3]] if is_front else [[0, 2, 1], [0, 3, 2]]
@@ -47,7 +43,7 @@ def sheet(
     return SceneObject(mesh, Material((0.8, 0.6, 0.4), (0.04,) * 3, 30, **material))
 
 
-def scene_of(*objects: SceneObject) -> Scene:
+def scene_of(*objects):
     return Scene(objects, LIGHTS)
 
 
@@ -118,7 +114,7 @@ def test_a_hole_is_where_opacity_is_less_than_the_cutout():
     np.testing.assert_array_equal(image.id[2] == 0, np.clip(2 * u - 0.5, 0, 1) >= 0.25)
 
 
-def surface_scene() -> Scene:
+def surface_scene():
     floor = sheet(-1, True, 1.4)
     holed = sheet(0, True, 0.8, texture=speckled(6), cutout=0.6)
     back = sheet(0.3, False, 0.5, single_sided=True)

@@ -1,7 +1,5 @@
 """Textures: all renderers look up the same place of an image, and find the same light there."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from agreeing import agree
@@ -23,7 +21,7 @@ SKEWED = Camera(u=(1.1, 0.2, 0.1), v=(-0.1, 0.9, 0.2), w=(0.05, -0.1, 1.0))
 PARALLEL = Camera(viewport=(-2.1, 2.1, -1.4, 1.4), projection="parallel")
 
 
-def ambient_only(scene: Scene) -> Scene:
+def ambient_only(scene):
     """Its colours are the textures'."""
     return Scene(scene.objects, (), WHITE)
 
@@ -103,7 +101,7 @@ def test_texels_are_the_images_own_light():
     np.testing.assert_allclose(looked_up[:, 0], light.ravel(), atol=1e-12)
 
 
-def rays_of(camera: Camera) -> tuple[np.ndarray, np.ndarray]:
+def rays_of(camera):
     origins, directions = np.broadcast_arrays(*camera.rays(SIZE))
     return origins.reshape(-1, 3), directions.reshape(-1, 3)
 

@@ -1,7 +1,5 @@
 """The ways of docs/architecture.md: their files exist, and are as many as it says."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -10,7 +8,7 @@ MOST = (10, 8, 8)  # a dragged number, a model, a step of a lecture
 WAY = r"passes (\d+) files:\n\n((?:\d+\. .*\n)+)"
 
 
-def test_the_ways_to_both_images_are_as_short_as_the_document_says() -> None:
+def test_the_ways_to_both_images_are_as_short_as_the_document_says():
     ways = re.findall(WAY, (ROOT / "docs" / "architecture.md").read_text())
     assert len(ways) == len(MOST)
     for (count, text), most in zip(ways, MOST, strict=True):

@@ -4,13 +4,10 @@ Vulture, one of the linters, goes by names alone: two functions of one name hide
 a name counts only for its own module and for those that import it from there.
 """
 
-from __future__ import annotations
-
 import ast
 import functools
 import re
 import tomllib
-from collections.abc import Iterator
 
 from test_layers import MODULES, ROOT
 
@@ -36,7 +33,7 @@ REGISTERED = {"atexit.register", "lower_builtin", "register_model", "type_callab
 LOADED = {f"lucida.renderer.files.cameras.{entry.name}" for entry in FORMATS} | {DISPLAY}
 
 
-def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:
+def definitions(tree):
     """Names that a module binds at its top level, but for imports."""
     for node in tree.body:
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
@@ -50,12 +47,12 @@ def definitions(tree: ast.Module) -> Iterator[tuple[str, ast.stmt]]:
                     yield part.id, node
 
 
-def uses(module: str, tree: ast.Module) -> Iterator[tuple[str, str]]:
+def uses(module, tree):
     """(module, name) of what a module reads: its own names, imported ones, and attributes of
     imported modules."""
     package = MODULES[module].name == "__init__.py"
     above = module.split(".") if package else module.split(".")[:-1]
-    named: dict[str, str] = {}
+    named = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
             start = above[: len(above) - node.level + 1] if node.level else []
@@ -78,12 +75,12 @@ def uses(module: str, tree: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 @functools.cache
-def trees() -> dict[str, ast.Module]:
+def trees():
     return {module: ast.parse(path.read_text("utf-8")) for module, path in MODULES.items()}
 
 
 @functools.cache
-def used() -> frozenset[tuple[str, str]]:
+def used():
     by_python = {use for module, tree in trees().items() for use in uses(module, tree)}
     shaders = (path for path in ROOT.glob("shaders/**/*.*") if path.suffix != ".py")
     words = {word for path in shaders for word in re.findall(r"\w+", path.read_text("latin-1"))}
@@ -92,7 +89,7 @@ def used() -> frozenset[tuple[str, str]]:
     )
 
 
-def test_what_a_module_defines_is_used() -> None:
+def test_what_a_module_defines_is_used():
     unused = {
         (module, name)
         for module in MODULES.keys() - LOADED
@@ -102,7 +99,7 @@ def test_what_a_module_defines_is_used() -> None:
     assert not unused, "only tests use these, or nobody"
 
 
-def test_vultures_exceptions_are_needed() -> None:
+def test_vultures_exceptions_are_needed():
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["vulture"]
     texts = (path.read_text("utf-8") for path in MODULES.values())
     words = set().union(*(re.findall(r"\w+", text) for text in texts))

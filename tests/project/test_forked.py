@@ -1,7 +1,5 @@
 """Processes that were forked: what would wait for ever there says so; what works still works."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -67,7 +65,7 @@ print("parent", rasterizer.render(camera, (8, 8)).complete)
 """
 
 
-def outcomes(script: str, folder: Path) -> dict[str, str]:
+def outcomes(script, folder):
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT + script],
         cwd=folder, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True,
@@ -79,7 +77,7 @@ def outcomes(script: str, folder: Path) -> dict[str, str]:
     return {name: outcome for name, _, outcome in lines}
 
 
-def test_a_tracer(tmp_path: Path) -> None:
+def test_a_tracer(tmp_path):
     came = outcomes(TRACER, tmp_path)
     for name in ("used", "result", "wait", "beside"):
         text = came.pop(name)
@@ -90,7 +88,7 @@ def test_a_tracer(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
-def test_a_rasterizer(tmp_path: Path, gl_backend: str) -> None:
+def test_a_rasterizer(tmp_path, gl_backend):
     came = outcomes(RASTERIZER.format(backend=gl_backend), tmp_path)
     for name in ("inherited", "new"):
         text = came.pop(name)

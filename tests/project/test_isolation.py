@@ -1,7 +1,5 @@
 """Nothing that lies beside the user, or beside the user's files, is ever run."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -30,7 +28,7 @@ SCENE = '[[objects]]\ntype = "model"\nfile = "models/large.obj"\n'
 class Here:
     """A folder to stand in, full of traps. Each that is imported leaves its name in `ran`."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder):
         self.folder = folder / "here"
         self.ran = folder / "ran"
         for place in (self.folder, self.folder / "models"):
@@ -52,7 +50,7 @@ class Here:
             "PYTHONPATH": str(ROOT),
         }
 
-    def run(self, *command: str, safe: bool = True) -> str:
+    def run(self, *command, safe=True):
         """Runs Python in the folder; gives its standard output. safe: as the installed `lucida`,
         in whose path the current folder is not."""
         self.ran.unlink(missing_ok=True)
@@ -67,7 +65,7 @@ class Here:
         assert done.stderr in ("", f"lucida: {compile_note.ONCE}\n")
         return done.stdout
 
-    def fill_cache(self) -> None:
+    def fill_cache(self):
         """Give the folder's user the kernels that this run has compiled, but for MISSING: one is
         enough to see what a process that compiles imports."""
         kernels = cache_folder()
@@ -80,13 +78,13 @@ class Here:
 
 
 @pytest.fixture(scope="module")
-def here(tmp_path_factory: pytest.TempPathFactory) -> Here:
+def here(tmp_path_factory):
     made = Here(tmp_path_factory.mktemp("traps"))
     made.fill_cache()
     return made
 
 
-def test_the_traps_work(tmp_path: Path) -> None:
+def test_the_traps_work(tmp_path):
     trapped = Here(tmp_path)
     with pytest.raises(AssertionError, match=r"imported.*'json'"):
         trapped.run("-c", "import json", safe=False)
@@ -104,11 +102,11 @@ def test_the_traps_work(tmp_path: Path) -> None:
         "models/large.obj --screenshot window.png --size 640x480",
     ],
 )
-def test_commands_import_nothing_from_the_current_folder(here: Here, line: str) -> None:
+def test_commands_import_nothing_from_the_current_folder(here, line):
     here.run("-m", "lucida", *line.split())
 
 
-def test_python_m_lucida_leaves_the_current_folder_at_once(here: Here, tmp_path: Path) -> None:
+def test_python_m_lucida_leaves_the_current_folder_at_once(here, tmp_path):
     (tmp_path / "struct.py").write_text(f"open({str(here.ran)!r}, 'a').write('struct ')\n")
     (tmp_path / "argparse.py").write_text(f"open({str(here.ran)!r}, 'a').write('argparse ')\n")
     folder, here.folder = here.folder, tmp_path
@@ -119,8 +117,8 @@ def test_python_m_lucida_leaves_the_current_folder_at_once(here: Here, tmp_path:
 
 
 def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_not(
-    here: Here,
-) -> None:
+    here,
+):
     told = here.run(
         "-c",
         "import sys\n"
@@ -134,7 +132,7 @@ def test_a_notebook_has_the_current_folder_in_its_path_and_its_processes_have_no
 # The path that is handed over.
 
 
-def test_the_path_has_no_current_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_the_path_has_no_current_folder(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "link").symlink_to(tmp_path)
     monkeypatch.setattr(
@@ -144,8 +142,8 @@ def test_the_path_has_no_current_folder(monkeypatch: pytest.MonkeyPatch, tmp_pat
 
 
 def test_the_path_has_the_current_folder_if_our_packages_are_there(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     monkeypatch.chdir(ROOT)
     monkeypatch.setattr(sys, "path", ["", str(ROOT / "lib")])
     assert [os.path.normpath(folder) for folder in child.import_path()] == [
@@ -154,9 +152,7 @@ def test_the_path_has_the_current_folder_if_our_packages_are_there(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows removes no folder that is in use")
-def test_the_current_folder_may_have_been_removed(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_the_current_folder_may_have_been_removed(monkeypatch, tmp_path):
     gone = tmp_path / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)
@@ -165,9 +161,7 @@ def test_the_current_folder_may_have_been_removed(
     assert child.import_path() == [str(ROOT)]
 
 
-def test_a_child_reads_names_and_writes_byte_code_as_its_parent(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_child_reads_names_and_writes_byte_code_as_its_parent(monkeypatch, tmp_path):
     program = "import sys\ndef main(name):\n    print(ascii(name), sys.flags.utf8_mode,"
     program += " sys.dont_write_bytecode, sys.pycache_prefix, sys.flags.isolated)\n"
     (tmp_path / "told.py").write_text(program)

@@ -1,11 +1,8 @@
 """The rules of imports: the floors and the pure cores, held by the source itself."""
 
-from __future__ import annotations
-
 import ast
 import functools
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -69,12 +66,12 @@ PURE = (
 
 
 @functools.cache
-def imports(path: Path, source: str | None = None) -> tuple[str, ...]:
+def imports(path, source=None):
     """The full names of everything that the file imports, wherever it does."""
     return tuple(_imports(path, source))
 
 
-def _imports(path: Path, source: str | None) -> Iterator[str]:
+def _imports(path, source):
     package = name_of(path.with_name("__init__.py")).split(".")
     for node in ast.walk(ast.parse(path.read_text("utf-8") if source is None else source)):
         if isinstance(node, ast.Import):
@@ -85,11 +82,11 @@ def _imports(path: Path, source: str | None) -> Iterator[str]:
             yield from (f"{base}.{alias.name}" for alias in node.names)
 
 
-def is_within(name: str, package: str) -> bool:
+def is_within(name, package):
     return name == package or name.startswith(package + ".")
 
 
-def name_of(path: Path) -> str:
+def name_of(path):
     """Return the name that the file is imported by: lucida/ has links to app/ and renderer/."""
     parts = path.relative_to(ROOT).with_suffix("").parts
     parts = parts if parts[0] == "lucida" else ("lucida", *parts)
@@ -100,14 +97,14 @@ MODULES = {name_of(path): path for path in SOURCES}
 
 
 @functools.cache
-def imported(module: str) -> frozenset[str]:
+def imported(module):
     """The project's own modules that a module imports."""
     names = imports(MODULES[module])
     found = {name if name in MODULES else name.rpartition(".")[0] for name in names}
     return frozenset((found & MODULES.keys()) - {module})
 
 
-def layer(module: str) -> int:
+def layer(module):
     names = [name for name in LAYER if is_within(module, name)]
     # A package's own __init__ is what the layer is named by; other files need a package.
     assert names and (
@@ -127,9 +124,9 @@ def test_imports_point_down():
 
 
 def test_no_files_import_each_other_in_a_circle():
-    done: set[str] = set()
+    done = set()
 
-    def walk(module: str, way: tuple[str, ...]) -> None:
+    def walk(module, way):
         assert module not in way, " -> ".join((*way[way.index(module) :], module))
         if module not in done:
             for name in sorted(imported(module)):
@@ -155,7 +152,7 @@ def test_what_a_place_must_not_know(place):
 
 def test_cores_draw_nothing():
     """Nor does anything of the window that they import. The rasterizer's OpenGL does not count."""
-    seen: set[str] = set()
+    seen = set()
     todo = [name_of(path) for pattern in PURE for path in ROOT.glob(pattern)]
     assert todo
     while todo:

@@ -1,11 +1,8 @@
 """Folders that only this user can write into; and that compiled kernels are kept in no others."""
 
-from __future__ import annotations
-
 import logging
 import os
 import stat
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -20,7 +17,7 @@ pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="POSIX's owne
 
 
 @pytest.fixture
-def mine(tmp_path: Path) -> Path:
+def mine(tmp_path):
     """A folder as a user has it."""
     folder = tmp_path / "mine"
     folder.mkdir()
@@ -28,11 +25,11 @@ def mine(tmp_path: Path) -> Path:
     return folder
 
 
-def rights(folder: Path) -> int:
+def rights(folder):
     return stat.S_IMODE(folder.stat().st_mode)
 
 
-def test_new_folders_are_the_users_alone_whatever_the_umask(mine: Path) -> None:
+def test_new_folders_are_the_users_alone_whatever_the_umask(mine):
     before = os.umask(0)
     try:
         folder = private_folder(mine / "a" / "b")
@@ -45,7 +42,7 @@ def test_new_folders_are_the_users_alone_whatever_the_umask(mine: Path) -> None:
 
 
 @pytest.mark.parametrize("mode", [0o777, 0o775, 0o770, 0o757, 0o702])
-def test_what_others_can_write_into_is_refused(mine: Path, mode: int) -> None:
+def test_what_others_can_write_into_is_refused(mine, mode):
     (mine / "a").mkdir()
     (mine / "a").chmod(mode)
     for folder in (mine / "a", mine / "a" / "new" / "below"):
@@ -55,7 +52,7 @@ def test_what_others_can_write_into_is_refused(mine: Path, mode: int) -> None:
     assert list((mine / "a").iterdir()) == []  # nothing was left there
 
 
-def test_a_sticky_folder_is_no_danger_above_but_not_good_enough_itself(mine: Path) -> None:
+def test_a_sticky_folder_is_no_danger_above_but_not_good_enough_itself(mine):
     (mine / "tmp").mkdir()
     (mine / "tmp").chmod(0o1777)
     assert rights(private_folder(mine / "tmp" / "a")) == 0o700
@@ -66,7 +63,7 @@ def test_a_sticky_folder_is_no_danger_above_but_not_good_enough_itself(mine: Pat
         private_folder(mine / "tmp" / "a" / "b")
 
 
-def test_somebody_elses_folder_is_refused(mine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_somebody_elses_folder_is_refused(mine, monkeypatch):
     (mine / "a").mkdir()
     owner = os.stat(mine).st_uid
     monkeypatch.setattr(os, "geteuid", lambda: owner + 1)
@@ -74,9 +71,7 @@ def test_somebody_elses_folder_is_refused(mine: Path, monkeypatch: pytest.Monkey
         private_folder(mine / "a")
 
 
-def test_where_users_have_no_numbers_it_is_only_made(
-    mine: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_where_users_have_no_numbers_it_is_only_made(mine, monkeypatch):
     mine.chmod(0o777)
     monkeypatch.delattr(os, "geteuid")  # Windows
     assert private_folder(mine / "a").is_dir()
@@ -86,7 +81,7 @@ def test_where_users_have_no_numbers_it_is_only_made(
 
 
 @pytest.fixture
-def fresh() -> Iterator[None]:
+def fresh():
     """The place of the cache is looked for again."""
     cache_folder.find_cache_folder.cache_clear()
     yield
@@ -94,8 +89,8 @@ def fresh() -> Iterator[None]:
 
 
 def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
-    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
+    mine, fresh, monkeypatch, caplog
+):
     (mine / "shared").mkdir()
     (mine / "shared").chmod(0o777)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "shared"))
@@ -116,9 +111,7 @@ def test_a_cache_that_others_can_write_into_is_passed_over_and_told_once(
     assert list((mine / "shared").iterdir()) == []
 
 
-def test_a_good_cache_is_used_and_nothing_is_said(
-    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_good_cache_is_used_and_nothing_is_said(mine, fresh, monkeypatch, caplog):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(mine / "new"))
     folder = cache_folder.cache_folder()
     assert folder is not None
@@ -129,8 +122,8 @@ def test_a_good_cache_is_used_and_nothing_is_said(
 
 
 def test_a_relative_folder_which_may_have_come_with_the_users_files_is_passed_over(
-    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    mine, fresh, monkeypatch
+):
     monkeypatch.chdir(mine)
     monkeypatch.setenv("NUMBA_CACHE_DIR", "theirs")
     monkeypatch.setattr(cache_folder.platformdirs, "user_cache_dir", lambda *_, **__: "also-theirs")
@@ -139,9 +132,7 @@ def test_a_relative_folder_which_may_have_come_with_the_users_files_is_passed_ov
     assert list(mine.iterdir()) == []
 
 
-def test_the_folder_beside_the_package_is_judged_too(
-    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_folder_beside_the_package_is_judged_too(mine, fresh, monkeypatch):
     (mine / "trace").mkdir()
     (mine / "trace").chmod(0o777)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
@@ -154,9 +145,7 @@ def test_the_folder_beside_the_package_is_judged_too(
     assert "trace" in cache_folder.cache_problem()
 
 
-def test_a_setting_of_numba_does_not_choose_the_cache(
-    mine: Path, fresh: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_setting_of_numba_does_not_choose_the_cache(mine, fresh, monkeypatch):
     """numba also reads settings from the current folder; the user's environment decides."""
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     monkeypatch.setattr(config, "CACHE_DIR", str(mine / "theirs"))

@@ -33,45 +33,47 @@ def test_an_unknown_name_is_python_s_own_error():
         _ = lucida.nosuch
 
 
-class TestWrongArguments:
-    def test_a_view_for_a_camera_names_the_remedy(self, gl_backend):
-        told = r"camera: is of type View, not a Camera; give \.for_size\(size\) of it"
-        with Tracer(Scene(())) as tracer:
-            for draw in (tracer.render, tracer.start):
-                with pytest.raises(LucidaError, match=told):
-                    draw(View(Camera()), SIZE)
-        with (
-            Rasterizer(Scene(()), gl_backend) as rasterizer,
-            pytest.raises(LucidaError, match=told),
-        ):
-            rasterizer.render(View(Camera()), SIZE)
+def test_a_view_for_a_camera_names_the_remedy(gl_backend):
+    told = r"camera: is of type View, not a Camera; give \.for_size\(size\) of it"
+    with Tracer(Scene(())) as tracer:
+        for draw in (tracer.render, tracer.start):
+            with pytest.raises(LucidaError, match=told):
+                draw(View(Camera()), SIZE)
+    with (
+        Rasterizer(Scene(()), gl_backend) as rasterizer,
+        pytest.raises(LucidaError, match=told),
+    ):
+        rasterizer.render(View(Camera()), SIZE)
 
-    def test_something_else_for_a_camera(self):
-        with (
-            Tracer(Scene(())) as tracer,
-            pytest.raises(LucidaError, match="is of type tuple, not"),
-        ):
-            tracer.render((0, 0, 5), SIZE)
 
-    @pytest.mark.parametrize("make", [Tracer, Rasterizer])
-    def test_a_name_for_a_scene_names_the_remedy(self, make):
-        with pytest.raises(
-            LucidaError, match=r"scene: is of type str, .*load_scene\(\.\.\.\) of it"
-        ):
-            make("spheres")
+def test_something_else_for_a_camera():
+    with (
+        Tracer(Scene(())) as tracer,
+        pytest.raises(LucidaError, match="is of type tuple, not"),
+    ):
+        tracer.render((0, 0, 5), SIZE)
 
-    @pytest.mark.parametrize("size", [3, (0, 0), (8, 0), (8,), ("8", "6"), None, (math.nan, 6)])
-    def test_what_is_no_size(self, size):
-        for draw in (View(Camera(), fit=True).for_size, Camera().fitted):
-            with pytest.raises(LucidaError, match=r"size: .* is not a width and a height"):
-                draw(size)
 
-    def test_a_size_without_end(self):
-        with pytest.raises(LucidaError, match=r"size: .* is not two whole numbers"):
-            check_size((math.inf, 6))
+@pytest.mark.parametrize("make", [Tracer, Rasterizer])
+def test_a_name_for_a_scene_names_the_remedy(make):
+    with pytest.raises(LucidaError, match=r"scene: is of type str, .*load_scene\(\.\.\.\) of it"):
+        make("spheres")
 
-    @pytest.mark.parametrize("load", [load_scene, load_view, read_cameras])
-    def test_what_is_no_path(self, load):
-        for source in (None, 3, ["spheres"]):
-            with pytest.raises(LucidaError, match=r"is of type .*, not a path; give text"):
-                load(source)
+
+@pytest.mark.parametrize("size", [3, (0, 0), (8, 0), (8,), ("8", "6"), None, (math.nan, 6)])
+def test_what_is_no_size(size):
+    for draw in (View(Camera(), fit=True).for_size, Camera().fitted):
+        with pytest.raises(LucidaError, match=r"size: .* is not a width and a height"):
+            draw(size)
+
+
+def test_a_size_without_end():
+    with pytest.raises(LucidaError, match=r"size: .* is not two whole numbers"):
+        check_size((math.inf, 6))
+
+
+@pytest.mark.parametrize("load", [load_scene, load_view, read_cameras])
+def test_what_is_no_path(load):
+    for source in (None, 3, ["spheres"]):
+        with pytest.raises(LucidaError, match=r"is of type .*, not a path; give text"):
+            load(source)

@@ -1,7 +1,5 @@
 """The examples of the README and of docs/ work: commands, files, Python, links."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path
@@ -23,13 +21,13 @@ TEXT = "\n".join(PAGES.values())
 RELEASED = "../../releases/latest/download/"  # on GitHub: what a release has put up
 
 
-def blocks(page: str) -> list[str]:
+def blocks(page):
     """The indented blocks of a page, without their indentation."""
     found = re.findall(r"(?:^    .*\n(?:\n(?=    ))*)+", PAGES[page], re.MULTILINE)
     return [re.sub(r"^    ", "", block, flags=re.MULTILINE) for block in found]
 
 
-def commands() -> list[str]:
+def commands():
     found = re.findall(r"^    (lucida\b(?! =).*)$", TEXT, re.MULTILINE)
     return [re.split(r"\s{2,}", line)[0] for line in found]
 
@@ -68,7 +66,7 @@ def test_python(tmp_path, monkeypatch, capsys, gl_backend):
     if gl_backend != "egl":
         pytest.skip("once is enough")
     monkeypatch.chdir(tmp_path)
-    names: dict = {}
+    names = {}
     exec(blocks("python.md")[0], names)
     assert float(capsys.readouterr().out) == pytest.approx(float(names["t"]), rel=1e-6)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["corner.toml", "depth.png"]

@@ -1,7 +1,5 @@
 """`pip install .`: the wheel holds everything, and its `lucida` works far from the checkout."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -22,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png"}
 
 
-def run(*command: object, **options) -> subprocess.CompletedProcess:
+def run(*command, **options):
     return subprocess.run(
         [str(part) for part in command],
         capture_output=True,
@@ -34,7 +32,7 @@ def run(*command: object, **options) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture(scope="module")
-def built(tmp_path_factory) -> Path:
+def built(tmp_path_factory):
     """The folder of the sdist, and of the wheel that was built from it; without the network:
     hatchling is among the development packages."""
     folder = tmp_path_factory.mktemp("built")
@@ -44,13 +42,13 @@ def built(tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def wheel(built) -> Path:
+def wheel(built):
     (path,) = built.glob("*.whl")
     return path
 
 
 @pytest.fixture(scope="module")
-def installed(wheel, tmp_path_factory) -> Path:
+def installed(wheel, tmp_path_factory):
     """The scripts' folder of an environment that has the wheel, and sees the dependencies here.
 
     They come in by a .pth file, whose folder is searched without reading the .pth files in it: so
@@ -69,11 +67,11 @@ def installed(wheel, tmp_path_factory) -> Path:
 
 
 @pytest.fixture
-def environment() -> dict[str, str]:
+def environment():
     return {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
 
 
-def of_the_packages() -> set[str]:
+def of_the_packages():
     links = {f"lucida/{name}": ROOT / name for name in ("app", "renderer", "shaders")}
     return {
         f"{place}/{path.relative_to(folder).as_posix()}"

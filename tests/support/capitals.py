@@ -17,7 +17,7 @@ def capital_heights() -> dict[float, str]:
     """Return the heights of capitals on the screen, in ImGui's pixels, each with some of the
     letters of that height. Call when a frame has been drawn."""
     known = _glyphs()
-    found: dict[float, list[str]] = {}
+    found = {}
     for drawn in imgui.get_draw_data().cmd_lists:
         vertices = vertices_of(drawn)
         uv = np.round(vertices["uv"] * 1e6).astype(np.int64)

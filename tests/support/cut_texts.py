@@ -27,7 +27,7 @@ def cut_texts() -> dict[str, str]:
     beyond the upper or lower edge where nothing scrolls; and all that lies beyond a window's edge.
     """
     known = _letters()
-    found: dict[str, str] = {}
+    found = {}
     for window in imgui.get_current_context().windows:
         if not window.active or window.hidden or "/##" in window.name:  # a field of several lines
             continue
@@ -43,7 +43,7 @@ def cut_texts() -> dict[str, str]:
 def _cut_lines(
     window: imgui.internal.Window, known: dict[tuple[int, int], tuple[str, float]]
 ) -> list[str]:
-    lines: list[str] = []
+    lines = []
     scrolls_x, scrolls_y = window.scrollbar_x, window.scroll_max.y > 0
     for clip, corners, uv in _quads(window.draw_list):
         x0, y0, x1, y1 = *corners[:, 0].T, *corners[:, 2].T

@@ -27,9 +27,9 @@ def gltf(*primitives: dict[str, Any], blobs: tuple[bytes, ...] = (), **changes: 
     changes: other entries of the tree.
     """
     data, views, accessors = b"", [], []
-    known: dict[int, int] = {}
+    known = {}
 
-    def view_of(part: bytes, **more: int) -> int:
+    def view_of(part, **more):
         nonlocal data
         if (at := data.find(part)) < 0:
             data += bytes(-len(data) % 4)
@@ -41,8 +41,8 @@ def gltf(*primitives: dict[str, Any], blobs: tuple[bytes, ...] = (), **changes: 
 
     made = []
     for primitive in primitives or (TRIANGLE,):
-        attributes: dict[str, int] = {}
-        entry: dict[str, Any] = {"attributes": attributes}
+        attributes = {}
+        entry = {"attributes": attributes}
         for name, value in primitive.items():
             if isinstance(value, np.ndarray):
                 if id(value) not in known:

@@ -38,13 +38,12 @@ def give(d: Driver, text: str = SMALL) -> Lecture:
 
 def shown(d: Driver) -> set[str]:
     """Return the names of the views that are shown."""
-    return {view.name for view in d.window.shell.stage.shown}
+    return {view.name for view in d.stage.shown}
 
 
 def number_of(d: Driver) -> int:
     """Return the number of the present step."""
     session = lecture_of(d).session
-    assert session is not None
     return session.number
 
 
@@ -56,4 +55,4 @@ def item(d: Driver, name: str) -> str:
 def answer(d: Driver, field: str, text: str) -> None:
     """Type an answer into a field of the exercise."""
     d.ctx.item_input_value(item(d, f"##{field}"), text)
-    d.ctx.yield_(2)
+    d.frames(2)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic
 
-from option_changes import with_options
 from window_driver import Driver
 
 from lucida.app.ui.instrument import AnInstrument
@@ -20,17 +19,17 @@ class Maximised(Generic[AnInstrument]):
 
     def open(self, d: Driver, **options: object) -> AnInstrument:
         """Shows the view, alone, with these options."""
-        stage = d.window.shell.stage
+        stage = d.stage
         stage.show(self.kind.name)
         if not stage.maximised:
             stage.maximise(self.kind.name)
-        d.window.change(with_options(d.window.state, **{self.options: options}))
+        d.change(**{self.options: options})
         d.settle()
         return d.window.view(self.kind)
 
     def close(self, d: Driver) -> None:
-        d.window.shell.stage.maximise()
-        d.window.shell.stage.show(self.kind.name, False)
+        d.stage.maximise()
+        d.stage.show(self.kind.name, False)
         d.settle()
 
     def item(self, name: str) -> str:

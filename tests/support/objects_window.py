@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import hello_imgui
-from option_changes import with_options
 from outside_window import place
 from window_driver import IMAGES, Driver, Key
 
@@ -18,7 +17,7 @@ from lucida.app.instruments.outside.view import OUTSIDE
 from lucida.renderer.editing.changing import ids_of
 from lucida.renderer.scene.model import Sphere
 
-CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+CTRL, SHIFT = Key.mod_ctrl, Key.mod_shift
 SCENE = """# A ball that is kept as it is written.
 name = "kept"
 
@@ -36,33 +35,29 @@ translate = [2.5, 0.5, 0]
 
 def enter(d: Driver) -> None:
     if hello_imgui.current_layout_name() != "Four views":
-        hello_imgui.switch_layout("Four views")
-        d.ctx.yield_(5)
+        d.layout("Four views")
         for name in ("Objects", "Inspector"):
-            d.window.shell.stage.show(name)
-            d.ctx.yield_(3)
-    d.window.change(
-        with_options(d.window.state, objects={"chosen": (), "selects": False, "handle": "none"})
-    )
+            d.stage.show(name)
+            d.frames(3)
+    d.change(objects={"chosen": (), "selects": False, "handle": "none"})
     d.settle()
 
 
 def item(d: Driver, name: str) -> int:
     """The key of what is called so."""
-    found = next(row for row in rows_of(d.window.state.scene) if row.shown == name)
-    assert found.item is not None
+    found = next(row for row in rows_of(d.state.scene) if row.shown == name)
     return found.item
 
 
 def now(d: Driver) -> tuple[str, ...]:
     """Return the selection, by name."""
-    names = {row.item: row.shown for row in rows_of(d.window.state.scene)}
-    return tuple(names[key] for key in chosen(d.window.state))
+    names = {row.item: row.shown for row in rows_of(d.state.scene)}
+    return tuple(names[key] for key in chosen(d.state))
 
 
 def ball(d: Driver, name: str) -> Sphere:
-    (number,) = ids_of(d.window.state.scene, item(d, name))
-    shape = d.window.state.scene.objects[number].shape
+    (number,) = ids_of(d.state.scene, item(d, name))
+    shape = d.state.scene.objects[number].shape
     assert isinstance(shape, Sphere)
     return shape
 
@@ -81,22 +76,21 @@ def seen_at(d: Driver, view: str, name: str) -> tuple[float, float]:
 
 
 def click(d: Driver, at: tuple[float, float], double: bool = False) -> None:
-    d.ctx.mouse_teleport_to_pos(at)
-    d.ctx.yield_(2)
+    d.move_to(at)
     if double:
         d.ctx.mouse_double_click(0)
     else:
         d.ctx.mouse_click(0)
-    d.ctx.yield_(3)
+    d.frames(3)
 
 
 @contextmanager
 def held(d: Driver, key: Key) -> Iterator[None]:
     d.ctx.key_down(key)
-    d.ctx.yield_()
+    d.frames()
     yield
     d.ctx.key_up(key)
-    d.ctx.yield_()
+    d.frames()
 
 
 def in_list(d: Driver, name: str, part: str = "##row") -> str:
@@ -107,7 +101,7 @@ def opened(d: Driver, text: str = SCENE, name: str = "kept") -> Path:
     path = d.folder / f"{name}.toml"
     path.write_text(text)
     d.window.open(str(path))
-    d.until(lambda: d.window.state.scene.name == "kept")
+    d.until(lambda: d.state.scene.name == "kept")
     d.settle()
     return path
 
@@ -115,10 +109,9 @@ def opened(d: Driver, text: str = SCENE, name: str = "kept") -> Path:
 def drag_handle(d: Driver, view: str, name: str, axis: int) -> None:
     """The arrow of an axis, dragged by its middle."""
     grip, way = arrow(d, view, name, axis)
-    d.ctx.mouse_teleport_to_pos(tuple(grip))
-    d.ctx.yield_(4)
+    d.move_to(tuple(grip))
     d.drag(tuple(grip), tuple(grip + 25 * way))
-    d.ctx.yield_(3)
+    d.frames(3)
 
 
 def arrow(d: Driver, view: str, name: str, axis: int) -> tuple[np.ndarray, np.ndarray]:
@@ -129,7 +122,7 @@ def arrow(d: Driver, view: str, name: str, axis: int) -> tuple[np.ndarray, np.nd
     spot = frame[:3, 3]
     step = np.eye(3)[axis] * 0.05 * focus.reach
 
-    def on_screen(point: np.ndarray) -> np.ndarray:
+    def on_screen(point):
         at = place(d, point) if view == OUTSIDE else in_image(d, view, point)
         return np.asarray(at)
 
@@ -141,5 +134,5 @@ def arrow(d: Driver, view: str, name: str, axis: int) -> tuple[np.ndarray, np.nd
 
 def handle_px(d: Driver, view: str) -> float:
     label = f"//###{OUTSIDE}/image##{OUTSIDE}" if view == OUTSIDE else IMAGES[view]
-    box = d.ctx.item_info(label).rect_full
+    box = d.box(label)
     return length_px(box.get_size(), box.get_size())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from imgui_bundle import hello_imgui
 from window_driver import SIZE, Driver
 
 from lucida.app.instruments.outside.mouse import Scope
@@ -15,22 +14,15 @@ IMAGE = f"//###{OUTSIDE}/image##{OUTSIDE}"
 
 
 def view(d: Driver) -> OutsideView:
-    found = d.window.views[OUTSIDE]
-    assert isinstance(found, OutsideView)
-    return found
+    return d.window.views[OUTSIDE]
 
 
-def enter(d: Driver, layout: str = "Outside view") -> None:
-    if hello_imgui.current_layout_name() != layout:
-        hello_imgui.switch_layout(layout)
-        d.ctx.yield_(5)
-    d.settle()
+def enter(d: Driver) -> None:
+    d.layout("Outside view")
 
 
 def scope(d: Driver) -> Scope:
-    found = view(d).scope
-    assert found is not None
-    return found
+    return view(d).scope
 
 
 def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
@@ -38,7 +30,6 @@ def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
     at = scope(d)
     size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
     found = OutsideScreen(at.shown, size).spots(np.asarray(point, float))
-    assert found is not None
     return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
 
 
@@ -50,10 +41,8 @@ def empty_place(d: Driver) -> tuple[float, float]:
 
 def press(d: Driver, name: str) -> None:
     """Select an entry of the view's menu."""
-    d.ctx.item_click(f"//###{OUTSIDE}/Show##outside")
-    d.ctx.yield_(2)
-    d.ctx.item_click(f"//$FOCUSED/{name}")
-    d.ctx.yield_(2)
+    d.click(f"//###{OUTSIDE}/Show##outside")
+    d.click(f"//$FOCUSED/{name}")
 
 
 def strokes(d: Driver, name: str) -> list[Strokes]:
@@ -61,6 +50,6 @@ def strokes(d: Driver, name: str) -> list[Strokes]:
 
 
 def rect(d: Driver) -> tuple[float, float, float, float]:
-    box = d.ctx.item_info(IMAGE).rect_full
+    box = d.box(IMAGE)
     assert box.max.x <= SIZE[0]
     return box.min.x, box.min.y, box.max.x, box.max.y

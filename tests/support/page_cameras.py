@@ -34,7 +34,7 @@ def random_cameras(
 ) -> list[Camera]:
     """Return cameras that look towards a point from a few units away."""
     generator = np.random.default_rng(seed)
-    cameras: list[Camera] = []
+    cameras = []
     while len(cameras) < count:
         number = len(cameras)
         eye = generator.normal(size=3)

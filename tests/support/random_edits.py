@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -154,7 +154,7 @@ def _set_shape(rng: Random, scene: Scene) -> Scene:
 
 def _set_place(rng: Random, scene: Scene) -> Scene:
     items = _items(rng, scene)
-    values: dict[str, Sequence[float] | float | None] = {
+    values = {
         "translate": tuple(rng.normal(size=3)),
         "rotate_deg": rng.uniform(-180, 180, 3),
         "scale": float(rng.uniform(0.3, 2)) if rng.random() < 0.5 else rng.uniform(-2, 2, 3),

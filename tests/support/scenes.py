@@ -56,7 +56,7 @@ def placed(mesh: Mesh, x: float, y: float, z: float, turn_deg: float = 0.0, **ch
 def moved(scene: Scene, by: np.ndarray) -> Scene:
     """The scene with everything of it translated."""
 
-    def at(point) -> tuple[float, ...]:
+    def at(point):
         return tuple((np.asarray(point, float) + by).tolist())
 
     def shape(old):

@@ -11,7 +11,7 @@ from lucida.app.images.pair.view import RASTER
 from lucida.app.images.placement import Placement
 from lucida.renderer.images.display import picture
 
-ALT, CTRL, SHIFT = int(Key.mod_alt), int(Key.mod_ctrl), int(Key.mod_shift)
+ALT, CTRL, SHIFT = Key.mod_alt, Key.mod_ctrl, Key.mod_shift
 MENU = "//##MainMenuBar/Image"
 
 
@@ -21,8 +21,8 @@ def choose(d: Driver, path: str) -> None:
 
 
 def placement(d: Driver, name: str = RASTER) -> Placement:
-    both = d.window.renderers
-    return both.placed(d.window.state.images, both.common_room(both.panes_px[name]))
+    both = d.renderers
+    return both.placed(d.state.images, both.common_room(both.panes_px[name]))
 
 
 def without_overlays(image: np.ndarray) -> np.ndarray:
@@ -35,15 +35,14 @@ def pixels(d: Driver, name: str, channel: str) -> np.ndarray:
     """Return what the middle of a fitted image must show: its own channel, as saved pictures have
     it.
     """
-    request = d.window.renderers.agreement.pair
-    assert request is not None
+    request = d.renderers.agreement.pair
     frame = request[1 if name == RASTER else 2]
     return without_overlays(picture(frame, channel).astype(np.int16))
 
 
 def magnified(d: Driver, name: str, channel: str) -> np.ndarray:
     """Return an image whose pixels are magnified by a whole number."""
-    at, request = placement(d, name), d.window.renderers.agreement.pair
+    at, request = placement(d, name), d.renderers.agreement.pair
     frame, factor = request[1 if name == RASTER else 2], round(at.magnification)
     large = picture(frame, channel).repeat(factor, axis=0).repeat(factor, axis=1)
     (left, top, right, bottom), (x, y) = at.visible, at.origin
@@ -54,7 +53,7 @@ def counting(owner: object, name: str) -> Callable[[], int]:
     """Counts the calls of a method from now on."""
     method, calls = getattr(owner, name), []
 
-    def counted(*arguments: object, **named: object) -> object:
+    def counted(*arguments, **named):
         calls.append(arguments)
         return method(*arguments, **named)
 

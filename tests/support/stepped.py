@@ -23,7 +23,7 @@ def stepped(run: WindowRun, step: Callable[[], None]) -> None:
     After it, wait for news from a thread: frames at full speed would take the processor from it.
     """
 
-    def each() -> None:
+    def each():
         step()
         run.window.news.wait(WAIT_S)
         run.window.news.clear()

@@ -241,7 +241,7 @@ def random_camera(random: np.random.Generator, near_far: bool = False) -> Camera
 def random_scene(random: np.random.Generator, triangles: int = 40, spheres: int = 6) -> Scene:
     """Triangles with vertex colours, some with normals, and spheres about the origin."""
     checker = Material((0.6, 0.5, 0.4), (0.3, 0.3, 0.3), 20, Checker((0.1, 0.2, 0.3), 0.37))
-    shapes: list[SceneObject] = []
+    shapes = []
     for flat in (True, False):
         corners = random.normal(size=(triangles // 2, 1, 3)) * 2 + random.normal(
             size=(triangles // 2, 3, 3)

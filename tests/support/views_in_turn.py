@@ -29,7 +29,7 @@ def with_content(d: Driver) -> AppState:
     code = d.folder / "rays.py"
     code.write_text(CODE)
     return with_options(
-        d.window.state,
+        d.state,
         marked=(60, 80),
         objects={"chosen": (2,)},
         probe={"pins": ((10, 20), (300, 400))},
@@ -39,7 +39,7 @@ def with_content(d: Driver) -> AppState:
 
 def views_in_turn(d: Driver) -> Iterator[str]:
     """Shows every view alone, and every page of those that have several."""
-    stage = d.window.shell.stage
+    stage = d.stage
     before = {view.name for view in stage.shown}
     pages = {LABORATORY: ("laboratory", "page", PAGES)}
     for name in stage.views:
@@ -48,9 +48,9 @@ def views_in_turn(d: Driver) -> Iterator[str]:
         stage.maximise(name)
         for choice in choices:
             if field:
-                d.window.change(with_options(d.window.state, **{options: {field: choice}}))
-            d.ctx.yield_(6)
-            d.until(lambda name=name: stage.views[name].settled)  # type: ignore[misc]
+                d.change(**{options: {field: choice}})
+            d.frames(6)
+            d.until(lambda name=name: stage.views[name].settled)
             yield f"{name} {choice}"
         stage.maximise()
         stage.show(name, name in before)

@@ -27,17 +27,20 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
+from option_changes import with_options
 from PIL import Image
 
 from lucida.app.images.pair import image_view
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.instruments.outside import mouse as outside_mouse
 from lucida.app.state.app_state import AppState, History
+from lucida.app.state.options import Options
 from lucida.app.ui import toasts
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.window import main_window, viewer
 from lucida.app.window.canvas import WindowCanvas
+from lucida.app.window.files import Files
 from lucida.app.window.platform import start_platform
 from lucida.app.window.viewer import WindowRun
 from lucida.renderer.files import load_scene
@@ -84,36 +87,84 @@ class Driver:
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
         Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
-        viewer.WindowCanvas = Glimpses  # type: ignore[misc]
-        self.window.files.native = False  # the system's dialogs, which would wait for somebody
+        viewer.WindowCanvas = Glimpses
+        self.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop
 
-        def listen(dropped: Callable[[list[str]], None]) -> None:
+        def listen(dropped):
             self.drop = dropped
             on_drop(dropped)
 
         main_window.on_drop = listen
 
+    @property
+    def state(self) -> AppState:
+        return self.window.state
+
+    @property
+    def options(self) -> Options:
+        return self.window.state.options
+
+    @property
+    def files(self) -> Files:
+        return self.window.files
+
+    @property
+    def steps(self) -> int:
+        """The number of changes that undo can take back."""
+        return len(self.window.history.past)
+
+    @property
+    def stage(self) -> Any:
+        return self.window.shell.stage
+
+    @property
+    def renderers(self) -> Any:
+        return self.window.renderers
+
     def reset(self) -> None:
-        """Every test begins with the same state, at rest."""
+        """Every test begins with the same state and size, at rest."""
         self.window.history = History(self.start)
-        self.window.files.message = ""
+        self.files.message = ""
         self.window.shell.toasts.clear()
-        self.window.shell.stage.failed.errors.clear()
+        self.stage.failed.errors.clear()
         self.window.motions.transition.stop()
         self.window.end_movement()
         self.window.motions.transition.instant = True  # no passage unless a test wants one
         self.stay = False
         self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
+        self.resize(SIZE)
+
+    def resize(self, size: tuple[int, int]) -> None:
+        """Resize the window, and wait until it is drawn so."""
+        hello_imgui.change_window_size(size)
+        self.until(lambda: tuple(imgui.get_io().display_size) == size)
         self.settle()
+
+    def layout(self, name: str) -> None:
+        """Switch to a layout of the views, unless it is there."""
+        if hello_imgui.current_layout_name() != name:
+            hello_imgui.switch_layout(name)
+            self.frames(5)
+        self.settle()
+
+    def change(self, **options: Any) -> None:
+        """Change options of the state, as with_options() does."""
+        self.window.change(with_options(self.state, **options))
+
+    def undo(self) -> None:
+        self.window.undo()
+
+    def frames(self, count: int = 1) -> None:
+        self.ctx.yield_(count)
 
     def until(self, condition: Callable[[], bool]) -> None:
         end_s = time.monotonic() + PATIENT_S
         frames = 0
         while not condition():
             assert time.monotonic() < end_s, "nothing happened"
-            self.ctx.yield_()
+            self.frames()
             frames += 1
             if frames > PROMPT_FRAMES:
                 # Each frame takes a processor from the threads that the test waits for.
@@ -122,17 +173,17 @@ class Driver:
 
     def settle(self) -> None:
         """Until both images are complete and compared."""
-        self.ctx.yield_(3)
-        failures = self.window.shell.stage.failed.errors
+        self.frames(3)
+        failures = self.stage.failed.errors
         self.until(lambda: self.window.settled or bool(failures))
         assert not failures, failures
-        self.ctx.yield_(2)
+        self.frames(2)
 
     def picture(self) -> np.ndarray:
         """Return what the window shows, uint8 (height, width, 3)."""
-        seen: list[np.ndarray] = []
+        seen = []
 
-        def look(target: Target) -> None:
+        def look(target):
             if not self.window.is_rearranging:
                 seen.append(target.read())
 
@@ -146,11 +197,11 @@ class Driver:
 
     def in_draw_lists(self, read: Callable[[], Found]) -> Found:
         """Return what `read` finds in the draw lists of a frame, of which no pixel is drawn."""
-        found: list[Found] = []
+        found = []
         callbacks = self.run.params.callbacks
         before_swap = callbacks.before_swap
 
-        def drawn() -> None:
+        def drawn():
             if not self.window.is_rearranging:
                 found.append(read())
             before_swap()
@@ -164,14 +215,13 @@ class Driver:
 
     def rect(self, name: str) -> tuple[float, float, float, float]:
         """Left, top, right, bottom of an image in the window."""
-        box = self.ctx.item_info(IMAGES[name]).rect_full
+        box = self.box(IMAGES[name])
         return box.min.x, box.min.y, box.max.x, box.max.y
 
     def images(self) -> tuple[np.ndarray, np.ndarray]:
         """The pixels of both images as shown, int16. Tooltips are not in the way."""
         if not self.stay:
-            self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
-            self.ctx.yield_(3)
+            self.move_to((3, SIZE[1] - 3))
         window, scale = self.picture(), framebuffer_scale()
         cut = []
         for name in (RASTER, RAY):
@@ -182,14 +232,12 @@ class Driver:
     def agreeing_images(self) -> tuple[np.ndarray, np.ndarray]:
         """Both images at rest; they must agree, and show something."""
         self.settle()
-        verdict = self.window.renderers.agreement.verdict_on(
-            self.window.renderers.request(self.window.state)
-        )
+        verdict = self.renderers.agreement.verdict_on(self.renderers.request(self.state))
         assert verdict is not None
         assert verdict.unexplained == 0, verdict.text
         for attempt in range(ATTEMPTS):
             raster, ray = self.images()
-            size = self.window.renderers.size
+            size = self.renderers.size
             seen = f"sizes {raster.shape}, {ray.shape} of {size}"
             if raster.shape == ray.shape and raster.shape[:2] == (size[1], size[0]):
                 different = (np.abs(raster - ray).max(axis=2) > 3).mean()
@@ -209,32 +257,53 @@ class Driver:
 
     def drag(self, start: tuple[float, float], end: tuple[float, float], button: int = 0) -> None:
         self.ctx.mouse_teleport_to_pos(start)
-        self.ctx.yield_()
+        self.frames()
         self.ctx.mouse_down(button)
         for part in (0.25, 0.5, 0.75, 1.0):
             x, y = (a + part * (b - a) for a, b in zip(start, end, strict=True))
             self.ctx.mouse_teleport_to_pos((x, y))
-            self.ctx.yield_()
+            self.frames()
         self.ctx.mouse_up(button)
-        self.ctx.yield_()
+        self.frames()
 
     def press(self, chord: int) -> None:
-        """Keys, and the frames in which they have their effect."""
+        """Press keys, and draw the frames in which they have their effect. So do the next four."""
         self.ctx.key_press(chord)
-        self.ctx.yield_(3)
+        self.frames(3)
+
+    def click(self, item: str, button: int = 0) -> None:
+        self.ctx.item_click(item, button)
+        self.frames(3)
+
+    def menu(self, path: str) -> None:
+        self.ctx.menu_click(f"//##MainMenuBar/{path}")
+        self.frames(3)
+
+    def move_to(self, place: tuple[float, float]) -> None:
+        self.ctx.mouse_teleport_to_pos(place)
+        self.frames(3)
+
+    def click_at(self, place: tuple[float, float]) -> None:
+        self.move_to(place)
+        self.ctx.mouse_click(0)
+        self.frames(3)
+
+    def box(self, item: str) -> imgui.internal.Rect:
+        """Return the rectangle of an item in the window."""
+        return self.ctx.item_info(item).rect_full
 
     def field(self, name: str) -> str:
         return f"//Camera/##{name}"
 
     def drag_field(self, name: str, pixels: float) -> None:
-        center = self.ctx.item_info(self.field(name)).rect_full.get_center()
+        center = self.box(self.field(name)).get_center()
         self.drag((center.x, center.y), (center.x + pixels, center.y))
 
     def type(self, name: str, text: str) -> None:
         """Double-clicks a field and types."""
         self.ctx.item_double_click(self.field(name))
         self.ctx.key_chars_replace_enter(text)
-        self.ctx.yield_(2)
+        self.frames(2)
 
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:
@@ -248,7 +317,7 @@ def close_at_work(report: Path, folder: Path) -> None:
     driver.window.renderers.live.make_tracer = lambda scene: threading.Event().wait()
     frames = iter(range(20))
 
-    def count() -> None:
+    def count():
         driver.run.params.app_shall_exit = next(frames, None) is None
 
     driver.run.params.callbacks.post_new_frame = count
@@ -280,8 +349,8 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
     driver = Driver(folder)
     params = driver.run.params
 
-    def wrapped(name: str, test: Callable[[Driver], None]) -> Callable[[Any], None]:
-        def call(ctx: Any) -> None:
+    def wrapped(name, test):
+        def call(ctx):
             driver.ctx = ctx
             try:
                 driver.reset()
@@ -294,7 +363,7 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
 
         return call
 
-    def register() -> None:
+    def register():
         ignore_broken_pipes()
         engine = hello_imgui.get_imgui_test_engine()
         io = imgui.test_engine.get_io(engine)

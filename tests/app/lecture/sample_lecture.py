@@ -1,7 +1,5 @@
 """A lecture of three steps with everything in it, and the reading of one."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from lucida.app.lecture.reading import lecture_from_toml
@@ -57,5 +55,5 @@ exercise.options = [
 '''
 
 
-def read(text: str = FILE, folder: Path = Path()):
+def read(text=FILE, folder=Path()):
     return lecture_from_toml(text, folder, "x.toml")

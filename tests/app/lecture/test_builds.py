@@ -1,16 +1,12 @@
 """The builds of a step: read from the file, walked in the session, in the older format too."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from plain_text import plain_text
 from sample_lecture import read as read_text
 
-from lucida.app.lecture.model import Lecture
 from lucida.app.lecture.old_format import FIELDS
 from lucida.app.lecture.reading import BUILDS, BUILTIN, load_lecture
 from lucida.app.lecture.session import LectureSession
@@ -23,7 +19,7 @@ STEP = "[[steps]]\ntitle = 'T'\n"
 BUILD = "[[steps.builds]]\n"
 
 
-def read(text: str) -> Lecture:
+def read(text):
     return read_text(f"title = 'L'\n{text}")
 
 
@@ -149,7 +145,7 @@ def test_walking_back_is_walking_on_backwards():
         assert session.place[1:] == found
 
 
-def test_a_session_keeps_the_build(tmp_path: Path):
+def test_a_session_keeps_the_build(tmp_path):
     path = tmp_path / "x.toml"
     path.write_text(f"title = 'L'\n{STEP}{BUILD}{BUILD}")
     session = LectureSession(load_lecture(path), path)
@@ -158,26 +154,27 @@ def test_a_session_keeps_the_build(tmp_path: Path):
     assert LectureSession.resumed(session.kept(state)).place == session.place
 
 
-class TestTheOlderFormat:
-    def test_lists_and_answers_are_builds(self):
-        text = "text = '''\n- one\n- two\n\n> Why?\n\n1. three\n'''\n"
-        lecture = read(f"{STEP}reveal = true\nanswer = 'So.'\n{text}{STEP}low = true\n")
-        shown = [plain_text(step.blocks).split() for step in lecture.builds if step.number == 0]
-        words = ["Why?"], ["one", "Why?"], ["one", "two", "Why?"], ["one", "two", "Why?", "three"]
-        assert shown == [*words, [*words[-1], "So."]]
+def test_lists_and_answers_are_builds():
+    text = "text = '''\n- one\n- two\n\n> Why?\n\n1. three\n'''\n"
+    lecture = read(f"{STEP}reveal = true\nanswer = 'So.'\n{text}{STEP}low = true\n")
+    shown = [plain_text(step.blocks).split() for step in lecture.builds if step.number == 0]
+    words = ["Why?"], ["one", "Why?"], ["one", "two", "Why?"], ["one", "two", "Why?", "three"]
+    assert shown == [*words, [*words[-1], "So."]]
 
-    def test_one_line_says_what_to_change(self):
-        lecture = read(
-            f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
-        )
-        (note,) = lecture.summary
-        assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
-        one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
-        (note,) = read(one).summary
-        assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")
-        assert load_lecture(BUILTIN).notes == ()
 
-    def test_a_link_is_its_words(self):
-        assert plain_text(read(f"{STEP}text = 'They [meet](#lines).'\n").steps[0].blocks) == (
-            "They meet."
-        )
+def test_one_line_says_what_to_change():
+    lecture = read(
+        f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
+    )
+    (note,) = lecture.summary
+    assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
+    one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
+    (note,) = read(one).summary
+    assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")
+    assert load_lecture(BUILTIN).notes == ()
+
+
+def test_a_link_is_its_words():
+    assert plain_text(read(f"{STEP}text = 'They [meet](#lines).'\n").steps[0].blocks) == (
+        "They meet."
+    )

@@ -1,7 +1,5 @@
 """The built-in lectures hold what they should, and each step can be shown."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

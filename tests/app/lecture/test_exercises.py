@@ -1,14 +1,11 @@
 """Typed answers, and what exercises say to right and wrong ones."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from lucida.app.checking.mistakes.program import Mistake
 from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
 from lucida.app.lecture import exercises
 from lucida.app.lecture.exercises import (
@@ -27,58 +24,60 @@ from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError
 
 
-class TestAnswers:
-    @pytest.mark.parametrize(
-        ("text", "value"),
-        [
-            ("1/8", 0.125),
-            (" -0.25 ", -0.25),
-            ("\u22121/4", -0.25),
-            ("(6 - 0.5)/8 - 0.5", 0.1875),
-            ("1/sqrt(2)", math.sqrt(0.5)),
-            ("\u221a(2)/2", math.sqrt(0.5)),
-            ("2e-3", 0.002),
-            ("+3", 3.0),
-            ("2 + 3 \u00b7 4", 14.0),
-            ("-\u03c0/2", -math.pi / 2),
-            ("7".ljust(80, "0"), 7e79),
-        ],
-    )
-    def test_numbers(self, text, value):
-        assert number(text) == pytest.approx(value)
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1/8", 0.125),
+        (" -0.25 ", -0.25),
+        ("\u22121/4", -0.25),
+        ("(6 - 0.5)/8 - 0.5", 0.1875),
+        ("1/sqrt(2)", math.sqrt(0.5)),
+        ("\u221a(2)/2", math.sqrt(0.5)),
+        ("2e-3", 0.002),
+        ("+3", 3.0),
+        ("2 + 3 \u00b7 4", 14.0),
+        ("-\u03c0/2", -math.pi / 2),
+        ("7".ljust(80, "0"), 7e79),
+    ],
+)
+def test_numbers(text, value):
+    assert number(text) == pytest.approx(value)
 
-    @pytest.mark.parametrize(
-        ("text", "told"),
-        [
-            (" ", "is empty; give a number"),
-            ("9" * 81, "is too long; give a number"),
-            (" 3 /0", "'3 /0' divides by zero"),
-            ("1e999", "'1e999' is not finite"),
-            ("1e400 - 1e400", "'1e400 - 1e400' is not finite"),
-            ("2**3", "'2**3' is not a number; give one such as"),
-        ],
-    )
-    def test_what_is_told_of_it(self, text, told):
-        with pytest.raises(LucidaError) as error:
-            number(text)
-        assert told in str(error.value)
 
-    @pytest.mark.parametrize(
-        "text", ["(1/8, 0, -1)", "1/8, 0, -1", "[0.125; 0; -1]", "1/8 0 -1", "(1/8), 0, (-1)"]
-    )
-    def test_vectors(self, text):
-        assert vector(text).tolist() == [0.125, 0.0, -1.0]
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (" ", "is empty; give a number"),
+        ("9" * 81, "is too long; give a number"),
+        (" 3 /0", "'3 /0' divides by zero"),
+        ("1e999", "'1e999' is not finite"),
+        ("1e400 - 1e400", "'1e400 - 1e400' is not finite"),
+        ("2**3", "'2**3' is not a number; give one such as"),
+    ],
+)
+def test_what_is_told_of_it(text, told):
+    with pytest.raises(LucidaError) as error:
+        number(text)
+    assert told in str(error.value)
 
-    def test_how_solutions_are_written(self):
-        assert [text_of(x) for x in (0.125, -0.0, 3.0, -2 / 3, 5 / 16, 0.70710678)] == [
-            "1/8", "0", "3", "-2/3", "5/16", "0.7071",
-        ]  # fmt: skip
-        assert vector_text(np.array([0.5, 0, -1])) == "(1/2, 0, -1)"
-        for below in (2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32):
-            assert text_of(1 / below) == f"1/{below}"
-        for value in (1 / 7, 1 / 9, 1 / 64, 0.25 + 1e-8):
-            assert text_of(value) == f"{value:.4g}"
-        assert text_of(0.25 + 1e-11) == "1/4"
+
+@pytest.mark.parametrize(
+    "text", ["(1/8, 0, -1)", "1/8, 0, -1", "[0.125; 0; -1]", "1/8 0 -1", "(1/8), 0, (-1)"]
+)
+def test_vectors(text):
+    assert vector(text).tolist() == [0.125, 0.0, -1.0]
+
+
+def test_how_solutions_are_written():
+    assert [text_of(x) for x in (0.125, -0.0, 3.0, -2 / 3, 5 / 16, 0.70710678)] == [
+        "1/8", "0", "3", "-2/3", "5/16", "0.7071",
+    ]  # fmt: skip
+    assert vector_text(np.array([0.5, 0, -1])) == "(1/2, 0, -1)"
+    for below in (2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32):
+        assert text_of(1 / below) == f"1/{below}"
+    for value in (1 / 7, 1 / 9, 1 / 64, 0.25 + 1e-8):
+        assert text_of(value) == f"{value:.4g}"
+    assert text_of(0.25 + 1e-11) == "1/4"
 
 
 CANONICAL = RayExercise("Which?", Camera.canonical(), (1, 5), (8, 8))
@@ -94,120 +93,124 @@ PARALLEL = RayExercise(
 )
 
 
-def answer(origin: object, direction: object) -> dict[str, str]:
+def answer(origin, direction):
     return {
         "origin": ", ".join(map(repr, map(float, origin))),
         "direction": ", ".join(map(repr, map(float, direction))),
     }
 
 
-def mistakes(
-    camera: Camera, i: int, j: int, size: tuple[int, int], indexing: Indexing = Indexing.LECTURE
-) -> list[tuple[Mistake, Ray]]:
+def mistakes(camera, i, j, size, indexing=Indexing.LECTURE):
     """Return the pixel that each wrong line computes."""
     task = RayTask(camera.projection, indexing)
     program, known = ray_program(task), ray_values(camera, i, j, size, task)
     return [(one, Ray(*run_rays(program, known, (one,)))) for one in program.mistakes]
 
 
-class TestRays:
-    def test_by_hand(self):
-        # Row 2, column 6 of 8: u = 5.5/8 - 0.5, v = -(1.5/8 - 0.5).
-        right = CANONICAL.check({"origin": "(0, 0, 0)", "direction": "3/16, 5/16, -1"})
-        assert right.right
-        assert CANONICAL.check({"origin": "0 0 0", "direction": "(3, 5, -16)"}).right
-        rounded = CANONICAL.check({"origin": "0,0,0", "direction": "0.188, 0.313, -1"})
-        assert rounded.right
+def test_by_hand():
+    # Row 2, column 6 of 8: u = 5.5/8 - 0.5, v = -(1.5/8 - 0.5).
+    right = CANONICAL.check({"origin": "(0, 0, 0)", "direction": "3/16, 5/16, -1"})
+    assert right.right
+    assert CANONICAL.check({"origin": "0 0 0", "direction": "(3, 5, -16)"}).right
+    rounded = CANONICAL.check({"origin": "0,0,0", "direction": "0.188, 0.313, -1"})
+    assert rounded.right
 
-    @pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
-    def test_the_renderers_ray_is_right_and_nothing_near_it(self, exercise):
-        ray = exercise.camera.ray(*exercise.pixel, exercise.size)
-        assert exercise.check(answer(*ray)).right
-        for part in range(3):
-            for where in (0, 1):
-                wrong = [np.array(ray.origin), np.array(ray.direction)]
-                wrong[where][part] += 0.05
-                verdict = exercise.check(answer(*wrong))
-                assert not verdict.right
-                assert verdict.field == ("origin", "direction")[where]
 
-    @pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
-    def test_every_classic_mistake_is_told_by_its_own_hint(self, exercise):
-        camera, pixel, size = exercise.camera, exercise.pixel, exercise.size
-        right = camera.ray(*pixel, size)
-        told = set()
-        made = mistakes(camera, *pixel, size)
-        close, along = exercises.is_close, exercises.is_multiple
-        same_direction = along if exercise.scaled else close
-        for mistake, ray in made:
-            same = close(ray.origin, right.origin, TOLERANCE) and same_direction(
-                ray.direction, right.direction, TOLERANCE
-            )
-            verdict = exercise.check(answer(*ray))
-            assert verdict.right == same, mistake.name
-            if not same and ray.direction.any():
-                told.add(verdict.text)
-                alike = [
-                    exercises.hint(other)
-                    for other, its in made
-                    if close(ray.origin, its.origin, TOLERANCE)
-                    and same_direction(ray.direction, its.direction, TOLERANCE)
-                ]
-                assert verdict.text == alike[0], mistake.name
-        assert len(told) >= 15
+@pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
+def test_the_renderers_ray_is_right_and_nothing_near_it(exercise):
+    ray = exercise.camera.ray(*exercise.pixel, exercise.size)
+    assert exercise.check(answer(*ray)).right
+    for part in range(3):
+        for where in (0, 1):
+            wrong = [np.array(ray.origin), np.array(ray.direction)]
+            wrong[where][part] += 0.05
+            verdict = exercise.check(answer(*wrong))
+            assert not verdict.right
+            assert verdict.field == ("origin", "direction")[where]
 
-    def test_hints_count_as_the_lecture_does(self):
-        exercise = replace(CANONICAL, indexing=Indexing.ARRAY)
 
-        def hint(direction: str) -> str:
-            return exercise.check({"origin": "0, 0, 0", "direction": direction}).text
+@pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
+def test_every_classic_mistake_is_told_by_its_own_hint(exercise):
+    camera, pixel, size = exercise.camera, exercise.pixel, exercise.size
+    right = camera.ray(*pixel, size)
+    told = set()
+    made = mistakes(camera, *pixel, size)
+    close, along = exercises.is_close, exercises.is_multiple
+    same_direction = along if exercise.scaled else close
+    for mistake, ray in made:
+        same = close(ray.origin, right.origin, TOLERANCE) and same_direction(
+            ray.direction, right.direction, TOLERANCE
+        )
+        verdict = exercise.check(answer(*ray))
+        assert verdict.right == same, mistake.name
+        if not same and ray.direction.any():
+            told.add(verdict.text)
+            alike = [
+                exercises.hint(other)
+                for other, its in made
+                if close(ray.origin, its.origin, TOLERANCE)
+                and same_direction(ray.direction, its.direction, TOLERANCE)
+            ]
+            assert verdict.text == alike[0], mistake.name
+    assert len(told) >= 15
 
-        # Row 1, column 5 of 8 x 8, from 0: u = (5 + 0.5) / 8 - 1/2.
-        assert hint("5.5/8 - 1/2, 1/2 - 1.5/8, -1") == "Correct."
-        assert "corner" in hint("5/8 - 1/2, 1/2 - 1/8, -1")
-        assert "from 0: add the half" in hint("4.5/8 - 1/2, 1/2 - 0.5/8, -1")
-        assert "not at j + 1" in hint("6/8 - 1/2, 1/2 - 2/8, -1")
-        names = {mistake.name for mistake, _ in mistakes(Camera(), 1, 5, (8, 8), Indexing.ARRAY)}
-        assert "a whole pixel" in names and "no half pixel" not in names
-        assert exercise.solution().startswith("Pixel (1, 5) lies")
 
-    @pytest.mark.parametrize(
-        ("exercise", "origin", "direction", "told", "field"),
-        [
-            # Both parts as one mistake gives them, of which one is wrong.
-            (CANONICAL, "0 0 0", "3/16, -5/16, -1", "minus sign", "direction"),
-            (PARALLEL, "0, 1/10 + 1/3, -1/8", "-1, 0, 0", "forgets the eye", "origin"),
-            # A mistake in one part alone.
-            (CANONICAL, "3/16, 5/16, 0", "3, 5, -16", "whatever the pixel", "origin"),
-            (CANONICAL, "0 0 0", "0 0 -1", "parallel ray", "direction"),
-            (CANONICAL, "0 0 0", "-3, -5, 16", "points backwards", "direction"),
-            # None that is known.
-            (CANONICAL, "0 0 7", "3, 5, -16", "begins at the eye", "origin"),
-            (PARALLEL, "7 7 7", "-1, 0, 0", "begins on the image plane", "origin"),
-            (CANONICAL, "0 0 0", "7, 5, -16", "the direction is not", "direction"),
-        ],
-    )
-    def test_what_is_wrong_is_told_at_its_field(self, exercise, origin, direction, told, field):
-        verdict = exercise.check({"origin": origin, "direction": direction})
-        assert told in verdict.text
-        assert (verdict.right, verdict.field) == (False, field)
+def test_hints_count_as_the_lecture_does():
+    exercise = replace(CANONICAL, indexing=Indexing.ARRAY)
 
-    def test_length_counts_where_the_question_says_so(self):
-        strict = replace(CANONICAL, scaled=False)
-        verdict = strict.check({"origin": "0, 0, 0", "direction": "3, 5, -16"})
-        assert not verdict.right and "length" in verdict.text
+    def hint(direction):
+        return exercise.check({"origin": "0, 0, 0", "direction": direction}).text
 
-    def test_what_is_no_vector_is_told_with_its_field(self):
-        verdict = CANONICAL.check({"origin": "0, 0, 0", "direction": "left"})
-        assert (verdict.right, verdict.field) == (False, "direction")
-        assert "is not three numbers" in verdict.text
-        assert CANONICAL.check({}).field == "origin"
-        assert not CANONICAL.check({"origin": "0 0 0", "direction": "0 0 0"}).right
+    # Row 1, column 5 of 8 x 8, from 0: u = (5 + 0.5) / 8 - 1/2.
+    assert hint("5.5/8 - 1/2, 1/2 - 1.5/8, -1") == "Correct."
+    assert "corner" in hint("5/8 - 1/2, 1/2 - 1/8, -1")
+    assert "from 0: add the half" in hint("4.5/8 - 1/2, 1/2 - 0.5/8, -1")
+    assert "not at j + 1" in hint("6/8 - 1/2, 1/2 - 2/8, -1")
+    names = {mistake.name for mistake, _ in mistakes(Camera(), 1, 5, (8, 8), Indexing.ARRAY)}
+    assert "a whole pixel" in names and "no half pixel" not in names
+    assert exercise.solution().startswith("Pixel (1, 5) lies")
 
-    def test_the_solution(self):
-        text = CANONICAL.solution()
-        assert "Pixel (2, 6)" in text and "(3/16, 5/16, -1)" in text
-        assert r"\mathbf{p} = \mathbf{e} + u" in PARALLEL.solution()
+
+@pytest.mark.parametrize(
+    ("exercise", "origin", "direction", "told", "field"),
+    [
+        # Both parts as one mistake gives them, of which one is wrong.
+        (CANONICAL, "0 0 0", "3/16, -5/16, -1", "minus sign", "direction"),
+        (PARALLEL, "0, 1/10 + 1/3, -1/8", "-1, 0, 0", "forgets the eye", "origin"),
+        # A mistake in one part alone.
+        (CANONICAL, "3/16, 5/16, 0", "3, 5, -16", "whatever the pixel", "origin"),
+        (CANONICAL, "0 0 0", "0 0 -1", "parallel ray", "direction"),
+        (CANONICAL, "0 0 0", "-3, -5, 16", "points backwards", "direction"),
+        # None that is known.
+        (CANONICAL, "0 0 7", "3, 5, -16", "begins at the eye", "origin"),
+        (PARALLEL, "7 7 7", "-1, 0, 0", "begins on the image plane", "origin"),
+        (CANONICAL, "0 0 0", "7, 5, -16", "the direction is not", "direction"),
+    ],
+)
+def test_what_is_wrong_is_told_at_its_field(exercise, origin, direction, told, field):
+    verdict = exercise.check({"origin": origin, "direction": direction})
+    assert told in verdict.text
+    assert (verdict.right, verdict.field) == (False, field)
+
+
+def test_length_counts_where_the_question_says_so():
+    strict = replace(CANONICAL, scaled=False)
+    verdict = strict.check({"origin": "0, 0, 0", "direction": "3, 5, -16"})
+    assert not verdict.right and "length" in verdict.text
+
+
+def test_what_is_no_vector_is_told_with_its_field():
+    verdict = CANONICAL.check({"origin": "0, 0, 0", "direction": "left"})
+    assert (verdict.right, verdict.field) == (False, "direction")
+    assert "is not three numbers" in verdict.text
+    assert CANONICAL.check({}).field == "origin"
+    assert not CANONICAL.check({"origin": "0 0 0", "direction": "0 0 0"}).right
+
+
+def test_the_solution():
+    text = CANONICAL.solution()
+    assert "Pixel (2, 6)" in text and "(3/16, 5/16, -1)" in text
+    assert r"\mathbf{p} = \mathbf{e} + u" in PARALLEL.solution()
 
 
 class TestVectors:

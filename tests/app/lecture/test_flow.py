@@ -1,15 +1,13 @@
 """Texts broken into lines and put into their places."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from lucida.app.lecture.flow import Laid, Piece, PieceSize, lay
+from lucida.app.lecture.flow import PieceSize, lay
 from lucida.app.lecture.text import parse
 
 
-def measure(piece: Piece) -> PieceSize:
+def measure(piece):
     """Letters half as wide as high; formulas twice as high as their text, as fractions are."""
     high = 2.0 if piece.style == "math" else 1.0
     return PieceSize(
@@ -17,13 +15,13 @@ def measure(piece: Piece) -> PieceSize:
     )
 
 
-def laid(text: str, width: float = 100.0, size: float = 10.0) -> Laid:
+def laid(text, width=100.0, size=10.0):
     return lay(parse(text), width, size, measure)
 
 
-def rows(result: Laid) -> list[list[str]]:
+def rows(result):
     """The pieces by their baselines."""
-    found: dict[float, list[str]] = {}
+    found = {}
     for placed in result.pieces:
         found.setdefault(placed.baseline, []).append(placed.piece.text)
     return [found[baseline] for baseline in sorted(found)]

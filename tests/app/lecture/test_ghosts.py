@@ -1,7 +1,5 @@
 """The drawing of a wrong answer to an exercise of the lecture, in the outside view."""
 
-from __future__ import annotations
-
 import pytest
 from both_lectures import both_lectures
 
@@ -11,7 +9,7 @@ from lucida.app.lecture.ghosts import ghosts
 STEPS = {step.title: step for step in both_lectures().steps if step.exercise is not None}
 
 
-def drawn(title: str, **texts: str):
+def drawn(title, **texts):
     step = STEPS[title]
     return ghosts(step.exercise, tuple(texts.items()), step.view.camera, 8.0)
 
@@ -34,11 +32,11 @@ def drawn(title: str, **texts: str):
          {"e": "1 4 0", "w": "0 1 0", "left, top, d": "-1 0.75 2"}, set()),
     ],
 )  # fmt: skip
-def test_the_wrong_parts_of_an_answer_are_drawn(title, texts, names) -> None:
+def test_the_wrong_parts_of_an_answer_are_drawn(title, texts, names):
     items = drawn(title, **texts)
     assert {i.name for i in items if isinstance(i, Arrow | Dot) and "your" in i.name} == names
 
 
-def test_a_text_that_is_no_vector_draws_nothing() -> None:
+def test_a_text_that_is_no_vector_draws_nothing():
     assert drawn("Exercise: a pixel's ray", origin="0 0", direction="") == ()
     assert drawn("Exercise: find the basis", w="up", u="0 0 1", v="0 1 0") == ()

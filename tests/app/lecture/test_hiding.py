@@ -1,7 +1,5 @@
 """Exercises that are answered by moving an object: counted in id images, said in words."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,14 +9,13 @@ import pytest
 from lucida.app.cli import main
 from lucida.app.instruments.objects.choosing import chosen
 from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.model import Step
 from lucida.app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
 from lucida.app.lecture.step_options import state_of
 from lucida.app.state.app_state import AppState
 from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import set_field
 from lucida.renderer.editing.outline import outline
-from lucida.renderer.scene.model import Scene, View
+from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import Tracer
 
@@ -49,29 +46,29 @@ answer = [0.5, 0, 3.5]
 SIZE = (90, 60)
 
 
-def step(text: str = TEXT) -> Step:
+def step(text=TEXT):
     return lecture_from_toml(text, Path(), "x.toml").steps[0]
 
 
-def task() -> HideExercise:
+def task():
     found = step().exercise
     assert isinstance(found, HideExercise)
     return found
 
 
-def ids(exercise: HideExercise, scene: Scene) -> np.ndarray:
+def ids(exercise, scene):
     with Tracer(scene) as tracer:
         return tracer.render(exercise.view.for_size(SIZE), SIZE, channels=("id",)).channel("id")
 
 
-def said(exercise: HideExercise, scene: Scene) -> tuple[bool, str]:
+def said(exercise, scene):
     """To a scene, by its own image."""
     alone = exercise.pixels(exercise.without, ids(exercise, exercise.without))
     judged = exercise.check(scene, ids(exercise, scene), alone)
     return judged.right, judged.text
 
 
-def moved(exercise: HideExercise, center: tuple[float, float, float]) -> Scene:
+def moved(exercise, center):
     return set_field(exercise.scene, [exercise.item], "center", center)
 
 

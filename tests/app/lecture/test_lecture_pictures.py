@@ -1,45 +1,38 @@
 """Text and picture of the built-in lecture agree: what a step names is drawn, and large enough."""
 
-from __future__ import annotations
-
-import re
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 from both_lectures import both_lectures
 from plain_text import plain_text
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
-from lucida.app.instruments.outside.diagram import Dot, Eye, Item, Label, RayEnd
-from lucida.app.lecture.reading import BUILTINS
+from lucida.app.instruments.outside.diagram import Dot, Eye, Label, RayEnd
 from lucida.app.state.options.outside import OutsideOptions
 
 STEPS = {build.title: build for build in both_lectures().builds}  # at their last builds
 VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720
 
 
-def text_of(title: str) -> str:
+def text_of(title):
     return str(plain_text(STEPS[title].blocks))
 
 
-def options_of(title: str) -> OutsideOptions:
-    given: dict[str, Any] = dict(STEPS[title].changes.get("outside", {}))
+def options_of(title):
+    given = dict(STEPS[title].changes.get("outside", {}))
     return OutsideOptions(**given)
 
 
-def items_of(title: str) -> list[Item]:
+def items_of(title):
     step = STEPS[title]
     size = step.changes.get("images", {}).get("resolution", VIEW)
     return diagram(Content(step.view.for_size(size), size, options_of(title), 9.0))
 
 
-def labels_of(title: str) -> set[str]:
+def labels_of(title):
     return {item.text for item in items_of(title) if isinstance(item, Label)}
 
 
-def test_where_there_is_no_eye_none_is_drawn() -> None:
+def test_where_there_is_no_eye_none_is_drawn():
     assert "parallel" in text_of("Parallel projection")
     for title, step in STEPS.items():
         if "outside" in step.views:
@@ -52,7 +45,7 @@ def test_where_there_is_no_eye_none_is_drawn() -> None:
 
 
 @pytest.mark.parametrize("title", ["The basis from a target", "Exercise: find the basis"])
-def test_target_and_up_are_drawn_where_they_are_named(title: str) -> None:
+def test_target_and_up_are_drawn_where_they_are_named(title):
     step = STEPS[title]
     assert {"target", "up"} <= labels_of(title)
     camera, (dot,) = (
@@ -63,7 +56,7 @@ def test_target_and_up_are_drawn_where_they_are_named(title: str) -> None:
     assert np.allclose(np.cross(back, camera.w), 0) and back @ np.asarray(camera.w) > 0
 
 
-def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> None:
+def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named():
     title = "A ray is half a line"
     step = STEPS[title]
     assert step.pixel is not None
@@ -75,18 +68,3 @@ def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named() -> N
     ray = camera.ray(*step.pixel, size)
     assert np.allclose(at["p"], ray.origin)
     assert np.allclose(at["t = 1"], ray.origin + ray.direction)
-
-
-def test_words_are_of_one_kind() -> None:
-    for path in BUILTINS.values():
-        everything = path.read_text(encoding="utf-8")
-        assert not re.search(r"\bgrey", everything, re.IGNORECASE)
-        assert not re.search(r"\b(bits?|bytes|floats) a pixel", everything)
-
-
-def test_the_windows_words_are_of_one_kind() -> None:
-    """And those of its code, which nobody tells apart."""
-    for path in (Path(__file__).parents[3] / "app").glob("**/*.py"):
-        text = path.read_text(encoding="utf-8")
-        assert not re.search(r"\bgrey", text, re.IGNORECASE), path
-        assert not re.search(r"\b(bits?|bytes|floats|numbers?|samples) a pixel", text), path

@@ -1,14 +1,11 @@
 """The limits of a lecture file, each at its border, and what is refused beyond."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
 
 from lucida.app.lecture import reading
 from lucida.app.lecture.exercises import ChoiceExercise, VectorExercise
-from lucida.app.lecture.model import Lecture
 from lucida.app.lecture.reading import is_lecture, lecture_from_toml, load_lecture
 from lucida.renderer.files.outside import OutsideError
 from lucida.renderer.system.errors import LucidaError
@@ -18,26 +15,26 @@ OPTION = "{ text = 'a', feedback = 'b' }, "
 BOX = "objects = [{ type = 'box' }]\n"  # of 12 triangles
 
 
-def read(text: str, folder: Path = Path()) -> Lecture:
+def read(text, folder=Path()):
     return lecture_from_toml(f"title = 'L'\n{text}", folder, "x.toml")
 
 
-def exercise(kind: str, more: str) -> str:
+def exercise(kind, more):
     return STEP + f"[steps.exercise]\nkind = '{kind}'\nquestion = 'Which?'\n{more}"
 
 
-def choice(count: int) -> str:
+def choice(count):
     options = (count - 1) * OPTION + "{ text = 'c', feedback = 'd', right = true }"
     return exercise("choice", f"options = [{options}]")
 
 
-def vectors(*names: str, wrong: int = 0, more: str = "") -> str:
+def vectors(*names, wrong=0, more=""):
     known = wrong * "{ value = [0, 0, 1], feedback = 'No.' },"
     rows = (f"{{ name = '{name}', value = [1, 2, 3], wrong = [{known}] }}" for name in names)
     return exercise("vector", f"answers = [{', '.join(rows)}]\n{more}")
 
 
-def told(text: str, folder: Path = Path()) -> str:
+def told(text, folder=Path()):
     """Return what is wrong with a text, without file and line; empty: nothing."""
     try:
         read(text, folder)
@@ -116,7 +113,7 @@ def test_nested_arrays_of_any_depth(frames):
     """One of them may just be read as TOML, and its lines just not be found any more: that
     depends on how deep the calls are already."""
 
-    def answer(text: str, deeper: int) -> str:
+    def answer(text, deeper):
         return answer(text, deeper - 1) if deeper else told(text)
 
     depths = (1, *range(400, 500), 100_000)
@@ -221,7 +218,7 @@ def test_files_elsewhere_are_named_whatever_names_them(tmp_path):
     inside.mkdir()
     path = inside / "x.toml"
 
-    def outside(text: str) -> list[str]:
+    def outside(text):
         path.write_text(f"title = 'L'\n{text}")
         try:
             load_lecture(path)
@@ -245,10 +242,6 @@ def test_files_elsewhere_are_named_whatever_names_them(tmp_path):
 
 def test_mistakes_of_the_text_itself_name_their_place(tmp_path):
     path = tmp_path / "x.toml"
-    path.write_bytes(b"a = 1\nb = \n")
-    with pytest.raises(LucidaError) as caught:
-        load_lecture(path)
-    assert str(caught.value).startswith(f"{path}:2: column 5: ")
     path.write_text("a = " + 5000 * "9")
     with pytest.raises(LucidaError) as caught:
         load_lecture(path)

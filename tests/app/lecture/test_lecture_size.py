@@ -1,12 +1,8 @@
 """Large and hostile lecture files: read in linear time, or refused in one line."""
 
-from __future__ import annotations
-
 import contextlib
 import sys
 from pathlib import Path
-from types import FrameType
-from typing import Any
 
 import pytest
 
@@ -19,11 +15,11 @@ STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
 SMALL = 8_000  # characters
 
 
-def lecture(text: str):
+def lecture(text):
     return lecture_from_toml(text, Path(), "x.toml")
 
 
-def steps_of(size: int, line: str, of_a_step: int = 4000) -> str:
+def steps_of(size, line, of_a_step=4000):
     """A lecture of about `size` characters, every step of other text."""
     body = line * (of_a_step // len(line)) + "\n"
     steps = [STEP.format(f"Number {number}.\n{body}") for number in range(size // of_a_step)]
@@ -33,22 +29,22 @@ def steps_of(size: int, line: str, of_a_step: int = 4000) -> str:
 class Work:
     """The work done within it: the number of lines of Python that run."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.lines = 0
 
-    def __enter__(self) -> Work:
+    def __enter__(self):
         sys.settrace(self._note_line)
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, *_):
         sys.settrace(None)
 
-    def _note_line(self, _frame: FrameType, _event: str, _value: Any) -> Any:
+    def _note_line(self, _frame, _event, _value):
         self.lines += 1
         return self._note_line
 
 
-def lines_of(text: str) -> int:
+def lines_of(text):
     """The reading of a lecture."""
     parse.cache_clear()
     with Work() as work, contextlib.suppress(LucidaError):
@@ -71,12 +67,12 @@ def lines_of(text: str) -> int:
     ],
     ids=range(9),
 )
-def test_work_grows_with_the_size_not_with_its_square(line: str) -> None:
+def test_work_grows_with_the_size_not_with_its_square(line):
     one, two, four = (lines_of(steps_of(SMALL * factor, line, 200)) for factor in (1, 2, 4))
     assert four - two < 2.2 * (two - one)  # 4 times, were it the square
 
 
-def test_a_lecture_of_the_largest_size_is_read() -> None:
+def test_a_lecture_of_the_largest_size_is_read():
     """Prose, with as many formulas as a lecture may have."""
     formulas = "Here is $x_1$ and **bold**.\n\n" * (PIECES // 1000 // 8)
     prose = "Words, and more words, and a word to end the line of words.\n" * 67
@@ -89,7 +85,7 @@ def test_a_lecture_of_the_largest_size_is_read() -> None:
     assert text.split("\n")[formula.line - 1].startswith("Here is")
 
 
-def test_signs_that_are_never_closed_stand_as_they_are() -> None:
+def test_signs_that_are_never_closed_stand_as_they_are():
     assert parse("a *b *c d") == (Paragraph((Words("a *b *c d"),)),)
     assert parse("*a* *b $x$ *c") == (
         Paragraph((Words("a", italic=True), Words(" *b "), Math("x"), Words(" *c"))),

@@ -1,7 +1,5 @@
 """A step's text: its blocks and words, and mistakes with their line."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -10,95 +8,99 @@ from plain_text import plain_text, words_of
 from lucida.app.lecture import text as texts
 
 
-class TestText:
-    def test_blocks(self):
-        blocks = texts.parse(
-            "# One\n\nA *slanted* **bold $x$** `code`\ngoes on.\n> Why\n> so?\n"
-            "- a\n- b\n  c\n\n1. x\n2. y\n\n$$\na\nb\n$$\n$$ c $$\n```python\n  x = $1\n```\n"
-        )
-        words = texts.Words
-        assert blocks == (
-            texts.Heading(1, (words("One"),)),
-            texts.Paragraph(
-                (
-                    words("A "),
-                    words("slanted", italic=True),
-                    words(" "),
-                    words("bold ", bold=True),
-                    texts.Math("x"),
-                    words(" "),
-                    words("code", code=True),
-                    words(" goes on."),
-                )
-            ),
-            texts.Question((words("Why so?"),)),
-            texts.ItemList(((words("a"),), (words("b c"),))),
-            texts.ItemList(((words("x"),), (words("y"),)), numbered=True),
-            texts.DisplayedFormula("a\nb"),
-            texts.DisplayedFormula("c"),
-            texts.Code("  x = $1"),
-        )
-        assert texts.formulas(blocks) == ("x", "a\nb", "c")
-        assert "slanted" in plain_text(blocks) and "*" not in plain_text(blocks)
-
-    @pytest.mark.parametrize(
-        ("text", "line"),
-        [
-            ("*a* b", (texts.Words("a", italic=True), texts.Words(" b"))),
-            ("-5 is", (texts.Words("-5 is"),)),
-            ("2. ", (texts.Words("2."),)),
-            (r"a\$", (texts.Words("a$"),)),
-            (r"a\*b", (texts.Words("a*b"),)),
-            (r"$x$$y$ a\#", (texts.Math("x"), texts.Math("y"), texts.Words(" a#"))),
-            (r"**a\*** b", (texts.Words("a*", bold=True), texts.Words(" b"))),
-            (r"${\{}{a}$", (texts.Math(r"{\{}{a}"),)),
-        ],
+def test_blocks():
+    blocks = texts.parse(
+        "# One\n\nA *slanted* **bold $x$** `code`\ngoes on.\n> Why\n> so?\n"
+        "- a\n- b\n  c\n\n1. x\n2. y\n\n$$\na\nb\n$$\n$$ c $$\n```python\n  x = $1\n```\n"
     )
-    def test_neighbours_of_one_style_are_one(self, text, line):
-        assert texts.parse(text) == (texts.Paragraph(line),)
-
-    def test_of_what_a_text_consists(self):
-        text = "# $x$ head\n\n- one *two*\n- three\n\n```\na\nb\n```\n$$y$$\n> who $z$?\n\nso"
-        blocks = texts.parse(text)
-        assert texts.pieces(blocks) == 2 + 3 + 1 + 1 + 3 + 1
-        assert texts.formulas(blocks) == ("x", "y", "z")
-        assert texts.pieces(()) == 0
-
-    def test_how_long_a_text_may_be(self):
-        assert texts.parse("a" * texts.LETTERS)
-        with pytest.raises(texts.TextError, match="is a text of 50001 characters"):
-            texts.parse("a" * (texts.LETTERS + 1))
-
-    @pytest.mark.parametrize(
-        ("text", "line"), [("a\n\n$x", 2), ("a\n$$\nb", 1), ("x\n\n```\ny", 2), ("- a\n- $", 1)]
-    )
-    def test_mistakes_have_a_line(self, text, line):
-        with pytest.raises(texts.TextError) as error:
-            texts.parse(text)
-        assert error.value.line == line
-
-    @pytest.mark.parametrize(
-        ("text", "line", "told"),
-        [
+    words = texts.Words
+    assert blocks == (
+        texts.Heading(1, (words("One"),)),
+        texts.Paragraph(
             (
-                "so $$x$$ is",
-                0,
-                "$$ stands within a line; give it lines of its own, or write $ ... $",
-            ),
-            ("a\n\n- so **$$x$$**", 2, "$$ stands within a line"),
-            ("a\n$$x$$ is", 1, "text follows a displayed formula's $$; begin a new line after it"),
-            ("$$\nx\n$$ is", 2, "text follows a displayed formula's $$"),
-            ("$$$$ is", 0, "text follows a displayed formula's $$"),
-            ("$$", 0, "the formula does not end; close it by $$"),
-            ("a\n$}{$", 0, "the braces of '}{' do not match"),
-            ("${a{b}$", 0, "the braces of '{a{b}' do not match"),
-        ],
+                words("A "),
+                words("slanted", italic=True),
+                words(" "),
+                words("bold ", bold=True),
+                texts.Math("x"),
+                words(" "),
+                words("code", code=True),
+                words(" goes on."),
+            )
+        ),
+        texts.Question((words("Why so?"),)),
+        texts.ItemList(((words("a"),), (words("b c"),))),
+        texts.ItemList(((words("x"),), (words("y"),)), numbered=True),
+        texts.DisplayedFormula("a\nb"),
+        texts.DisplayedFormula("c"),
+        texts.Code("  x = $1"),
     )
-    def test_a_displayed_formula_within_a_line_is_told_the_remedy(self, text, line, told):
-        with pytest.raises(texts.TextError) as error:
-            texts.parse(text)
-        assert told in str(error.value)
-        assert error.value.line == line
+    assert texts.formulas(blocks) == ("x", "a\nb", "c")
+    assert "slanted" in plain_text(blocks) and "*" not in plain_text(blocks)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("*a* b", (texts.Words("a", italic=True), texts.Words(" b"))),
+        ("-5 is", (texts.Words("-5 is"),)),
+        ("2. ", (texts.Words("2."),)),
+        (r"a\$", (texts.Words("a$"),)),
+        (r"a\*b", (texts.Words("a*b"),)),
+        (r"$x$$y$ a\#", (texts.Math("x"), texts.Math("y"), texts.Words(" a#"))),
+        (r"**a\*** b", (texts.Words("a*", bold=True), texts.Words(" b"))),
+        (r"${\{}{a}$", (texts.Math(r"{\{}{a}"),)),
+    ],
+)
+def test_neighbours_of_one_style_are_one(text, line):
+    assert texts.parse(text) == (texts.Paragraph(line),)
+
+
+def test_of_what_a_text_consists():
+    text = "# $x$ head\n\n- one *two*\n- three\n\n```\na\nb\n```\n$$y$$\n> who $z$?\n\nso"
+    blocks = texts.parse(text)
+    assert texts.pieces(blocks) == 2 + 3 + 1 + 1 + 3 + 1
+    assert texts.formulas(blocks) == ("x", "y", "z")
+    assert texts.pieces(()) == 0
+
+
+def test_how_long_a_text_may_be():
+    assert texts.parse("a" * texts.LETTERS)
+    with pytest.raises(texts.TextError, match="is a text of 50001 characters"):
+        texts.parse("a" * (texts.LETTERS + 1))
+
+
+@pytest.mark.parametrize(
+    ("text", "line"), [("a\n\n$x", 2), ("a\n$$\nb", 1), ("x\n\n```\ny", 2), ("- a\n- $", 1)]
+)
+def test_mistakes_have_a_line(text, line):
+    with pytest.raises(texts.TextError) as error:
+        texts.parse(text)
+    assert error.value.line == line
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "told"),
+    [
+        (
+            "so $$x$$ is",
+            0,
+            "$$ stands within a line; give it lines of its own, or write $ ... $",
+        ),
+        ("a\n\n- so **$$x$$**", 2, "$$ stands within a line"),
+        ("a\n$$x$$ is", 1, "text follows a displayed formula's $$; begin a new line after it"),
+        ("$$\nx\n$$ is", 2, "text follows a displayed formula's $$"),
+        ("$$$$ is", 0, "text follows a displayed formula's $$"),
+        ("$$", 0, "the formula does not end; close it by $$"),
+        ("a\n$}{$", 0, "the braces of '}{' do not match"),
+        ("${a{b}$", 0, "the braces of '{a{b}' do not match"),
+    ],
+)
+def test_a_displayed_formula_within_a_line_is_told_the_remedy(text, line, told):
+    with pytest.raises(texts.TextError) as error:
+        texts.parse(text)
+    assert told in str(error.value)
+    assert error.value.line == line
 
 
 @given(st.text(alphabet="$*`\\\\a1.,()[]{}_^#>-", min_size=1, max_size=12))

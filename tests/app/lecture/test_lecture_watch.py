@@ -1,7 +1,5 @@
 """A lecture's file that is written while the lecture is open."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 from lucida.app.lecture import reading
@@ -13,75 +11,77 @@ from lucida.app.ui.watching import FilesWatch
 from lucida.renderer.system.file_dependencies import stamp
 
 
-class TestWatching:
-    def test_a_change_is_told_once_it_rests(self, tmp_path):
-        path = tmp_path / "x"
-        path.write_text("a")
-        watch = FilesWatch({path: stamp(path)})
-        assert not watch.changed(0.0)
-        path.write_text("ab")
-        assert not watch.changed(1.0) and watch.waiting
-        path.write_text("abc")
-        assert not watch.changed(1.3)  # still being written
-        assert watch.changed(1.6)
-        assert not watch.changed(2.0) and not watch.waiting
+def test_a_change_is_told_once_it_rests(tmp_path):
+    path = tmp_path / "x"
+    path.write_text("a")
+    watch = FilesWatch({path: stamp(path)})
+    assert not watch.changed(0.0)
+    path.write_text("ab")
+    assert not watch.changed(1.0) and watch.waiting
+    path.write_text("abc")
+    assert not watch.changed(1.3)  # still being written
+    assert watch.changed(1.6)
+    assert not watch.changed(2.0) and not watch.waiting
 
-    def test_a_file_that_is_replaced(self, tmp_path):
-        path, other = tmp_path / "x", tmp_path / "y"
-        path.write_text("a")
-        other.write_text("other")
-        old, watch = tmp_path / "old", FilesWatch({path: stamp(path)})
-        path.rename(old)
-        assert not watch.changed(1.0) and not watch.waiting
-        other.rename(path)
-        assert not watch.changed(1.3)
-        assert watch.changed(1.6)
-        # Changed and changed back before it rested: nothing to do.
-        path.rename(other)
-        old.rename(path)
-        assert not watch.changed(2.0) and watch.waiting
-        path.rename(old)
-        other.rename(path)
-        assert not watch.changed(2.3) and not watch.waiting
-        assert not watch.changed(2.6)
 
-    def test_one_of_several_files_and_one_that_comes(self, tmp_path):
-        there, missing = tmp_path / "there", tmp_path / "missing"
-        there.write_text("a")
-        watch = FilesWatch({there: stamp(there), missing: None})
-        assert not watch.changed(1.0) and not watch.waiting
-        there.write_text("ab")
-        assert not watch.changed(2.0)
-        assert watch.changed(2.3)
-        missing.write_text("now it is there")
-        assert not watch.changed(3.0)
-        assert watch.changed(3.3)
-        missing.unlink()
-        there.write_text("abc")  # whatever else is away
-        assert not watch.changed(4.0)
-        assert watch.changed(4.3)
+def test_a_file_that_is_replaced(tmp_path):
+    path, other = tmp_path / "x", tmp_path / "y"
+    path.write_text("a")
+    other.write_text("other")
+    old, watch = tmp_path / "old", FilesWatch({path: stamp(path)})
+    path.rename(old)
+    assert not watch.changed(1.0) and not watch.waiting
+    other.rename(path)
+    assert not watch.changed(1.3)
+    assert watch.changed(1.6)
+    # Changed and changed back before it rested: nothing to do.
+    path.rename(other)
+    old.rename(path)
+    assert not watch.changed(2.0) and watch.waiting
+    path.rename(old)
+    other.rename(path)
+    assert not watch.changed(2.3) and not watch.waiting
+    assert not watch.changed(2.6)
 
-    def test_a_lecture_s_scene_that_is_saved_while_it_is_read(self, tmp_path, monkeypatch):
-        path, scene = tmp_path / "l.toml", tmp_path / "s.toml"
-        path.write_text('title = "L"\n[[steps]]\ntitle = "A"\nscene = "s.toml"\n')
-        scene.write_text("[[objects]]\ntype = 'sphere'\n")
-        load = reading.load_scene
 
-        def slow(source):
-            found = load(source)
-            scene.write_text("[[objects]]\ntype = 'sphere'\nradius = 2\n")
-            return found
+def test_one_of_several_files_and_one_that_comes(tmp_path):
+    there, missing = tmp_path / "there", tmp_path / "missing"
+    there.write_text("a")
+    watch = FilesWatch({there: stamp(there), missing: None})
+    assert not watch.changed(1.0) and not watch.waiting
+    there.write_text("ab")
+    assert not watch.changed(2.0)
+    assert watch.changed(2.3)
+    missing.write_text("now it is there")
+    assert not watch.changed(3.0)
+    assert watch.changed(3.3)
+    missing.unlink()
+    there.write_text("abc")  # whatever else is away
+    assert not watch.changed(4.0)
+    assert watch.changed(4.3)
 
-        monkeypatch.setattr(reading, "load_scene", slow)
-        session = LectureSession(load_lecture(path), path)
-        assert not session.watch.changed(1.0)
-        assert session.watch.changed(2.0)
+
+def test_a_lecture_s_scene_that_is_saved_while_it_is_read(tmp_path, monkeypatch):
+    path, scene = tmp_path / "l.toml", tmp_path / "s.toml"
+    path.write_text('title = "L"\n[[steps]]\ntitle = "A"\nscene = "s.toml"\n')
+    scene.write_text("[[objects]]\ntype = 'sphere'\n")
+    load = reading.load_scene
+
+    def slow(source):
+        found = load(source)
+        scene.write_text("[[objects]]\ntype = 'sphere'\nradius = 2\n")
+        return found
+
+    monkeypatch.setattr(reading, "load_scene", slow)
+    session = LectureSession(load_lecture(path), path)
+    assert not session.watch.changed(1.0)
+    assert session.watch.changed(2.0)
 
 
 def test_a_reply_is_kept_as_long_as_its_question_counts_pixels_in_the_same_way(tmp_path):
     path = tmp_path / "l.toml"
 
-    def saved(start: int, title: str = "L") -> Lecture:
+    def saved(start, title="L"):
         pixel = [2 + start, 6 + start]
         path.write_text(
             f"title = '{title}'\npixels_from = {start}\n[[steps]]\ntitle = 'A'\n"

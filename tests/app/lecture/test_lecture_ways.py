@@ -1,14 +1,11 @@
 """A step's state, and its mark, do not depend on what was there before."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
 from both_lectures import both_lectures
 from option_changes import with_options
 
-from lucida.app.images.marking import followed
 from lucida.app.lecture.step_options import OWN, state_of
 from lucida.app.state.app_state import AppState
 from lucida.renderer.files import load_scene
@@ -16,7 +13,7 @@ from lucida.renderer.files import load_scene
 LECTURE = both_lectures()
 
 
-def spoiled(state: AppState) -> AppState:
+def spoiled(state):
     """Return a state as a user may have changed it."""
     changed = with_options(
         state,
@@ -42,12 +39,3 @@ def test_a_steps_state_does_not_depend_on_the_way(number):
     user = with_options(begun, preferences={"theme": "light", "font_scale": 1.5})
     kept = {name: getattr(user.options, name) for name in OWN}
     assert state_of(step, user) == replace(own, options=replace(own.options, **kept))
-
-
-def test_a_mark_outside_of_a_small_image_is_remembered_as_it_was_set():
-    view = load_scene("spheres").view
-    now, anchor = followed((19, 40), None, None, view, (30, 20))
-    assert now == (19, 29)
-    assert anchor is not None and anchor.pixel == (19, 40)  # which is the step's own
-    again, same = followed(now, (30, 20), anchor, view, (30, 20))
-    assert (again, same) == (now, anchor)

@@ -1,7 +1,5 @@
 """States between two states: exact ends, and legal ones between."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -22,17 +20,17 @@ PARTS = np.linspace(0, 1, 21)
 EYE = Camera.look_at((4, 3, 5), (0, 0, 0))
 
 
-def movement(start: AppState, end: AppState) -> Movement:
+def movement(start, end):
     return Movement(start, end, scene_focus(start.scene), SIZE)
 
 
 @pytest.fixture(scope="module")
-def state() -> AppState:
+def state():
     return AppState.for_scene(load_scene("canonical"))
 
 
 @pytest.fixture(scope="module")
-def changed(state: AppState) -> AppState:
+def changed(state):
     camera = replace(state.camera, eye=(1.0, 0.5, 1.0), projection="parallel")
     end = replace(state, view=View(camera, state.view.fit))
     options = {"camera": EYE, "grid": False, "target": (1.0, 2.0, 3.0), "up": (0.0, 0.0, 1.0)}

@@ -4,8 +4,6 @@ Walks the texts that the rooms' pure models produce: the lecture's steps and exe
 the mistakes, the stepper, the labels of the outside view, the laboratory, tasks and what is copied.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections.abc import Iterator
@@ -33,7 +31,6 @@ from lucida.app.lecture import text as texts
 from lucida.app.lecture.notation import in_notation
 from lucida.app.state.options.laboratory import LaboratoryOptions
 from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui.explaining import symbols
 from lucida.app.ui.explaining.symbols import TABLE
 from lucida.renderer.camera.pixels import Indexing
@@ -41,18 +38,18 @@ from lucida.renderer.files import load_scene
 
 LECTURE = both_lectures()
 STEPS = LECTURE.builds
-NOTATIONS: tuple[Notation, ...] = ("book", "code")
+NOTATIONS = ("book", "code")
 Found = Iterator[tuple[str, str, str]]  # where, the kind of text, the text
 
 
-def parts_of(block: texts.Block) -> list:
+def parts_of(block):
     if isinstance(block, texts.Code | texts.DisplayedFormula):
         return [block]
     lines = block.items if isinstance(block, texts.ItemList) else [block.line]
     return [span for line in lines for span in line]
 
 
-def lecture(notation: Notation) -> Found:
+def lecture(notation):
     for number, step in enumerate(STEPS, start=1):
         written = [step.text, getattr(step.exercise, "question", "")]
         written += getattr(step.exercise, "replies", ())
@@ -69,7 +66,7 @@ def lecture(notation: Notation) -> Found:
                         yield f"step {number}", "vector", span.text
 
 
-def probe(notation: Notation) -> Found:
+def probe(notation):
     for name in ("still-life", "spheres"):
         scene = load_scene(name)
         reading = Probe(scene).at((24, 32), scene.view.for_size((64, 48)), (64, 48))
@@ -81,7 +78,7 @@ def probe(notation: Notation) -> Found:
             yield "copied", "program", as_python(reading, Indexing.LECTURE)
 
 
-def mistakes(notation: Notation) -> Found:
+def mistakes(notation):
     for projection_ in ("perspective", "parallel"):
         for indexing in Indexing:
             shown = ray_program(RayTask(projection_, indexing)).in_notation(notation)
@@ -91,14 +88,14 @@ def mistakes(notation: Notation) -> Found:
                 yield mistake.name, "words", mistake.hint
 
 
-def stepper(notation: Notation) -> Found:
+def stepper(notation):
     for program in PROGRAMS:
         for indexing in Indexing:
             for line in shown_lines(source_of(program).lines, notation, indexing):
                 yield "stepper", "program", line
 
 
-def drawn(notation: Notation) -> Found:
+def drawn(notation):
     both = OutsideOptions(target=(0, 0, 0)), OutsideOptions(half_line=4.0)
     for step, options in itertools.product(STEPS, both):
         camera = step.view.for_size((64, 48))
@@ -109,7 +106,7 @@ def drawn(notation: Notation) -> Found:
                 yield "outside view", "label", item.text
 
 
-def others(notation: Notation) -> Found:
+def others(notation):
     options = LaboratoryOptions(page="ruler", progress=4.0)
     look, none = Look(*[(0.0, 0.0, 0.0)] * 10), np.zeros((1, 1, 3), np.float32)
     page = Page((400, 300), look, options, none, 0.0, (0.5, 0.5), notation)
@@ -124,7 +121,7 @@ def others(notation: Notation) -> Found:
         yield task.name, "interface", " ".join(map(" ".join, head))
 
 
-def foreign(kind: str, text: str, notation: Notation) -> set[str]:
+def foreign(kind, text, notation):
     """Return the symbols in a text that are the other notation's."""
     letters, words = ({getattr(one, name) for one in TABLE} for name in ("letter", "code"))
     book, code = (

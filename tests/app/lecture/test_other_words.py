@@ -1,13 +1,10 @@
 """The second lecture's K, R and t are its step's camera, and what it calls wrong is what each
 mistake makes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from lucida.app.lecture.exercises import VectorExercise
-from lucida.app.lecture.model import Step
 from lucida.app.lecture.reading import BUILTINS, load_lecture
 from lucida.app.ui.explaining.arithmetic import vector_text
 from lucida.renderer.camera.camera import Camera
@@ -19,12 +16,12 @@ T = np.array([0, 1, 4])
 
 
 @pytest.fixture(scope="module")
-def step() -> Step:
+def step():
     steps = load_lecture(BUILTINS["Cameras beyond the formula"]).steps
     return next(step for step in steps if step.title == "Exercise: K, R and t")
 
 
-def answers(camera: Camera) -> dict[str, tuple[float, ...]]:
+def answers(camera):
     left, _, _, top = camera.viewport
     return {
         "e": camera.eye,

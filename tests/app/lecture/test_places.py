@@ -1,7 +1,5 @@
 """In which line of a TOML file a field stands."""
 
-from __future__ import annotations
-
 import pytest
 
 from lucida.renderer.files.places import Places, parsed_path

@@ -1,16 +1,12 @@
 """The files that a step's options name: found in the lecture's folder, or refused."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from lucida.app.lecture.step_options import files_named, with_files
 from lucida.renderer.system.errors import LucidaError
 
 
-def test_files_are_found_in_the_lectures_folder(tmp_path: Path) -> None:
+def test_files_are_found_in_the_lectures_folder(tmp_path):
     (tmp_path / "photo.png").touch()
     (tmp_path / "set").mkdir()
     tables = {
@@ -27,12 +23,12 @@ def test_files_are_found_in_the_lectures_folder(tmp_path: Path) -> None:
     assert tables["poses"]["file"] == "set", "the step's own table has changed"
 
 
-def test_a_file_that_is_missing_is_refused_with_its_field(tmp_path: Path) -> None:
+def test_a_file_that_is_missing_is_refused_with_its_field(tmp_path):
     with pytest.raises(LucidaError, match=r"poses\.file: 'gone\.json' does not exist"):
         with_files({"poses": {"file": "gone.json"}}, tmp_path)
 
 
-def test_files_are_named_though_something_else_is_wrong() -> None:
+def test_files_are_named_though_something_else_is_wrong():
     tables = {
         "photograph": {"file": "a.png", "opacity": "?"},
         "poses": {"file": 3},

@@ -1,7 +1,5 @@
 """Formulas that cannot be set: which command, where it stands in the file."""
 
-from __future__ import annotations
-
 import pytest
 from both_lectures import both_lectures
 

@@ -1,13 +1,11 @@
 """Sessions that a window may have left."""
 
-from __future__ import annotations
-
 import pytest
 from option_changes import with_options
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Bookmark
-from lucida.app.window.start import Start, begin_session
+from lucida.app.window.start import begin_session
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene import View
@@ -39,7 +37,7 @@ def begin():
     """Begin a window's session: begin_session(), whose place is released at the end of the test."""
     starts = []
 
-    def make(**options) -> Start:
+    def make(**options):
         starts.append(begin_session(**options))
         return starts[-1]
 

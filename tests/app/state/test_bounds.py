@@ -1,11 +1,9 @@
 """Bounds of options: on every field, and the same for keys, fields, sessions and lectures."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import fields, is_dataclass, replace
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from typing import Annotated, get_args, get_origin, get_type_hints
 
 import pytest
 from option_changes import with_options
@@ -34,26 +32,18 @@ from lucida.renderer.scene import View
 from lucida.renderer.system.errors import LucidaError
 
 # part, field, value, where the error is, what it says
-WRONG: list[tuple[str, str, Any, str, str]] = [
+WRONG = [
     ("images", "exposure_ev", 8.5, "", "8.5 is out of range; give -8 to 8"),
-    ("images", "exposure_ev", -8.5, "", "-8.5 is out of range"),
     ("images", "pixel_size", 3, "", "3 is not possible; give one of 1, 2, 4, 8, 16, 32"),
     ("images", "resolution", [0, 5], "", "0x5 has no pixels"),
     ("images", "resolution", [16384, 16384], "", "16384x16384 is too large"),
     ("images", "magnification", 0.0, "", "0 is out of range; give 0.015625 to 128"),
     ("images", "center", [0.5, 1.5], "[1]", "1.5 is out of range; give 0 to 1"),
     ("compare", "gain", -1.0, "", "-1 is out of range; give 1 to 1024"),
-    ("compare", "gain", 1e30, "", "1e+30 is out of range"),
-    ("compare", "divider", 2.0, "", "2 is out of range"),
     ("outside", "bundle", [65, 1], "[0]", "65 is out of range; give 0 to 64"),
-    ("outside", "bundle", [1, -1], "[1]", "-1 is out of range"),
-    ("laboratory", "progress", -0.1, "", "-0.1 is out of range; give 0 to 4"),
-    ("laboratory", "after_ev", 6.5, "", "6.5 is out of range; give -6 to 6"),
     ("probe", "pins", [[0, 1], [2, -1]], "[1][1]", "-1 is out of range; give 0 to 16383"),
     ("probe", "pins", [[0, 0]] * 257, "", "has 257 entries; give at most 256"),
     ("stepper", "canvas", [100_000, 100_000], "[0]", "100000 is out of range; give 1 to 64"),
-    ("stepper", "canvas", [64, 49], "[1]", "49 is out of range; give 1 to 48"),
-    ("stepper", "steps", [0, -1], "[1]", "-1 is out of range; give 0 to 1000000"),
     ("stepper", "speed", 0.0, "", "0 is out of range; give 1 to 20000"),
 ]
 
@@ -63,7 +53,7 @@ def state():
     return AppState.for_scene(load_scene("spheres"))
 
 
-def _numbers(hint: Any, bounded: bool, path: str) -> Any:
+def _numbers(hint, bounded, path):
     """(path, whether it is bounded) of each number that a type can hold."""
     if get_origin(hint) is Annotated:
         bounded = bounded or not all(isinstance(mark, AtMost) for mark in hint.__metadata__)
@@ -91,8 +81,6 @@ def test_sessions_and_lectures_refuse_the_same(state, part, field, value, entry,
         options_from_table({part: {field: value}})
     assert caught.value.field == f"{part}.{field}{entry}"
     assert told in str(caught.value)
-    if abs(value if isinstance(value, int) else 0) > 2**63:
-        return  # no number of JSON as msgspec reads it
     table = json.loads(to_bytes(session_of(state, Arrangement())))
     table["options"][part][field] = value
     with pytest.raises(LucidaError) as caught:
@@ -146,7 +134,7 @@ def test_what_steps_through_a_range_ends_at_its_bounds():
     assert (NUMBERS[0], NUMBERS[-1]) == whole_range_of(Bookmark, "number")
 
 
-def test_a_camera_among_a_lectures_options_is_a_table() -> None:
+def test_a_camera_among_a_lectures_options_is_a_table():
     table = {"outside": {"camera": {"eye": [0, 0, 9]}, "grid": False}}
     assert options_from_table(table)["outside"] == {"camera": Camera((0, 0, 9)), "grid": False}
     for options, told in (

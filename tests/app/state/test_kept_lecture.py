@@ -1,9 +1,6 @@
 """A lecture in a session: step, answers and changes come back, whatever became of its file."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from option_changes import with_options
@@ -13,7 +10,7 @@ from lucida.app.lecture.session import LectureSession
 from lucida.app.lecture.view import LectureView
 from lucida.app.state.kept_lecture import KeptLecture
 from lucida.app.state.session import Arrangement, session_of
-from lucida.app.window.start import Start, begin_lecture, begin_session
+from lucida.app.window.start import begin_lecture, begin_session
 from lucida.renderer.files import load_scene
 from lucida.renderer.system.errors import LucidaError
 
@@ -42,18 +39,18 @@ options = [{ text = "a", feedback = "no" }, { text = "b", feedback = "yes", righ
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> Path:
+def file(tmp_path):
     path = tmp_path / "two.toml"
     path.write_text(LECTURE)
     return path
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     return tmp_path / "sessions"
 
 
-def given(file: Path, folder: Path) -> Start:
+def given(file, folder):
     """A window in which the second step was changed and answered; it is closed. What it began with,
     and its state at the end."""
     start = begin_lecture(load_lecture(file), (1, 0), folder)
@@ -69,7 +66,7 @@ def given(file: Path, folder: Path) -> Start:
     return replace(start, state=state)
 
 
-def close(start: Start, session) -> None:
+def close(start, session):
     assert start.keeper is not None
     start.keeper.close(session)
 

@@ -1,7 +1,5 @@
 """Unsaved edits come back with the session."""
 
-from __future__ import annotations
-
 import pytest
 from opened_things import found
 from random_edits import SCENE, TENT

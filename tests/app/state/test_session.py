@@ -1,7 +1,5 @@
 """Sessions as text: what was open comes back; what no window can have left is refused."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -37,7 +35,7 @@ ARRANGEMENT = Arrangement(
 )
 
 
-def damaged(data: bytes, **changes: object) -> bytes:
+def damaged(data, **changes):
     """A session with other values: section__field=value."""
     table = json.loads(data)
     for path, value in changes.items():

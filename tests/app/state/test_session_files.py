@@ -1,7 +1,5 @@
 """Sessions as files: whatever stands in the file's place, nothing is lost."""
 
-from __future__ import annotations
-
 import os
 import threading
 from dataclasses import replace
@@ -12,21 +10,19 @@ from option_changes import with_options
 from test_session import ARRANGEMENT
 from waiting import PATIENT_S, wait_for
 
-from lucida.app.state.app_state import AppState
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from lucida.app.window.session_store import Keeper, take_place
-from lucida.app.window.start import Start
 from lucida.renderer.files import load_scene
 from lucida.renderer.system.errors import LucidaError
 
 ROOT = Path(__file__).parents[3]
 
 
-def close(start: Start) -> None:
+def close(start):
     start.keeper.close(session_of(start.state, Arrangement()))
 
 
-def saved(folder: Path, state: AppState) -> Path:
+def saved(folder, state):
     place = take_place(folder)
     assert place is not None
     place.save(to_bytes(session_of(state, ARRANGEMENT)))
@@ -118,20 +114,13 @@ def test_two_windows_have_two_sessions(tmp_path, state, begin):
     assert len(list(tmp_path.glob("session-*.json"))) == 2
 
 
-def test_where_no_session_can_be_kept_the_window_opens(tmp_path, begin):
-    (tmp_path / "file").write_text("")
-    start = begin(folder=tmp_path / "file")
-    assert start.keeper is None
-    assert start.state.scene.name == "still life"
-
-
 def test_a_save_that_is_stuck_does_not_replace_the_last_one(tmp_path, state, monkeypatch):
     place = take_place(tmp_path)
     assert place is not None
     keeper = Keeper(place, lambda: None)
     stuck, go_on, sync = threading.Event(), threading.Event(), os.fsync
 
-    def slow(descriptor: int) -> None:
+    def slow(descriptor):
         if not stuck.is_set():
             stuck.set()
             assert go_on.wait(PATIENT_S)
@@ -169,7 +158,7 @@ def test_the_keeper_saves_after_a_while_and_tells_a_failure_once(tmp_path, state
     assert saved.acquire(timeout=PATIENT_S)
     assert from_bytes(place.path.read_bytes()) == session_of(state, ARRANGEMENT)
 
-    def full(data: bytes) -> None:
+    def full(data):
         raise LucidaError("", "cannot be written: no space left on device", source="session")
 
     monkeypatch.setattr(place, "save", full)

@@ -1,7 +1,5 @@
 """The settings file: whatever stands in its place, the window opens."""
 
-from __future__ import annotations
-
 import platformdirs
 import pytest
 

@@ -1,7 +1,5 @@
 """The window's state: history, switches, and edits that may be illegal for a while."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -23,11 +21,11 @@ STATE = AppState.for_scene(SCENE)
 SKEWED = Camera(u=(1, 0.3, 0), v=(0, 2, 0.1), w=(0.2, 0, 1))
 
 
-def moved(x: float) -> AppState:
+def moved(x):
     return STATE.with_camera(replace(STATE.camera, eye=(x, 0, 5)))
 
 
-def test_a_drag_is_one_step_of_undo() -> None:
+def test_a_drag_is_one_step_of_undo():
     history = History(STATE)
     for x in (1.0, 2.0, 3.0):
         history = history.change(moved(x), gesture=("drag", 1))
@@ -38,20 +36,20 @@ def test_a_drag_is_one_step_of_undo() -> None:
     assert history.undo().undo().redo().redo().present == moved(4.0)
 
 
-def test_a_drag_that_ends_where_it_began_is_no_step() -> None:
+def test_a_drag_that_ends_where_it_began_is_no_step():
     history = History(STATE).change(moved(1.0), "a").change(moved(2.0), "b")
     assert history.change(moved(1.0), "b").past == (STATE,)
     again = history.change(moved(1.0), "b").change(moved(3.0), "b")
     assert again.undo().present == moved(1.0)
 
 
-def test_a_drag_after_undo_does_not_join_the_drag_before() -> None:
+def test_a_drag_after_undo_does_not_join_the_drag_before():
     history = History(STATE).change(moved(1.0), "a").change(moved(2.0), "b").undo()
     history = history.change(moved(3.0), "a")
     assert history.undo().present == moved(1.0)
 
 
-def test_the_first_of_two_clicks_is_taken_back() -> None:
+def test_the_first_of_two_clicks_is_taken_back():
     start = AppState.for_scene(load_scene("canonical"))
     before = History(start).change(start.with_fit(not start.view.fit))
     click, later = ("drag", 3), ("drag", 4)
@@ -69,7 +67,7 @@ def test_the_first_of_two_clicks_is_taken_back() -> None:
 
 
 @given(st.lists(st.sampled_from(["undo", "redo", 1.0, 2.0, 3.0]), max_size=30))
-def test_undo_walks_a_list_of_states(acts: list[str | float]) -> None:
+def test_undo_walks_a_list_of_states(acts):
     """Against a list and a place in it: a change forgets what came after; none is no step."""
     history, states, here = History(STATE), [STATE], 0
     for act in acts:
@@ -94,7 +92,7 @@ LOOKS = (
 
 
 @pytest.mark.parametrize("looks", LOOKS)
-def test_undo_leaves_the_looks_as_they_are(looks: dict[str, dict[str, object]]) -> None:
+def test_undo_leaves_the_looks_as_they_are(looks):
     history = History(STATE).change(moved(1.0)).change(moved(2.0)).undo()
     seen = history.change(with_options(history.present, **looks), "a drag")
     assert (seen.past, seen.future) == (history.past, history.future)  # no step, and no end of redo
@@ -104,13 +102,13 @@ def test_undo_leaves_the_looks_as_they_are(looks: dict[str, dict[str, object]]) 
     assert both.present == moved(3.0) and both.undo().present == moved(1.0)
 
 
-def test_undo_of_a_lectures_step_brings_its_display_back() -> None:
+def test_undo_of_a_lectures_step_brings_its_display_back():
     shown = with_options(IN_LECTURE, images={"channel": "id"})
     after = replace(STATE, step=("a lecture", 3))
     assert History(shown).change(after).undo().present == shown
 
 
-def test_undo_has_a_limit() -> None:
+def test_undo_has_a_limit():
     history = History(STATE)
     for x in range(MOST_UNDO_STEPS + 5):
         history = history.change(moved(1.0 + x))
@@ -118,7 +116,7 @@ def test_undo_has_a_limit() -> None:
     assert history.past[-1] == moved(MOST_UNDO_STEPS + 4.0)
 
 
-def test_the_switch_follows_the_basis_and_mends_it() -> None:
+def test_the_switch_follows_the_basis_and_mends_it():
     skewed = STATE.with_view(View(SKEWED))
     assert STATE.keep_orthonormal and not skewed.keep_orthonormal
     assert skewed.with_scene(SCENE).keep_orthonormal
@@ -131,7 +129,7 @@ def test_the_switch_follows_the_basis_and_mends_it() -> None:
     assert off.with_keep_orthonormal(True) == STATE
 
 
-def test_a_mark_has_the_size_of_the_image_that_it_was_set_in() -> None:
+def test_a_mark_has_the_size_of_the_image_that_it_was_set_in():
     state = with_options(STATE, marked=(1, 2), marked_size=(64, 36))
     assert with_options(state, marked=(1, 2), shadows=True).options.marked_size == (64, 36)
     assert with_options(state, marked=(2, 2)).options.marked_size is None
@@ -149,9 +147,7 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
     mirrored=st.booleans(),
     spin=st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.linalg.norm(v) > 0.1),
 )
-def test_edits_keep_the_basis_orthonormal_and_its_handedness(
-    name: str, axis: int, value: float, mirrored: bool, spin: tuple[float, float, float]
-) -> None:
+def test_edits_keep_the_basis_orthonormal_and_its_handedness(name, axis, value, mirrored, spin):
     camera = with_vector(Camera(u=(-1, 0, 0) if mirrored else (1, 0, 0)), "w", np.array(spin))
     assert is_orthonormal(camera)
     assert np.allclose(np.multiply(camera.w, np.linalg.norm(spin)), spin)
@@ -162,7 +158,7 @@ def test_edits_keep_the_basis_orthonormal_and_its_handedness(
 
 
 @pytest.mark.parametrize(("name", "taken"), [("u", "v"), ("v", "w"), ("w", "v")])
-def test_a_vector_may_take_the_place_of_another(name: str, taken: str) -> None:
+def test_a_vector_may_take_the_place_of_another(name, taken):
     """The basis may be skewed: the vector whose place is taken is rotated out of the way."""
     there = np.array(getattr(SKEWED, taken))
     camera = with_vector(SKEWED, name, there)
@@ -171,7 +167,7 @@ def test_a_vector_may_take_the_place_of_another(name: str, taken: str) -> None:
     assert camera.determinant * SKEWED.determinant > 0
 
 
-def test_an_illegal_value_waits_and_the_camera_stays() -> None:
+def test_an_illegal_value_waits_and_the_camera_stays():
     state = replace(STATE, keep_orthonormal=False)
     draft = Draft.of(state.camera)
     after, draft = edit_component(state, draft, "w", 2, 0.0)
@@ -198,13 +194,13 @@ def test_an_illegal_value_waits_and_the_camera_stays() -> None:
         ("eye", (float("inf"), 0.0, 0.0)),
     ],
 )
-def test_illegal_fields_are_told_and_kept_out(name: str, value: object) -> None:
+def test_illegal_fields_are_told_and_kept_out(name, value):
     state, draft = edit_field(STATE, Draft.of(STATE.camera), name, value)
     assert state == STATE
     assert [field for field in ("eye", "distance", "viewport") if draft.is_wrong(field)] == [name]
 
 
-def test_a_legal_edit_does_not_wait_for_an_illegal_one() -> None:
+def test_a_legal_edit_does_not_wait_for_an_illegal_one():
     state, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
     state, draft = edit_component(state, draft, "eye", 0, 2.0)
     assert state.camera.eye == (2, 0, 5)
@@ -215,13 +211,13 @@ def test_a_legal_edit_does_not_wait_for_an_illegal_one() -> None:
     assert draft.error is None
 
 
-def test_a_draft_is_dropped_when_the_camera_changes_elsewhere() -> None:
+def test_a_draft_is_dropped_when_the_camera_changes_elsewhere():
     _, draft = edit_field(STATE, Draft.of(STATE.camera), "distance", -1.0)
     assert draft.following(STATE.camera) is draft
     assert draft.following(moved(1.0).camera).error is None
 
 
-def test_a_state_with_another_part_has_the_rest_as_it_was() -> None:
+def test_a_state_with_another_part_has_the_rest_as_it_was():
     assert not STATE.has_effects
     assert with_options(STATE, shadows=True).has_effects
     assert with_options(STATE, mirrors=True).has_effects
@@ -233,7 +229,7 @@ def test_a_state_with_another_part_has_the_rest_as_it_was() -> None:
     assert STATE.with_scene(other, STATE.view) == replace(STATE, scene=other)
 
 
-def test_what_follows_from_a_change_of_the_window_is_no_step() -> None:
+def test_what_follows_from_a_change_of_the_window_is_no_step():
     history = History(STATE).change(moved(1.0), "a")
     assert history.amended(moved(1.0)) is history
     amended = history.amended(moved(2.0))

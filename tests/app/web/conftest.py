@@ -1,7 +1,5 @@
 """A browser, and the lectures that its pages show."""
 
-from __future__ import annotations
-
 import pytest
 from both_lectures import both_lectures
 

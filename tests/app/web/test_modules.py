@@ -1,7 +1,5 @@
 """The modules of pages: what their checkers say, and how they become one text."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A scene's page in a browser: its rays and images are the program's, and it asks for nothing."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace
@@ -33,7 +31,7 @@ from tests.support.textured import noise
 SIZE = (64, 48)
 
 
-def _painted() -> Scene:
+def _painted():
     """Return a scene with all that a surface can show."""
     corners = [(-2, -1, -2), (2, -1, -2), (2, 2, -2), (-2, 2, -2)]
     uv = [(-0.5, -0.5), (1.5, -0.5), (1.5, 1.5), (-0.5, 1.5)]
@@ -55,12 +53,12 @@ def _painted() -> Scene:
 
 
 @pytest.fixture(scope="module")
-def scenes() -> dict[str, Scene]:
+def scenes():
     return {"still-life": load_scene("still-life"), "painted": _painted()}
 
 
 @pytest.fixture(scope="module")
-def pages(browser, scenes, tmp_path_factory) -> dict[str, Page]:
+def pages(browser, scenes, tmp_path_factory):
     made = {}
     for name, scene in scenes.items():
         file = tmp_path_factory.mktemp("pages") / f"{name}.html"
@@ -71,7 +69,7 @@ def pages(browser, scenes, tmp_path_factory) -> dict[str, Page]:
 
 
 @pytest.fixture
-def page(pages) -> Page:
+def page(pages):
     return pages["still-life"]
 
 
@@ -172,7 +170,7 @@ def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
     )
     shown = dict(zip(names, lines, strict=True))
 
-    def last(name: str) -> list[float]:
+    def last(name):
         found = re.findall(r"\(([^()]*)\)", shown[name].replace("\u2212", "-"))[-1]
         return [float(number) for number in found.split(",")]
 
@@ -245,7 +243,7 @@ def test_a_lost_webgl_context_is_reported_and_comes_back(page, tab, moved):
     np.testing.assert_array_equal(page.image("raster", SIZE), image)
 
 
-def _screenshots(tab) -> list[bytes]:
+def _screenshots(tab):
     return [canvas.screenshot() for canvas in tab.locator(".drawn").all()]
 
 

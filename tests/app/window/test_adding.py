@@ -1,7 +1,5 @@
 """The instrument of docs/architecture.md, built from that text and opened in the window."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil
@@ -49,7 +47,7 @@ stepped(run, step)
 """
 
 
-def added(path: Path, after: str, line: str, name: str, module: str) -> None:
+def added(path, after, line, name, module):
     """Add a line, and an import of its name, to a file of the copy."""
     text = path.read_text()
     assert text.count(after) == 1, (path, after)
@@ -58,7 +56,7 @@ def added(path: Path, after: str, line: str, name: str, module: str) -> None:
     path.write_text(text.replace(first, f"{first}\nfrom {module} import {name}\n", 1))
 
 
-def test_the_documents_instrument_opens_in_the_window(tmp_path: Path) -> None:
+def test_the_documents_instrument_opens_in_the_window(tmp_path):
     text = (ROOT / "docs" / "architecture.md").read_text()
     text = text[text.index("## Adding an instrument") :]
     files = re.findall(FILE, text, re.DOTALL)

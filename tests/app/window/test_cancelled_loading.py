@@ -1,9 +1,6 @@
 """Scenes that take long to open: cancelled by a newer one, by the user, and by the window's end."""
 
-from __future__ import annotations
-
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,15 +8,14 @@ from opened_things import found
 
 from lucida.app.window import opening
 from lucida.app.window.files import Files
-from lucida.app.window.opening import Opened, OpenedScene
+from lucida.app.window.opening import OpenedScene
 from lucida.renderer.files import load_scene
-from lucida.renderer.scene import Scene
 from lucida.renderer.system.cancelling import check_cancelled
 
 PATIENT_S = 120.0
 
 
-def wait_for(condition: Callable[[], object]) -> None:
+def wait_for(condition):
     end_s = time.monotonic() + PATIENT_S
     while not condition():
         assert time.monotonic() < end_s, "nothing happened"
@@ -27,11 +23,11 @@ def wait_for(condition: Callable[[], object]) -> None:
 
 
 @pytest.fixture
-def begun(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def begun(monkeypatch):
     """Scenes that are named "long" end only if they are cancelled; return what they did."""
-    events: list[str] = []
+    events = []
 
-    def load(source: str) -> Scene:
+    def load(source):
         if Path(source).stem == "long":
             events.append("begun")
             try:
@@ -46,18 +42,18 @@ def begun(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return events
 
 
-def scene_file(folder: Path, name: str) -> str:
+def scene_file(folder, name):
     path = folder / f"{name}.toml"
     path.write_text('[[objects]]\ntype = "sphere"\n')
     return str(path)
 
 
-def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path: Path, begun: list[str]):
+def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path, begun):
     files = Files(lambda: None, native=False)
     names = ["long", "b", "long", "c", "last"]
     for name in names:
         files.open(scene_file(tmp_path, name))
-    came: list[Opened] = []
+    came = []
     wait_for(lambda: (opened := files.poll()) and (came.append(opened) or True))
     wait_for(lambda: not files.busy)
     assert [found(opened, OpenedScene).scene.name for opened in came] == ["last"]
@@ -67,7 +63,7 @@ def test_of_several_that_are_opened_at_once_the_last_one_wins(tmp_path: Path, be
     files.close()
 
 
-def test_the_user_and_the_windows_end_cancel(tmp_path: Path, begun: list[str]):
+def test_the_user_and_the_windows_end_cancel(tmp_path, begun):
     files = Files(lambda: None, native=False)
     for count, end in enumerate((files.cancel, files.close), 1):
         files.open(scene_file(tmp_path, "long"))

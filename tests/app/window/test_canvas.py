@@ -1,8 +1,5 @@
 """The canvas of the window: unfinished frames leave the picture as it was."""
 
-from __future__ import annotations
-
-import moderngl
 import numpy as np
 import pytest
 
@@ -12,11 +9,11 @@ SIZE = (30, 20)
 
 
 @pytest.fixture
-def canvas(gl: moderngl.Context) -> WindowCanvas:
+def canvas(gl):
     return WindowCanvas(gl)
 
 
-def draw(canvas: WindowCanvas, gray: float, unfinished: bool = False, size: tuple[int, int] = SIZE):
+def draw(canvas, gray, unfinished=False, size=SIZE):
     """A frame of one gray; what the canvas shows then."""
     drawn = canvas.bind(size, unfinished)
     assert drawn.size == size

@@ -1,15 +1,11 @@
 """The window on a desk: what only a real display, a window manager and a home that outlives a start
 can show."""
 
-from __future__ import annotations
-
 import json
 import sys
-from pathlib import Path
 
-import numpy as np
 import pytest
-from desk import Desk, Program, check_same
+from desk import Program, check_same
 
 pytestmark = [
     pytest.mark.timeout(1500),
@@ -19,18 +15,18 @@ COLUMN = 1100, 560  # in the lecture's column, where nothing is
 STATUS = -90  # rows: below is the status line, which has the time that an image took
 
 
-def at_rest(desk: Desk) -> np.ndarray:
+def at_rest(desk):
     """The screen with no widget under the mouse or marked for the keyboard."""
     desk.click(*COLUMN)
     desk.rest()
     return desk.still()
 
 
-def session(home: Path) -> dict[str, object]:
+def session(home):
     return json.loads((home / "CONFIG" / "lucida" / "session-1.json").read_bytes())
 
 
-def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk: Desk, tmp_path: Path):
+def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk, tmp_path):
     sizes, style = ["ctrl+plus", "ctrl+plus", "ctrl+0"], "F9"
     changes = [*sizes, style, "ctrl+plus", style, "ctrl+minus", style, "ctrl+0", style]
     with Program(desk, tmp_path) as program:
@@ -44,7 +40,7 @@ def test_thirty_changes_of_type_size_leave_every_pixel_as_it_was(desk: Desk, tmp
         program.quit()
 
 
-def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk: Desk, tmp_path: Path):
+def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk, tmp_path):
     lectured, other = tmp_path / "one", tmp_path / "other"
     for home in (lectured, other):
         home.mkdir()
@@ -76,32 +72,7 @@ def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk: Desk, tmp_p
         program.quit()
 
 
-def test_a_named_model_comes_back_with_its_camera(desk: Desk, tmp_path: Path):
-    model = tmp_path / "roof.obj"
-    model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\nf 1 2 3\nf 1 3 4\n")
-    with Program(desk, tmp_path) as program:
-        desk.key("ctrl+plus")  # the user's own, which a model does not end
-        desk.still()
-        program.quit()
-    with Program(desk, tmp_path, str(model)) as program:
-        desk.key("KP_9")  # isometric
-        left = desk.still()
-        program.quit()
-    kept = session(tmp_path)
-    assert str(kept["scene"]).endswith("roof.obj")
-    assert kept["options"]["preferences"]["font_scale"] > 1.0
-    with Program(desk, tmp_path) as program:
-        check_same(left, desk.still(), tmp_path)
-        program.quit()
-    model.unlink()
-    with Program(desk, tmp_path) as program:
-        desk.key("Escape")  # the line that tells it
-        desk.still()
-        program.quit()
-    assert session(tmp_path)["scene"] == "still-life"
-
-
-def test_what_is_typed_right_after_tab_is_in_the_next_field(desk: Desk, tmp_path: Path):
+def test_what_is_typed_right_after_tab_is_in_the_next_field(desk, tmp_path):
     with Program(desk, tmp_path) as program:
         desk.key("ctrl+g")
         desk.still()

@@ -1,7 +1,5 @@
 """The facts about a display that are known without opening one."""
 
-from __future__ import annotations
-
 import pytest
 
 from lucida.app.window import platform
@@ -20,9 +18,7 @@ X11, WAYLAND = {"DISPLAY": ":0"}, {"WAYLAND_DISPLAY": "wayland-0"}
         ("win32", {}, ""),
     ],
 )
-def test_why_there_is_no_display(
-    monkeypatch: pytest.MonkeyPatch, system: str, variables: dict[str, str], why: str
-) -> None:
+def test_why_there_is_no_display(monkeypatch, system, variables, why):
     for name in X11 | WAYLAND:
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():

@@ -1,7 +1,5 @@
 """Recent files, folders, pictures: what the window does with files, without a window."""
 
-from __future__ import annotations
-
 import json
 import threading
 
@@ -28,7 +26,7 @@ PATIENT_S = 60.0
 # Recent files.
 
 
-def paths(recent: RecentFiles) -> list[str]:
+def paths(recent):
     return [str(path) for path in recent.entries]
 
 
@@ -89,16 +87,16 @@ def test_of_several_files_the_first_scene_and_the_first_view_are_taken(tmp_path)
 class Framebuffer:
     """moderngl's, as far as pictures need it: rows from below."""
 
-    def __init__(self, pixels: np.ndarray) -> None:
+    def __init__(self, pixels):
         self.pixels = pixels
 
-    def read(self, viewport: tuple, components: int, alignment: int) -> bytes:
+    def read(self, viewport, components, alignment):
         assert (viewport, components, alignment) == ((0, 0, 7, 5), 3, 1)
         return self.pixels[::-1].tobytes()
 
 
 PIXELS = np.arange(5 * 7 * 3, dtype=np.uint8).reshape(5, 7, 3)
-TARGET = Target(Framebuffer(PIXELS), (7, 5))  # type: ignore[arg-type]
+TARGET = Target(Framebuffer(PIXELS), (7, 5))
 
 
 def test_a_name_that_is_taken_gets_a_number(tmp_path):

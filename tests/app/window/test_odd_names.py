@@ -1,12 +1,9 @@
 """Files whose names are not UTF-8, or are no names one would show: opened, remembered, told."""
 
-from __future__ import annotations
-
 import io
 import os
 import subprocess
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import msgspec
@@ -32,19 +29,19 @@ pytestmark = pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="nam
 
 
 @pytest.fixture(params=NAMES, ids=range(len(NAMES)))
-def model(request, tmp_path: Path) -> str:
+def model(request, tmp_path):
     path = os.path.join(os.fsencode(tmp_path), request.param)
     with open(path, "w") as file:
         file.write(TRIANGLE)
     return os.fsdecode(path)
 
 
-def is_shown(text: str) -> bool:
+def is_shown(text):
     """Return True if windows and terminals show the name as it is."""
     return text.isprintable() and is_unicode(text)
 
 
-def test_what_is_shown_is_printable_and_what_is_kept_comes_back(model: str) -> None:
+def test_what_is_shown_is_printable_and_what_is_kept_comes_back(model):
     assert is_shown(one_line(model))
     assert is_unicode(stored(model))
     assert restored(stored(model)) == model
@@ -52,7 +49,7 @@ def test_what_is_shown_is_printable_and_what_is_kept_comes_back(model: str) -> N
     assert one_line("caf\udce9") == r"caf\xe9"
 
 
-def test_the_scene_of_such_a_file_has_a_name_to_show(model: str, tmp_path: Path) -> None:
+def test_the_scene_of_such_a_file_has_a_name_to_show(model, tmp_path):
     scene = load_scene(model)
     assert is_shown(scene.name)
     assert all(is_shown(entry.name) for entry in scene.objects)
@@ -67,21 +64,21 @@ def test_the_scene_of_such_a_file_has_a_name_to_show(model: str, tmp_path: Path)
     assert load_scene(tmp_path / "copy.toml").name == "spheres"  # what was there
 
 
-def test_it_is_among_the_recent_files(model: str, tmp_path: Path) -> None:
+def test_it_is_among_the_recent_files(model, tmp_path):
     recent = RecentFiles(tmp_path / "settings")
     recent.add(model)
     (path,) = RecentFiles(tmp_path / "settings").entries
     assert str(path) == model
 
 
-def test_it_comes_back_with_the_session(model: str) -> None:
+def test_it_comes_back_with_the_session(model):
     state = AppState.for_scene(load_scene(model))
     session = from_bytes(to_bytes(session_of(state, Arrangement())))
     assert session.source == model
     assert len(load_scene(session.source).objects) == 1
 
 
-def test_files_loads_it_and_tells_it(model: str, monkeypatch) -> None:
+def test_files_loads_it_and_tells_it(model, monkeypatch):
     waiting = []
     monkeypatch.setattr(Background, "submit", lambda _, work: waiting.append(work))
     files = Files(lambda: None)
@@ -98,13 +95,13 @@ def test_files_loads_it_and_tells_it(model: str, monkeypatch) -> None:
     files.close()
 
 
-def test_notifications_are_text() -> None:
+def test_notifications_are_text():
     toasts = Toasts()
     toasts.add("Saved /tmp/\udcff.png.")
     assert toasts.texts == [r"Saved /tmp/\xff.png."]
 
 
-def test_the_command_line_to_copy_names_it(model: str) -> None:
+def test_the_command_line_to_copy_names_it(model):
     line = command_line(load_scene("canonical").view, model)
     assert is_unicode(line)
     words = subprocess.run(
@@ -116,7 +113,7 @@ def test_the_command_line_to_copy_names_it(model: str) -> None:
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "ascii", "latin-1"])
-def test_streams_take_any_text(encoding: str, monkeypatch) -> None:
+def test_streams_take_any_text(encoding, monkeypatch):
     stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding, errors="strict")
     monkeypatch.setattr(sys, "stdout", stream)
     process.open_streams()
@@ -125,10 +122,10 @@ def test_streams_take_any_text(encoding: str, monkeypatch) -> None:
     assert b"caf" in stream.buffer.getvalue()
 
 
-def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> None:
+def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch):
     from lucida.app.window import platform
 
-    dropped: list[list[str]] = []
+    dropped = []
     window = SimpleNamespace()
     given = []
     library = SimpleNamespace(glfwSetDropCallback=lambda _, call: given.append(call))
@@ -141,7 +138,7 @@ def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch) -> N
     assert dropped == [["/a/caf\udce9.obj", "/b/é.obj"]]
 
 
-def test_commands_name_it_on_any_terminal(model: str) -> None:
+def test_commands_name_it_on_any_terminal(model):
     environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
     command = [sys.executable, "-m", "lucida", "scene", model]
     out = subprocess.run(command, env=environment, capture_output=True)

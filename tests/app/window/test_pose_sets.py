@@ -1,9 +1,6 @@
 """A set of cameras from the command line, and from one start of the window to the next."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -43,7 +40,7 @@ stepped(run, step)
 """
 
 
-def transforms(folder: Path) -> Path:
+def transforms(folder):
     posed = [
         PosedCamera(Camera.look_at((x, 2.0, 6.0), (0, 0.5, 0), aspect=4 / 3), (80, 60), f"{x}.png")
         for x in (-2.0, 0.0, 1.0, 3.0)
@@ -55,7 +52,7 @@ def transforms(folder: Path) -> Path:
 
 
 @drives_take_long
-def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path: Path) -> None:
+def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path):
     transforms(tmp_path)
     for mode in ("named", "again"):
         done = run(["-c", SCRIPT, str(tmp_path), mode], tmp_path)
@@ -63,7 +60,7 @@ def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path: Path) 
         assert done.stdout.split() == ["4", "2", "True"]
 
 
-def test_the_command_line_opens_a_set_and_draws_it(tmp_path: Path) -> None:
+def test_the_command_line_opens_a_set_and_draws_it(tmp_path):
     transforms(tmp_path)
     pictures = []
     for source in ("transforms.json", "still-life"):

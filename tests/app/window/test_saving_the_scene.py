@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -22,28 +21,28 @@ from lucida.renderer.system.file_dependencies import stamp
 class Host:
     """A window with a scene; files: what it is told."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path):
         path.write_text("[[objects]]\ntype = 'sphere'\n")
         self.state = AppState.for_scene(load_scene(path))
         self.said: list[str] = []
         self.known: list[object] = []
         self.message = ""
 
-    def rename(self, name: str) -> None:
+    def rename(self, name):
         self.state = replace(self.state, scene=set_scene_field(self.state.scene, "name", name))
 
-    def amend(self, state: AppState) -> None:
+    def amend(self, state):
         self.state = state
 
-    def say(self, text: str) -> None:
+    def say(self, text):
         self.said.append(text)
 
-    def know(self, saved) -> None:
+    def know(self, saved):
         self.known.append(saved.origin.files)
 
 
 @pytest.fixture
-def gates(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
+def gates(monkeypatch):
     """begun: a scene is about to be written; go: it may be."""
     gates = SimpleNamespace(begun=threading.Semaphore(0), go=threading.Semaphore(0))
 
@@ -56,18 +55,18 @@ def gates(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
     return gates
 
 
-def told(saving: SceneSaving, host: Host) -> None:
-    def is_idle() -> bool:
-        saving.poll(host)  # type: ignore[arg-type]
+def told(saving, host):
+    def is_idle():
+        saving.poll(host)
         return not saving.busy
 
     wait_for(is_idle)
 
 
-def test_what_is_saved_while_an_older_version_is_written_stays(tmp_path: Path, gates) -> None:
+def test_what_is_saved_while_an_older_version_is_written_stays(tmp_path, gates):
     path = tmp_path / "scene.toml"
     host, ended = Host(path), []
-    saving = SceneSaving(host, lambda: ended.append(True))  # type: ignore[arg-type]
+    saving = SceneSaving(host, lambda: ended.append(True))
     host.rename("one")
     saving.save(host.state)
     assert gates.begun.acquire(timeout=PATIENT_S)
@@ -76,7 +75,7 @@ def test_what_is_saved_while_an_older_version_is_written_stays(tmp_path: Path, g
     gates.go.release()
     assert gates.begun.acquire(timeout=PATIENT_S)  # the first is written, and not told yet
     assert "one" in path.read_text()
-    wait_for(lambda: saving.poll(host) or bool(host.said))  # type: ignore[arg-type]
+    wait_for(lambda: saving.poll(host) or bool(host.said))
     assert host.state.scene.name == "two"  # what was edited meanwhile stays
     assert saving.busy and not saving.closes(host.state) and not ended
     gates.go.release()
@@ -87,11 +86,11 @@ def test_what_is_saved_while_an_older_version_is_written_stays(tmp_path: Path, g
     saving.close()
 
 
-def test_none_of_several_files_is_left_out(tmp_path: Path, gates) -> None:
+def test_none_of_several_files_is_left_out(tmp_path, gates):
     host = Host(tmp_path / "scene.toml")
-    named: list = []
-    host.ask_name = lambda title, name, kind, chosen: named.append(chosen)  # type: ignore[attr-defined]
-    saving = SceneSaving(host, lambda: None)  # type: ignore[arg-type]
+    named = []
+    host.ask_name = lambda title, name, kind, chosen: named.append(chosen)
+    saving = SceneSaving(host, lambda: None)
     for name in ("a", "b", "c"):
         saving.save_as(host.state)
         named[-1](str(tmp_path / f"{name}.toml"))

@@ -23,7 +23,6 @@ from lucida.app.window.taking import take_newer, take_opened
 from lucida.renderer.editing.changing import set_scene_field
 from lucida.renderer.editing.documents import save
 from lucida.renderer.files import load_scene
-from lucida.renderer.scene import Scene
 
 BALL = "[[objects]]\ntype = 'sphere'\n"
 MODEL = "[[objects]]\ntype = 'model'\nfile = 'm.obj'\n"
@@ -31,16 +30,16 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
 class Clock:
-    def __init__(self) -> None:
+    def __init__(self):
         self.now_s = 100.0
 
-    def __call__(self) -> float:
+    def __call__(self):
         self.now_s += max(LOOK_S, REST_S)
         return self.now_s
 
 
 @pytest.fixture
-def path(tmp_path: Path) -> Path:
+def path(tmp_path):
     (tmp_path / "m.obj").write_text(TRIANGLE)
     path = tmp_path / "scene.toml"
     path.write_text(BALL + MODEL)
@@ -56,16 +55,16 @@ def files(monkeypatch):
     files.close()
 
 
-def follow(files: Files, scene: Scene, looks: int = 4) -> Opened | None:
+def follow(files, scene, looks=4):
     """Return what some frames find in which the scene is shown."""
     for _ in range(looks):
         files.follow(scene)
-    came: list[Opened | None] = []
+    came = []
     wait_for(lambda: came.append(files.poll()) or not files.busy)
     return next((opened for opened in came if opened is not None), None)
 
 
-def newer(files: Files, scene: Scene) -> Scene:
+def newer(files, scene):
     """The scene that is read again."""
     opened = follow(files, scene)
     assert opened is not None
@@ -74,14 +73,14 @@ def newer(files: Files, scene: Scene) -> Scene:
     return read.scene
 
 
-def loaded(files: Files) -> Opened:
+def loaded(files):
     """Return the result of the loading that is under way."""
     while (opened := files.poll()) is None:
         pass
     return opened
 
 
-def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch) -> None:
+def test_it_is_looked_at_now_and_then_not_in_every_frame(path, monkeypatch):
     looks = []
     look = watching.stamp
     monkeypatch.setattr(watching, "stamp", lambda p: looks.append(p) or look(p))
@@ -96,7 +95,7 @@ def test_it_is_looked_at_now_and_then_not_in_every_frame(path: Path, monkeypatch
     assert not looks  # nothing in a disk's way for what is built in
 
 
-def test_a_saved_scene_is_read_again_once(path: Path, files: Files) -> None:
+def test_a_saved_scene_is_read_again_once(path, files):
     old = load_scene(path)
     path.write_text(BALL * 2 + MODEL)  # before the window shows it
     scene = newer(files, old)
@@ -114,7 +113,7 @@ def test_a_saved_scene_is_read_again_once(path: Path, files: Files) -> None:
     assert len(newer(files, scene).objects) == 1
 
 
-def test_a_model_that_is_missing_is_awaited(path: Path, files: Files) -> None:
+def test_a_model_that_is_missing_is_awaited(path, files):
     scene = load_scene(path)
     follow(files, scene)
     path.write_text(BALL + MODEL.replace("m.obj", "later.obj"))
@@ -136,7 +135,7 @@ GLTF = """{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"
 
 
 @pytest.mark.parametrize("there", [False, True])
-def test_what_a_model_names_is_read_again_too(path: Path, files: Files, there: bool) -> None:
+def test_what_a_model_names_is_read_again_too(path, files, there):
     """Its numbers and its materials: saved anew, or missing at first."""
     folder = path.parent
     (folder / "m.gltf").write_text(GLTF)
@@ -155,7 +154,7 @@ def test_what_a_model_names_is_read_again_too(path: Path, files: Files, there: b
     assert newer(files, scene).objects[2].shape.vertices.max() == 2.0
 
 
-def test_a_mistake_is_one_line_until_it_is_mended(path: Path, files: Files) -> None:
+def test_a_mistake_is_one_line_until_it_is_mended(path, files):
     scene = load_scene(path)
     follow(files, scene)
     path.write_text(BALL + "radius = 'x'\n" + MODEL)
@@ -166,7 +165,7 @@ def test_a_mistake_is_one_line_until_it_is_mended(path: Path, files: Files) -> N
     assert files.message == ""
 
 
-def test_a_file_that_is_away_for_a_moment_is_no_change(path: Path, files: Files) -> None:
+def test_a_file_that_is_away_for_a_moment_is_no_change(path, files):
     scene, text = load_scene(path), path.read_text()
     follow(files, scene)
     path.unlink()
@@ -176,7 +175,7 @@ def test_a_file_that_is_away_for_a_moment_is_no_change(path: Path, files: Files)
     assert follow(files, scene) is not None
 
 
-def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files) -> None:
+def test_what_the_window_saves_itself_is_not_read_again(path, files):
     scene = load_scene(path)
     follow(files, scene)
     os.utime(path, (1, 1))
@@ -186,9 +185,7 @@ def test_what_the_window_saves_itself_is_not_read_again(path: Path, files: Files
     assert follow(files, saved) is None
 
 
-def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
-    path: Path, files: Files
-) -> None:
+def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(path, files):
     (path.parent.parent / "out.obj").write_text(TRIANGLE)
     files.open_all([str(path)], dropped=True)
     scene = found(loaded(files), OpenedScene).scene
@@ -205,9 +202,7 @@ def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(
     assert found(opened, OpenedScene).agreed == frozenset([path.parent.parent / "out.obj"])
 
 
-def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
-    path: Path, files: Files, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_each_question_about_files_elsewhere_opens_what_it_asked_about(path, files, monkeypatch):
     """The shown scene is read again, and asks, while another one is still being loaded."""
     (path.parent.parent / "out.obj").write_text(TRIANGLE)
     other = path.with_name("other.toml")
@@ -218,7 +213,7 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
     files.follow(shown)
     gate, load = threading.Event(), opening.load_scene
 
-    def slow(source: str) -> Scene:
+    def slow(source):
         if Path(source) == other:
             gate.wait(60)
         return load(source)
@@ -240,7 +235,7 @@ def test_each_question_about_files_elsewhere_opens_what_it_asked_about(
 class Window:
     """As much of the window as takes newer scenes."""
 
-    def __init__(self, state: AppState) -> None:
+    def __init__(self, state):
         self.history = History(state)
         self.files = self
         self.said: list[str] = []
@@ -248,29 +243,29 @@ class Window:
         self.renderers = SimpleNamespace(textures=None)
         self.opened: Opened | None = None
 
-    def poll(self) -> Opened | None:
+    def poll(self):
         return self.opened
 
-    def animate(self) -> None:
+    def animate(self):
         pass
 
     @property
-    def state(self) -> AppState:
+    def state(self):
         return self.history.present
 
-    def change(self, state: AppState) -> None:
+    def change(self, state):
         self.history = self.history.change(state)
 
-    def say(self, text: str) -> None:
+    def say(self, text):
         self.said.append(text)
 
-    def ask(self, text: str, answers) -> None:
+    def ask(self, text, answers):
         self.asked.append(text)
         (self.then,) = answers.values()
 
 
 @pytest.mark.parametrize("moved", [False, True])
-def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> None:
+def test_the_users_camera_stays_and_undo_goes_back(path, moved):
     old = load_scene(path)
     window = Window(AppState.for_scene(old))
     if moved:
@@ -287,7 +282,7 @@ def test_the_users_camera_stays_and_undo_goes_back(path: Path, moved: bool) -> N
     assert window.history.undo().present == before
 
 
-def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path: Path) -> None:
+def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path):
     old = load_scene(path)
     window = Window(AppState.for_scene(old))
     path.write_text(BALL * 2 + MODEL)

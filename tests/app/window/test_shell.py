@@ -1,17 +1,15 @@
 """The window's shell without a window."""
 
-from __future__ import annotations
-
 from unittest.mock import Mock
 
 from lucida.app.window.shell import REDRAWN, Shell
 
 
-def test_frames_are_requested_until_the_division_rests() -> None:
+def test_frames_are_requested_until_the_division_rests():
     """Otherwise an idle window shows a division that is under way, as after F9."""
     shell, window = Shell([], Mock(), Mock(), Mock()), Mock(has_tools=True)
 
-    def requested() -> int:
+    def requested():
         window.animate.reset_mock()
         for _ in range(2 * REDRAWN):
             shell.draw_until_divided(window)

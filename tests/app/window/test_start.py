@@ -1,9 +1,6 @@
 """The window's beginning: at once with what is quick, and with large models afterwards."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from opened_things import found
@@ -23,7 +20,7 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
 @pytest.fixture
-def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def model(tmp_path, monkeypatch):
     """One that counts as large."""
     path = tmp_path / "model.obj"
     path.write_text(TRIANGLE)

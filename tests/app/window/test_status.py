@@ -1,7 +1,5 @@
 """The status line's words, and what gives way in a narrow window."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from lucida.app.window.status import (
@@ -18,19 +16,19 @@ from lucida.renderer.camera.pixels import Indexing
 STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "agree: all pixels", True, "spheres")
 
 
-def test_texts_keep_their_width() -> None:
+def test_texts_keep_their_width():
     assert {len(milliseconds(time_s)) for time_s in (0.0, 1e-4, 0.0123, 0.9, 1.5, 99.0)} == {8}
     assert len({len(ray_text(replace(STATUS, factor=factor))) for factor in (0, 1, 4, 8)}) == 1
 
 
-def test_an_image_that_no_view_has_wanted_has_no_time() -> None:
+def test_an_image_that_no_view_has_wanted_has_no_time():
     assert [text.split()[0] for text in time_texts(STATUS)] == ["raster", "ray"]
     assert time_texts(replace(STATUS, raster_s=0.0, ray_s=0.0, factor=0, awaited=False)) == []
     first = time_texts(replace(STATUS, ray_s=0.0, factor=0))  # it is being traced
     assert first[1].split() == ["ray", "...,", "640x480"]
 
 
-def test_right_texts() -> None:
+def test_right_texts():
     assert right_texts(STATUS) == [""]
     pixel = replace(STATUS, pixel=(3, 4), seen="ball, t = 2")
     assert right_texts(pixel)[0] == "ball, t = 2  pixel (4, 5) from 1"
@@ -39,7 +37,7 @@ def test_right_texts() -> None:
     assert right_texts(replace(pixel, loading="bunny.obj"))[0] == "loading bunny.obj ..."
 
 
-def test_an_agreement_that_will_not_come_is_not_awaited() -> None:
+def test_an_agreement_that_will_not_come_is_not_awaited():
     unknown = replace(STATUS, agreement="")
     assert agreement_text(STATUS).endswith(STATUS.agreement)
     assert agreement_text(unknown) == "raster and ray agree: ..."
@@ -47,7 +45,7 @@ def test_an_agreement_that_will_not_come_is_not_awaited() -> None:
         assert agreement_text(replace(status, awaited=False)) == ""
 
 
-def test_nothing_overlaps() -> None:
+def test_nothing_overlaps():
     lefts, rights = [100.0, 100.0, 100.0, 80.0], [200.0, 90.0, 0.0]
     assert fitting(lefts, rights, 1000) == (4, 0)
     assert fitting(lefts, rights, 600) == (3, 0)

@@ -1,7 +1,5 @@
 """The window, driven: real widgets, real events, real pixels, in processes of their own."""
 
-from __future__ import annotations
-
 import ast
 import functools
 import json
@@ -10,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -32,16 +29,14 @@ DRIVES = [
 ]
 
 
-def environment(folder: Path, display: str | None = None) -> dict[str, str]:
+def environment(folder, display=None):
     """No display unless one is given, and no settings of whoever runs the tests."""
     variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
     return variables | ({"DISPLAY": display} if display else {})
 
 
-def run(
-    arguments: list[str], folder: Path, display: str | None = None, limit_s: float = LIMIT_S
-) -> subprocess.CompletedProcess[str]:
+def run(arguments, folder, display=None, limit_s=LIMIT_S):
     return subprocess.run(
         [sys.executable, *arguments],
         cwd=folder,
@@ -52,7 +47,7 @@ def run(
     )
 
 
-def drive(folder: Path, *names: str) -> dict[str, str]:
+def drive(folder, *names):
     report = folder / "report.json"
     arguments = [str(DRIVER), str(report), str(folder), *names]
     done = run(arguments, folder, limit_s=DRIVES_LIMIT_S)
@@ -62,17 +57,17 @@ def drive(folder: Path, *names: str) -> dict[str, str]:
 
 
 @pytest.fixture(scope="module")
-def driven(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dict[str, str]]:
+def driven(tmp_path_factory):
     """Return the results of a topic, whose drives share one window."""
     return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
 
 
-def _of_topic(topic: str) -> type:
+def _of_topic(topic):
     """A class of tests: one process gets it whole, so that its drives share one window."""
 
     @drives_take_long
     @pytest.mark.parametrize("name", [name for of, name in DRIVES if of == topic])
-    def test(self: object, driven: Callable[[str], dict[str, str]], name: str) -> None:
+    def test(self, driven, name):
         assert driven(topic)[name] == ""
 
     return type(f"Test_{topic}", (), {"test": test})
@@ -82,11 +77,11 @@ globals().update((f"Test_{topic}", _of_topic(topic)) for topic, _ in DRIVES)
 
 
 @drives_take_long
-def test_closing_while_the_tracer_works(tmp_path: Path) -> None:
+def test_closing_while_the_tracer_works(tmp_path):
     assert drive(tmp_path, "close_at_work") == {"close_at_work": ""}
 
 
-def check_picture(path: Path, size: tuple[int, int]) -> None:
+def check_picture(path, size):
     """Both images are there, side by side, and nearly equal."""
     picture = np.asarray(Image.open(path).convert("RGB")).astype(int)
     assert picture.shape == (size[1], size[0], 3)
@@ -104,7 +99,7 @@ def check_picture(path: Path, size: tuple[int, int]) -> None:
     assert best < 3
 
 
-def test_no_display(tmp_path: Path) -> None:
+def test_no_display(tmp_path):
     mine = tmp_path / "lucida.png"
     mine.write_text("a user's own picture")
     done = run(["-m", "lucida"], tmp_path)
@@ -118,7 +113,7 @@ def test_no_display(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["lucida-2.png", "lucida.png"]
 
 
-def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
+def test_screenshot_of_any_size_and_scene(tmp_path):
     picture = tmp_path / "out.png"
     done = run(
         ["-m", "lucida", "spheres", "--screenshot", str(picture), "--size", "2000x1300"], tmp_path
@@ -128,7 +123,7 @@ def test_screenshot_of_any_size_and_scene(tmp_path: Path) -> None:
     check_picture(picture, (2000, 1300))  # larger than the null platform's own window
 
 
-def test_mistakes_are_one_line(tmp_path: Path) -> None:
+def test_mistakes_are_one_line(tmp_path):
     done = run(["-m", "lucida", "nowhere.obj"], tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
@@ -138,7 +133,7 @@ def test_mistakes_are_one_line(tmp_path: Path) -> None:
     assert done.stderr.count("\n") == 1
 
 
-def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_opengl_is_one_clear_error(monkeypatch):
     from lucida.app.window import platform
     from lucida.renderer.system.errors import LucidaError
 
@@ -151,7 +146,7 @@ def test_no_opengl_is_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def xvfb() -> Iterator[str]:
+def xvfb():
     """A display that nobody looks at."""
     program = shutil.which("Xvfb")
     if program is None:
@@ -171,7 +166,7 @@ def xvfb() -> Iterator[str]:
         server.wait()
 
 
-def test_on_a_display(tmp_path: Path, xvfb: str) -> None:
+def test_on_a_display(tmp_path, xvfb):
     """The window is not to be seen before there is a picture to see in it."""
     script = """
 import glfw
@@ -199,7 +194,7 @@ assert visible[0] == 0 and set(visible[1:]) == {1}, visible
     check_picture(tmp_path / "out.png", (1280, 720))
 
 
-def test_a_window_that_is_resized(tmp_path: Path, xvfb: str) -> None:
+def test_a_window_that_is_resized(tmp_path, xvfb):
     """At every size the two images stand where their views are; pictures of it are as large."""
     script = """
 import glfw
@@ -248,7 +243,7 @@ assert not sizes
     assert done.returncode == 0, done.stderr
 
 
-def test_idle_means_idle_and_settings_are_the_users(tmp_path: Path, xvfb: str) -> None:
+def test_idle_means_idle_and_settings_are_the_users(tmp_path, xvfb):
     """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
     script = """
 import sys, threading, time
@@ -283,9 +278,7 @@ run.run()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
-def test_signals_close_the_window_and_the_next_start_finds_its_layout(
-    tmp_path: Path, xvfb: str
-) -> None:
+def test_signals_close_the_window_and_the_next_start_finds_its_layout(tmp_path, xvfb):
     script = """
 import os, signal, sys, threading, time
 from lucida.app.window.platform import start_platform

@@ -1,9 +1,5 @@
 """The window on a display of 200 %: type and spacing double, the images are sharp and agree."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 from PIL import Image
 from test_window import run
@@ -34,7 +30,7 @@ print(*told, verdict.unexplained, *run.window.renderers.size)
 """
 
 
-def test_everything_is_twice_as_large(tmp_path: Path) -> None:
+def test_everything_is_twice_as_large(tmp_path):
     done = run(["-c", SCRIPT], tmp_path, limit_s=240)
     assert done.returncode == 0, done.stderr
     font, padding, line, main, unexplained, width, height = map(float, done.stdout.split())

@@ -1,11 +1,7 @@
 """Sessions of the real window: killed or closed, the next one goes on where it was."""
 
-from __future__ import annotations
-
 import signal
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from test_window import run
@@ -57,13 +53,13 @@ stepped(run, step)
 """
 
 
-def window(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+def window(folder, mode):
     return run(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
 @pytest.mark.parametrize("mode", ["kill", "close"])
-def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
+def test_the_window_comes_back_as_it_was(tmp_path, mode):
     """Layout, hidden views, theme and scene: after a crash, and after an ordinary end."""
     path = tmp_path / "session-1.json"
     done = window(tmp_path, mode)
@@ -78,7 +74,7 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path, mode: str) -> None:
     assert views == str(sorted(left.visible))
 
 
-def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path: Path) -> None:
+def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path):
     (tmp_path / "session-1.json").write_bytes(b"\x00 nothing of use")
     done = window(tmp_path, "go on")
     assert done.returncode == 0, done.stderr
@@ -104,6 +100,6 @@ for size in (None, (640, 400)):
 """
 
 
-def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path: Path) -> None:
+def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path):
     done = run(["-c", SIZES, str(tmp_path)], tmp_path)
     assert done.stdout.split("\n")[:2] == ["True 1280 720", "False 640 400"], done.stderr

@@ -1,9 +1,6 @@
 """The window where a driver does not take a shader: it opens, says so, and tries again."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,9 +77,7 @@ Path("told.json").write_text(json.dumps(told))
         ("display.frag", "Raster"),
     ],
 )
-def test_a_shader_that_fails_at_the_start_is_told_and_survived(
-    tmp_path: Path, shader: str, view: str
-) -> None:
+def test_a_shader_that_fails_at_the_start_is_told_and_survived(tmp_path, shader, view):
     done = run(["-c", WINDOW, shader, view], tmp_path)
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "told.json").read_text())
@@ -94,7 +89,7 @@ def test_a_shader_that_fails_at_the_start_is_told_and_survived(
     assert picture.std() > 10
 
 
-def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path: Path) -> None:
+def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path):
     script = (
         "from lucida.renderer.raster import sources\n"
         "good = sources.read_shader\n"
@@ -112,7 +107,7 @@ def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path: Path) ->
     assert not (tmp_path / "out.png").exists()
 
 
-def test_the_window_is_there_before_a_large_model(tmp_path: Path) -> None:
+def test_the_window_is_there_before_a_large_model(tmp_path):
     side = 200
     grid = [(x, y) for y in range(side) for x in range(side)]
     corner = [y * side + x + 1 for x, y in grid if x + 1 < side and y + 1 < side]
@@ -146,7 +141,7 @@ stepped(run, step)
     assert int(done.stdout.split()[-1]) > 0, "the model was read before the first frame"
 
 
-def test_a_window_that_ends_before_its_scene_is_read_leaves_the_session(tmp_path: Path) -> None:
+def test_a_window_that_ends_before_its_scene_is_read_leaves_the_session(tmp_path):
     """Meanwhile it shows another scene than the one that was open."""
     script = """
 import threading

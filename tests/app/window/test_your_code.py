@@ -1,8 +1,5 @@
 """The view "Your code" from start to start: it goes on with its file, and leaves no process."""
 
-from __future__ import annotations
-
-import subprocess
 import sys
 from pathlib import Path
 
@@ -56,7 +53,7 @@ def viewing_ray(i, j, width, height, camera):
 """
 
 
-def opened(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
+def opened(folder, mode):
     done = run(["-c", SCRIPT, str(folder), mode], folder)
     assert done.returncode == 0, done.stderr
     return done
@@ -65,8 +62,8 @@ def opened(folder: Path, mode: str) -> subprocess.CompletedProcess[str]:
 @drives_take_long
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="processes are looked up in /proc")
 def test_closing_while_it_runs_leaves_no_process_and_the_next_start_runs_it_again(
-    tmp_path: Path,
-) -> None:
+    tmp_path,
+):
     (tmp_path / "rays.py").write_text(ENDLESS)
     for mode in ("named", "again"):
         (process,) = opened(tmp_path, mode).stdout.split()

@@ -193,23 +193,18 @@ def test_the_smallest_and_the_largest_numbers_are_legal():
     [
         ({"eye": (0, 0, math.nan)}, "eye: nan is not finite; give"),
         ({"eye": (0, 0)}, "eye: (0, 0) is not 3 numbers; give"),
-        ({"eye": "abc"}, "eye: 'abc' is not 3 numbers; give"),
         ({"projection": "fisheye"}, "projection: 'fisheye' is unknown; give"),
-        ({"far": math.nan}, "far: nan is not finite; give"),
         ({"distance": "far"}, "distance: 'far' is not a number; give"),
         ({"distance": 0}, "distance: 0 is not above 0; give"),
         ({"distance": SMALLEST / 2}, "distance: 5e-13 is not above 1e-12; give"),
-        ({"distance": -3}, "distance: -3 is not above 0; give"),
         ({"u": (0, 0, 0)}, "u: (0, 0, 0) is not independent of v and w; give u a part"),
         ({"w": (0, SMALLEST / 2, 0)}, "w: (0, 5e-13, 0) is not independent of u and v"),
         ({"near": 0}, "near: 0 is not above 0; give"),
-        ({"near": SMALLEST / 2}, "near: 5e-13 is not above 1e-12; give"),
         ({"near": 2, "far": 1}, "far: 1 is not above near = 2; give"),
         ({"far": -1}, "far: -1 is not above 0; give"),
         ({"eye": (2 * LARGEST, 0, 0)}, "eye: 2e+12 is too large; stay within 1e+12"),
         ({"viewport": (100, 100 + 8e-8, 0, 1)}, "is empty; give left, right, bottom, top, left <"),
         ({"viewport": (0, 1, 2, 1)}, "is empty; give left, right, bottom, top, bottom < top"),
-        ({"viewport": (-1, -2, 0, 1)}, "viewport: (-1, -2, 0, 1) is empty"),
     ],
 )
 def test_what_is_told_of_illegal_numbers(changes, told):

@@ -1,7 +1,5 @@
 """Cameras with a lens: rays, projected points, view files and what is refused."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -26,7 +24,7 @@ LENSES = [
 
 
 @pytest.mark.parametrize("lens", LENSES, ids=lambda lens: lens.model)
-def test_points_of_a_ray_are_projected_to_its_pixel(lens: Lens) -> None:
+def test_points_of_a_ray_are_projected_to_its_pixel(lens):
     camera = replace(PINHOLE, lens=lens, distance=0.4)
     origin, direction = camera.rays(SIZE)
     row, column, parameter = camera.project(origin + 3 * direction, SIZE)
@@ -38,14 +36,14 @@ def test_points_of_a_ray_are_projected_to_its_pixel(lens: Lens) -> None:
     assert camera.ray(40, 60, SIZE).direction == pytest.approx(direction[40, 60], abs=1e-12)
 
 
-def test_a_lens_that_distorts_nothing_has_the_pinholes_rays() -> None:
+def test_a_lens_that_distorts_nothing_has_the_pinholes_rays():
     camera = replace(PINHOLE, lens=Lens("brown"))
     assert np.allclose(camera.rays(SIZE).direction, PINHOLE.rays(SIZE).direction, atol=1e-15)
     assert camera.fov_x_deg == pytest.approx(PINHOLE.fov_x_deg)
     assert camera.pinhole == PINHOLE
 
 
-def test_a_panorama_sees_all_around() -> None:
+def test_a_panorama_sees_all_around():
     everything = (-np.pi, np.pi, -np.pi / 2, np.pi / 2)
     camera = Camera(viewport=everything, lens=Lens("equirectangular"))
     assert (camera.fov_x_deg, camera.fov_y_deg) == pytest.approx((360, 180))
@@ -54,7 +52,7 @@ def test_a_panorama_sees_all_around() -> None:
 
 
 @pytest.mark.parametrize("lens", LENSES, ids=lambda lens: lens.model)
-def test_a_view_file_holds_the_lens(lens: Lens) -> None:
+def test_a_view_file_holds_the_lens(lens):
     view = View(replace(PINHOLE, lens=lens), False)
     assert view_from_toml(view_to_toml(view)) == view
 
@@ -68,11 +66,11 @@ def test_a_view_file_holds_the_lens(lens: Lens) -> None:
         ('{ model = "brown", k1 = nan }', "camera.lens.k1: nan is not finite"),
     ],
 )
-def test_a_view_files_lens_is_checked(lens: str, message: str) -> None:
+def test_a_view_files_lens_is_checked(lens, message):
     with pytest.raises(LucidaError, match=f"^{message}"):
         view_from_toml(f"lucida = 1\n[camera]\nlens = {lens}\n")
 
 
-def test_parallel_rays_pass_through_no_lens() -> None:
+def test_parallel_rays_pass_through_no_lens():
     with pytest.raises(LucidaError, match="parallel rays pass through no lens"):
         replace(PINHOLE, projection="parallel", lens=Lens("brown"))

@@ -1,7 +1,5 @@
 """K, R and t against the camera: the same pixels, both ways, and what is no camera."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from format_cameras import any_size, skewed_camera

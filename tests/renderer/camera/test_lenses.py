@@ -1,7 +1,5 @@
 """Lenses against OpenCV and pycolmap, and their inverses."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -45,20 +43,18 @@ SPREAD = {"k": 0.05, "p": 0.004, "s": 0.002, "r": 0.01, "o": 0.0}  # of random c
 
 
 @pytest.mark.parametrize(("model", "coefficients", "seen"), SEEN)
-def test_a_direction_appears_where_opencv_and_colmap_see_it(
-    model: str, coefficients: dict[str, float], seen: tuple[float, ...]
-) -> None:
+def test_a_direction_appears_where_opencv_and_colmap_see_it(model, coefficients, seen):
     a, b = Lens(model, coefficients).image_point(*DIRECTIONS)
     assert np.ravel(np.stack([a, b], axis=1)).tolist() == pytest.approx(seen, abs=1e-14)
 
 
-def random_lens(model: str, rng: np.random.Generator) -> Lens:
+def random_lens(model, rng):
     drawn = {name: rng.normal() * SPREAD[name[0]] for name in MODELS[model]}
     return Lens(model, {"omega": rng.uniform(0.2, 2.5)} if model == "fov" else drawn)
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_what_a_lens_sees_comes_back(model: str) -> None:
+def test_what_a_lens_sees_comes_back(model):
     """Directions all around; those within 85 degrees for lenses that bend the pinhole's plane."""
     rng = np.random.default_rng(7)
     for _ in range(20):
@@ -82,7 +78,7 @@ def test_what_a_lens_sees_comes_back(model: str) -> None:
         assert (wanted * found).sum(axis=0).min() > 1 - 1e-9
 
 
-def test_the_middle_is_the_axis_and_zeros_are_the_ideal() -> None:
+def test_the_middle_is_the_axis_and_zeros_are_the_ideal():
     for model in MODELS:
         lens = Lens(model, {"omega": 1.0} if model == "fov" else {})
         assert np.allclose(lens.image_point(0, 0, 2), 0, atol=0), model
@@ -103,15 +99,13 @@ def test_the_middle_is_the_axis_and_zeros_are_the_ideal() -> None:
         (Lens("stereographic"), (0.01, 0, -1), (0, 0, -1)),
     ],
 )
-def test_a_lens_ends_where_its_map_folds(
-    lens: Lens, seen: tuple[float, ...], unseen: tuple[float, ...]
-) -> None:
+def test_a_lens_ends_where_its_map_folds(lens, seen, unseen):
     point = lens.image_point(*seen)
     assert np.isfinite(point).all() and np.isfinite(lens.direction(*point)).all()
     assert np.isnan(lens.image_point(*unseen)).all()
 
 
-def test_points_outside_of_a_lens_have_no_direction() -> None:
+def test_points_outside_of_a_lens_have_no_direction():
     fold = 2 / 3 * math.sqrt(1 / 0.3)  # r (1 - r^2 / 10) at most
     lens, bent = Lens("brown", {"k1": -0.1}), Lens("brown", {"k1": -0.1, "p1": 1e-3})
     for one in (lens, bent):
@@ -134,9 +128,7 @@ def test_points_outside_of_a_lens_have_no_direction() -> None:
         ("fov", {"omega": 3.2}, "lens.omega"),
     ],
 )
-def test_a_wrong_lens_names_the_field(
-    model: str, coefficients: dict[str, float], field: str
-) -> None:
+def test_a_wrong_lens_names_the_field(model, coefficients, field):
     with pytest.raises(LucidaError) as caught:
         Lens(model, coefficients)
     assert caught.value.field == field and caught.value.remedy

@@ -1,7 +1,5 @@
 """Orbit, pan, zoom and the switch of projection, for any basis."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -20,7 +18,7 @@ SIZE = (320, 200)
 points = st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
 
 
-def seen_at(camera: Camera, point: tuple[float, float], parameter: float) -> np.ndarray:
+def seen_at(camera, point, parameter):
     """The world point on the ray through (x, y) of the image plane."""
     across = point[0] * np.asarray(camera.u) + point[1] * np.asarray(camera.v)
     if camera.is_parallel:
@@ -29,15 +27,13 @@ def seen_at(camera: Camera, point: tuple[float, float], parameter: float) -> np.
     return np.asarray(camera.eye) + parameter * direction
 
 
-def image_point(camera: Camera, world: np.ndarray) -> np.ndarray:
+def image_point(camera, world):
     row, column, _ = camera.project(world, SIZE)
     return np.array(camera.image_point(row, column, SIZE))
 
 
 @given(cameras(), points, points, st.floats(0.2, 20))
-def test_the_panned_point_follows_the_pointer(
-    camera: Camera, start: tuple[float, float], end: tuple[float, float], parameter: float
-) -> None:
+def test_the_panned_point_follows_the_pointer(camera, start, end, parameter):
     world = seen_at(camera, start, parameter)
     after = navigation.panned(camera, start, end, parameter)
     assert image_point(after, world) == pytest.approx(np.array(end), abs=1e-6)
@@ -45,9 +41,7 @@ def test_the_panned_point_follows_the_pointer(
 
 
 @given(cameras(), points, st.floats(0.5, 3), st.floats(0.2, 20))
-def test_the_zoomed_point_stays_under_the_pointer(
-    camera: Camera, at: tuple[float, float], factor: float, parameter: float
-) -> None:
+def test_the_zoomed_point_stays_under_the_pointer(camera, at, factor, parameter):
     world = seen_at(camera, at, parameter)
     after = navigation.zoomed(camera, at, factor, parameter)
     assert image_point(after, world) == pytest.approx(np.array(at), abs=1e-6)
@@ -60,9 +54,7 @@ def test_the_zoomed_point_stays_under_the_pointer(
 
 
 @given(cameras(), vectors, st.floats(-3, 3), st.floats(-3, 3))
-def test_orbit_turns_rigidly_about_the_pivot(
-    camera: Camera, pivot: tuple[float, float, float], right: float, up: float
-) -> None:
+def test_orbit_turns_rigidly_about_the_pivot(camera, pivot, right, up):
     after = navigation.orbited(camera, pivot, right, up)
     assert np.allclose(after.basis.T @ after.basis, camera.basis.T @ camera.basis, atol=1e-9)
     assert after.determinant == pytest.approx(camera.determinant)
@@ -74,7 +66,7 @@ def test_orbit_turns_rigidly_about_the_pivot(
 
 
 @given(st.floats(-3, 3), st.lists(st.floats(-1, 1), min_size=1, max_size=8))
-def test_orbit_neither_rolls_nor_flips(right: float, ups: list[float]) -> None:
+def test_orbit_neither_rolls_nor_flips(right, ups):
     camera = Camera.look_at((1, 2, 5), (0, 0, 0))
     for up in ups:
         camera = navigation.orbited(camera, (0, 0, 0), right, up)
@@ -84,9 +76,7 @@ def test_orbit_neither_rolls_nor_flips(right: float, ups: list[float]) -> None:
 
 
 @given(cameras(), vectors)
-def test_the_switch_of_projection_keeps_the_size_at_the_focus(
-    camera: Camera, focus: tuple[float, float, float]
-) -> None:
+def test_the_switch_of_projection_keeps_the_size_at_the_focus(camera, focus):
     switched = navigation.switched_projection(camera, focus)
     assert switched.is_parallel != camera.is_parallel
     back = navigation.switched_projection(switched, focus)
@@ -97,13 +87,13 @@ def test_the_switch_of_projection_keeps_the_size_at_the_focus(
     assert second.column == pytest.approx(first.column, abs=1e-5)
 
 
-def test_the_viewport_is_kept_where_the_focus_is_behind_the_eye() -> None:
+def test_the_viewport_is_kept_where_the_focus_is_behind_the_eye():
     camera = Camera(eye=(0, 0, -5))
     assert navigation.switched_projection(camera, (0, 0, 0)).viewport == camera.viewport
     assert navigation.parameter_of(camera, (0, 0, 0)) == 1.0
 
 
-def test_a_motion_out_of_range_is_refused() -> None:
+def test_a_motion_out_of_range_is_refused():
     with pytest.raises(LucidaError, match=r"eye: .* is too large"):
         navigation.panned(Camera(), (0, 0), (1, 0), 1e13)
     camera = Camera(projection="parallel")
@@ -112,9 +102,7 @@ def test_a_motion_out_of_range_is_refused() -> None:
 
 
 @given(cameras(), st.floats(-2, 2), st.floats(-2, 2), st.floats(-2, 2))
-def test_flying_goes_along_the_camera_s_own_axes(
-    camera: Camera, right: float, up: float, forward: float
-) -> None:
+def test_flying_goes_along_the_camera_s_own_axes(camera, right, up, forward):
     after = navigation.flown(camera, right, up, forward)
     assert (after.u, after.v, after.w) == (camera.u, camera.v, camera.w)
     lengths = np.linalg.norm(camera.basis, axis=0)
@@ -122,7 +110,7 @@ def test_flying_goes_along_the_camera_s_own_axes(
     assert local * lengths == pytest.approx(np.array([right, up, -forward]), abs=1e-7)
 
 
-def test_a_frame_flies_as_far_as_its_time_and_a_long_one_no_further() -> None:
+def test_a_frame_flies_as_far_as_its_time_and_a_long_one_no_further():
     """After a rest, or a frame that compiled, the camera does not jump."""
     assert way_flown(20.0, 0.05, False) == pytest.approx(0.35)
     assert way_flown(20.0, 0.05, True) == pytest.approx(1.4)
@@ -132,13 +120,13 @@ def test_a_frame_flies_as_far_as_its_time_and_a_long_one_no_further() -> None:
 
 
 @given(cameras(), st.floats(-1, 1), st.floats(-1, 1))
-def test_looking_around_turns_about_the_eye(camera: Camera, right: float, up: float) -> None:
+def test_looking_around_turns_about_the_eye(camera, right, up):
     after = navigation.looked(camera, right, up)
     assert after.eye == pytest.approx(camera.eye, abs=1e-9)
     assert np.allclose(after.basis.T @ after.basis, camera.basis.T @ camera.basis, atol=1e-9)
 
 
-def test_looking_to_the_right_and_up_does_that() -> None:
+def test_looking_to_the_right_and_up_does_that():
     camera = Camera(eye=(1, 2, 3))
     assert navigation.looked(camera, 0.3, 0.0).w[0] < -0.2  # the view direction is -w
     assert navigation.looked(camera, 0.0, 0.3).w[1] < -0.2
@@ -146,9 +134,7 @@ def test_looking_to_the_right_and_up_does_that() -> None:
 
 
 @given(cameras(), st.floats(0.05, 20), st.floats(0.2, 20), points)
-def test_the_dolly_zoom_keeps_what_is_as_far_off_as_the_focus(
-    camera: Camera, distance: float, parameter: float, at: tuple[float, float]
-) -> None:
+def test_the_dolly_zoom_keeps_what_is_as_far_off_as_the_focus(camera, distance, parameter, at):
     camera = replace(camera, projection="perspective")
     focus = seen_at(camera, at, parameter)
     after = navigation.dollied(camera, focus, distance)
@@ -164,14 +150,14 @@ def test_the_dolly_zoom_keeps_what_is_as_far_off_as_the_focus(
     assert after.project(deeper, SIZE).parameter > 0
 
 
-def test_the_dolly_zoom_without_a_focus_in_front_changes_the_distance_alone() -> None:
+def test_the_dolly_zoom_without_a_focus_in_front_changes_the_distance_alone():
     for camera in (Camera(), Camera(projection="parallel")):
         after = navigation.dollied(camera, (0, 0, 5), 2.0)
         assert after == replace(camera, distance=2.0)
 
 
 @given(cameras(), st.floats(1, 179))
-def test_the_distance_for_a_field_of_view_has_it(camera: Camera, fov_y_deg: float) -> None:
+def test_the_distance_for_a_field_of_view_has_it(camera, fov_y_deg):
     try:
         distance = navigation.distance_for(camera, fov_y_deg)
     except LucidaError:
@@ -184,14 +170,14 @@ def test_the_distance_for_a_field_of_view_has_it(camera: Camera, fov_y_deg: floa
 
 
 @pytest.mark.parametrize("fov_y_deg", [0.0, -3.0, 180.0, 180.5, math.nan, math.inf])
-def test_no_distance_has_an_impossible_field_of_view(fov_y_deg: float) -> None:
+def test_no_distance_has_an_impossible_field_of_view(fov_y_deg):
     with pytest.raises(LucidaError, match="is not between 0 and 180"):
         navigation.distance_for(Camera(), fov_y_deg)
 
 
 @pytest.mark.parametrize("mirrored", [1, -1])
 @pytest.mark.parametrize("upside_down", [1, -1])
-def test_orbit_turns_by_the_angles_of_the_drag(mirrored: int, upside_down: int) -> None:
+def test_orbit_turns_by_the_angles_of_the_drag(mirrored, upside_down):
     camera = Camera(eye=(0, 1, 5), u=(mirrored, 0, 0), v=(0, upside_down, 0), w=(0, 0, 3))
     after = navigation.orbited(camera, (0, 1, 0), 0.3, 0.2)
     assert math.atan2(after.w[0], after.w[2]) == pytest.approx(-0.3 * mirrored)
@@ -201,7 +187,7 @@ def test_orbit_turns_by_the_angles_of_the_drag(mirrored: int, upside_down: int) 
         assert math.degrees(math.asin(steepest.w[1] / 3)) == pytest.approx(elevation_deg)
 
 
-def test_where_the_wheel_stops_in_perspective() -> None:
+def test_where_the_wheel_stops_in_perspective():
     """From a ten thousandth of the scene's reach to a hundred times it; back from anywhere."""
     for before, after, may in (
         (2.0, 1.0005, False),
@@ -217,7 +203,7 @@ def test_where_the_wheel_stops_in_perspective() -> None:
         assert navigation.may_zoom(*cameras, (0, 0, 1), (0, 0, 0), 10.0) == may
 
 
-def test_where_the_wheel_stops_with_parallel_rays() -> None:
+def test_where_the_wheel_stops_with_parallel_rays():
     """The viewport's width in the world counts: with u of length 2, four times its half."""
     for before, after, may in (
         (1.0, 0.2e-3, False),
@@ -238,7 +224,7 @@ def test_where_the_wheel_stops_with_parallel_rays() -> None:
         assert navigation.may_zoom(*cameras, (0, 0, 1), (0, 0, 0), 10.0) == may
 
 
-def test_how_far_off_a_point_is() -> None:
+def test_how_far_off_a_point_is():
     camera = Camera(eye=(1, 0, 5), distance=2.0)
     assert navigation.parameter_of(camera, (0, 3, 0)) == pytest.approx(2.5)
     parallel = replace(camera, projection="parallel")
@@ -248,7 +234,7 @@ def test_how_far_off_a_point_is() -> None:
         assert navigation.parameter_of(parallel, point) == 1
 
 
-def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
+def test_of_two_distances_with_one_field_of_view_the_larger():
     """For a viewport above the eye's axis, tan = d / (d^2 + 2)."""
     camera = Camera(viewport=(-1, 1, 1, 2))
     tan = math.tan(math.radians(15))
@@ -260,7 +246,7 @@ def test_of_two_distances_with_one_field_of_view_the_larger() -> None:
         navigation.distance_for(camera, 20)
 
 
-def test_orbit_from_straight_above_leaves_the_horizon_level() -> None:
+def test_orbit_from_straight_above_leaves_the_horizon_level():
     u, v = (0.6, 0, -0.8), (-0.8, 0, -0.6)
     above = Camera(eye=(0, 5, 0), u=u, v=v, w=(0, 1, 0))
     after = navigation.orbited(above, (0, 0, 0), 0.0, 0.3)  # dragging upwards lowers the eye
@@ -269,7 +255,7 @@ def test_orbit_from_straight_above_leaves_the_horizon_level() -> None:
     assert after.u == pytest.approx(u)
 
 
-def test_a_turn_is_right_handed_about_an_axis_of_any_length() -> None:
+def test_a_turn_is_right_handed_about_an_axis_of_any_length():
     for axis in ((0, 1, 0), (0, 20, 0)):
         after = navigation.turned(Camera(eye=(1, 2, 3)), (0, 0, 3), axis, math.pi / 2)
         assert after.eye == pytest.approx((0, 2, 2))
@@ -277,7 +263,7 @@ def test_a_turn_is_right_handed_about_an_axis_of_any_length() -> None:
 
 
 @given(cameras(), st.sampled_from((0, 1)), st.floats(-3, 3))
-def test_a_shift_keeps_the_viewport_s_size(camera: Camera, axis: int, value: float) -> None:
+def test_a_shift_keeps_the_viewport_s_size(camera, axis, value):
     after = navigation.with_shift(camera, axis, value)
     low, high = after.viewport[2 * axis : 2 * axis + 2]
     was_low, was_high = camera.viewport[2 * axis : 2 * axis + 2]

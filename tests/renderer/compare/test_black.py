@@ -1,7 +1,5 @@
 """An image that is black or shows nothing: the reason, the remedy, and who says it."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -28,11 +26,11 @@ FAR_AWAY = Camera(eye=(0.3, 0.4, 900), viewport=(-90, 90, -90, 90), distance=50)
 BEHIND = ["--eye", "0,1,-30"]  # the scenes' cameras look along -z
 
 
-def a_scene(*shapes, lights=(AHEAD,), ambient=(0.0, 0.0, 0.0)) -> Scene:
+def a_scene(*shapes, lights=(AHEAD,), ambient=(0.0, 0.0, 0.0)):
     return Scene(tuple(map(SceneObject, shapes or (BALL,))), lights, ambient)
 
 
-def seen(scene: Scene, camera: Camera) -> Darkness:
+def seen(scene, camera):
     with Tracer(scene) as tracer:
         return darkness(flatten(scene), camera, tracer.render(camera, SIZE))
 

@@ -1,7 +1,5 @@
 """The limits of float32: what is compared agrees, and what would not is refused in one line."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -10,7 +8,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.raster_and_ray import compare
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene.flat import flatten
@@ -22,7 +19,7 @@ SPHERES = load_scene("spheres")
 FLAT = flatten(SPHERES)
 
 
-def changed(name: str, factor: float) -> Camera:
+def changed(name, factor):
     camera = SPHERES.view.for_size(SIZE)
     if name == "distance":
         return replace(camera, distance=camera.distance * factor)
@@ -34,7 +31,7 @@ def changed(name: str, factor: float) -> Camera:
     return replace(camera, viewport=tuple(edge / factor for edge in camera.viewport))
 
 
-def refusal(camera: Camera) -> str:
+def refusal(camera):
     try:
         check_precision(camera, SIZE, lambda: FLAT)
     except LucidaError as error:

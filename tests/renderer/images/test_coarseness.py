@@ -1,7 +1,5 @@
 """The coarseness of images in motion."""
 
-from __future__ import annotations
-
 import pytest
 
 from lucida.renderer.images.coarseness import FACTORS, STILL_S, Coarseness, reduced
@@ -9,14 +7,14 @@ from lucida.renderer.images.coarseness import FACTORS, STILL_S, Coarseness, redu
 PIXELS, BUDGET_S, FRAME_S = 1280 * 720, 0.006, 1 / 60
 
 
-def measured(pixel_s: float) -> Coarseness:
+def measured(pixel_s):
     """One that has seen a full image."""
     coarseness = Coarseness(BUDGET_S)
     coarseness.measured(1, PIXELS, pixel_s * PIXELS)
     return coarseness
 
 
-def motion(coarseness: Coarseness, start_s: float, pixel_s: float, frames: int = 30) -> list[int]:
+def motion(coarseness, start_s, pixel_s, frames=30):
     """Return the factors of a motion whose images take pixel_s for each pixel."""
     factors = []
     for frame in range(frames):

@@ -1,7 +1,5 @@
 """The notebooks in docs/notebooks/ run from top to bottom, and are stored without outputs."""
 
-from __future__ import annotations
-
 import json
 from itertools import chain
 from pathlib import Path
@@ -13,7 +11,7 @@ LARGEST = 100_000  # characters of a cell's output
 
 
 @pytest.mark.filterwarnings("ignore")  # of Jupyter's own packages
-def test_they_run_from_top_to_bottom(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_they_run_from_top_to_bottom(monkeypatch):
     """One after another in one kernel, whose names are cleared in between: it starts slowly."""
     nbformat = pytest.importorskip("nbformat")
     client = pytest.importorskip("nbclient").NotebookClient

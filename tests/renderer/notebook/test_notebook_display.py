@@ -1,7 +1,5 @@
 """The display in notebooks: short texts, pictures, tables; nothing of a file's text as HTML."""
 
-from __future__ import annotations
-
 import base64
 import io
 import re
@@ -20,17 +18,17 @@ SIZE = (40, 30)
 
 
 @pytest.fixture(scope="module")
-def frame() -> Frame:
+def frame():
     scene = load_scene("columns")
     with Tracer(scene) as tracer:
         return tracer.render(scene.view.for_size(SIZE), SIZE)
 
 
-def opened(data: bytes) -> np.ndarray:
+def opened(data):
     return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
 
 
-def test_a_frame_is_its_picture(frame: Frame) -> None:
+def test_a_frame_is_its_picture(frame):
     data = frame._repr_png_()
     assert data is not None and (opened(data) == picture(frame)).all()
     assert Frame(SIZE)._repr_png_() is None
@@ -38,7 +36,7 @@ def test_a_frame_is_its_picture(frame: Frame) -> None:
     assert depth is not None and (opened(depth) == picture(frame, "depth")).all()
 
 
-def test_a_channel_has_its_values_and_its_shape(frame: Frame) -> None:
+def test_a_channel_has_its_values_and_its_shape(frame):
     assert frame.depth is not None
     shown = frame.show("depth")._repr_html_()
     near = frame.depth[np.isfinite(frame.depth)].min()
@@ -55,7 +53,7 @@ def test_a_channel_has_its_values_and_its_shape(frame: Frame) -> None:
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_a_camera_is_drawn_and_told(projection: str) -> None:
+def test_a_camera_is_drawn_and_told(projection):
     camera = Camera.look_at((4, 3, 6), (0, 1, 0), fov_y_deg=40, aspect=1.5, projection=projection)
     told = replace(camera, near=0.25)._repr_html_()
     assert "(4, 3, 6)" in told and ("field of view" in told) == (projection == "perspective")
@@ -83,7 +81,7 @@ def test_a_camera_is_drawn_and_told(projection: str) -> None:
 
 
 @pytest.mark.parametrize(("model", "points", "rays"), [("brown", 96, 4), ("equisolid", 56, 0)])
-def test_a_lens_is_told_and_its_border_drawn(model: str, points: int, rays: int) -> None:
+def test_a_lens_is_told_and_its_border_drawn(model, points, rays):
     """The equisolid one sees radii up to 2, of sides at 1.45 and 1.9."""
     brown = model == "brown"
     lens = Lens(model, {"k1": -0.02} if brown else {})
@@ -95,7 +93,7 @@ def test_a_lens_is_told_and_its_border_drawn(model: str, points: int, rays: int)
     assert svg.count("stroke='#888'") == rays
 
 
-def test_a_scene_is_its_picture_and_its_contents() -> None:
+def test_a_scene_is_its_picture_and_its_contents():
     scene = load_scene("columns")
     named = replace(scene.objects[0], name="<script>alert(1)</script>")
     view = View(Camera(eye=(0, 1, 9)), fit=True)

@@ -1,10 +1,7 @@
 """The live widget without a browser: questions and answers over its comm, and its traitlets."""
 
-from __future__ import annotations
-
 import io
 import sys
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,17 +20,17 @@ MIDDLE = [30, 40]
 class Browser:
     """Play the browser: it asks until an image is ready, and keeps what is sent."""
 
-    def __init__(self, widget: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(self, widget, monkeypatch):
         self.widget, self.sent = widget, []
         monkeypatch.setattr(widget, "send", lambda told, data=(): self.sent.append((told, data)))
 
-    def asks(self, *moves: dict[str, Any], moving: bool = False) -> dict[str, Any]:
-        problems: dict[str, Any] = {}
+    def asks(self, *moves, moving=False):
+        problems = {}
         while True:
             content = {"ask": len(self.sent), "moves": moves, "moving": moving}
             data = {"method": "custom", "content": content}
             self.widget.comm.handle_msg({"content": {"data": data}, "buffers": []})
-            told: dict[str, Any] = self.sent[-1][0]
+            told = self.sent[-1][0]
             assert told["answer"] == content["ask"]
             problems |= {"problem": told["problem"]} if "problem" in told else {}
             if "pending" not in told:
@@ -41,16 +38,16 @@ class Browser:
             moves = ()
 
     @property
-    def image(self) -> np.ndarray:
+    def image(self):
         return np.asarray(Image.open(io.BytesIO(self.sent[-1][1][0])))
 
 
 @pytest.fixture
-def browser(monkeypatch: pytest.MonkeyPatch) -> Browser:
+def browser(monkeypatch):
     return Browser(explore("spheres", size=SIZE), monkeypatch)
 
 
-def test_the_image_at_rest_is_exact_and_one_in_motion_is_small(browser: Browser) -> None:
+def test_the_image_at_rest_is_exact_and_one_in_motion_is_small(browser):
     told = browser.asks()
     assert (told["type"], told["factor"], told["full"]) == ("image/png", 1, True)
     assert (browser.image == picture(browser.widget.frame)).all()
@@ -64,7 +61,7 @@ def test_the_image_at_rest_is_exact_and_one_in_motion_is_small(browser: Browser)
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_what_is_dragged_follows_the_pointer(browser: Browser, projection: str) -> None:
+def test_what_is_dragged_follows_the_pointer(browser, projection):
     widget = browser.widget
     if projection == "parallel":
         browser.asks({"do": "project"})
@@ -82,7 +79,7 @@ def test_what_is_dragged_follows_the_pointer(browser: Browser, projection: str) 
     assert (widget.camera.viewport == viewport) == (projection == "perspective")
 
 
-def test_a_marked_pixel_has_its_ray_and_its_hit(browser: Browser) -> None:
+def test_a_marked_pixel_has_its_ray_and_its_hit(browser):
     told = browser.asks({"do": "mark", "at": MIDDLE})
     rows, hit = dict(told["hit"]), browser.widget.hit
     assert rows["pixel"].startswith("row 30, column 40") and browser.widget.pixel == (30, 40)
@@ -93,7 +90,7 @@ def test_a_marked_pixel_has_its_ray_and_its_hit(browser: Browser) -> None:
     assert browser.widget.hit is None
 
 
-def test_the_camera_is_a_traitlet_in_both_directions(browser: Browser) -> None:
+def test_the_camera_is_a_traitlet_in_both_directions(browser):
     widget, seen = browser.widget, []
     lens = Lens("brown", {"k1": -0.2})
     widget.observe(lambda change: seen.append(change.new), "camera")
@@ -117,7 +114,7 @@ def test_the_camera_is_a_traitlet_in_both_directions(browser: Browser) -> None:
     assert widget.camera == seen[-1]
 
 
-def test_a_cell_that_moves_the_camera_sends_few_images(browser: Browser) -> None:
+def test_a_cell_that_moves_the_camera_sends_few_images(browser):
     """None before somebody looks; then at most as many as can be seen."""
     widget = browser.widget
     widget.camera = Camera(eye=(0, 1, 5))
@@ -138,7 +135,7 @@ CAMERAS = {
 
 
 @pytest.mark.parametrize("name", CAMERAS)
-def test_a_slider_s_number_is_what_the_camera_then_has(name: str) -> None:
+def test_a_slider_s_number_is_what_the_camera_then_has(name):
     camera, target, focus = CAMERAS[name], (0.0, 1.0, 0.0), Focus((0.0, 1.0, 0.0), 9.0)
     assert is_level(camera) == (name != "skewed")
     for slider in sliders_of(camera, target, focus):
@@ -153,7 +150,7 @@ def test_a_slider_s_number_is_what_the_camera_then_has(name: str) -> None:
             np.testing.assert_allclose((seen.row, seen.column), (1, 1), atol=1e-9)
 
 
-def test_without_anywidget_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_anywidget_one_line_says_what_to_install(monkeypatch):
     monkeypatch.delitem(sys.modules, "lucida.renderer.notebook.widget", raising=False)
     monkeypatch.setitem(sys.modules, "anywidget", None)
     with pytest.raises(LucidaError, match=r"anywidget is not installed; pip install 'camera-luc"):

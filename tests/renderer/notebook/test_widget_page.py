@@ -1,17 +1,12 @@
 """The widget's JavaScript in Chromium: a plain page whose model hands on to a real widget."""
 
-from __future__ import annotations
-
 import base64
 import json
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from lucida.renderer.camera.pixels import Pixel
 from lucida.renderer.notebook import explore
 
 pytest.importorskip("anywidget")
@@ -40,25 +35,25 @@ widget.render({ model, el: document.getElementById("place") });
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
+def browser():
     with playwright.sync_playwright() as play:
         yield play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
 
 
 @pytest.fixture
-def page(browser: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+def page(browser, monkeypatch):
     """A page that shows a widget; page.widget is that."""
     widget = explore("spheres", size=SIZE)
     folder = Path(explore.__code__.co_filename).parent
     parts = {"css": (folder / "explore.css").read_text("utf-8"), "size": json.dumps(SIZE)}
     parts["js"] = json.dumps((folder / "explore.js").read_text("utf-8"))
     page = browser.new_page()
-    answers: list[tuple[dict[str, Any], str]] = []
+    answers = []
 
-    def send(told: dict[str, Any], data: Any = ()) -> None:
+    def send(told, data=()):
         answers.append((told, base64.b64encode(b"".join(data)).decode()))
 
-    def say(message: dict[str, Any]) -> list[tuple[dict[str, Any], str]]:
+    def say(message):
         answers.clear()
         if page.is_busy:
             page.unanswered += 1
@@ -78,21 +73,21 @@ def page(browser: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     page.close()
 
 
-def shown(page: Any) -> str:
+def shown(page):
     """Return the full image, once nothing changes."""
     page.wait_for_timeout(300)
     page.locator(FULL).wait_for()
-    data: str = page.locator("canvas").evaluate("canvas => canvas.toDataURL()")
+    data = page.locator("canvas").evaluate("canvas => canvas.toDataURL()")
     return data
 
 
-def test_mouse_keys_and_numbers_move_the_camera(page: Any) -> None:
+def test_mouse_keys_and_numbers_move_the_camera(page):
     widget, canvas = page.widget, page.locator("canvas")
     first, images = widget.camera, [shown(page)]
     box = canvas.bounding_box()
     x, y = box["x"] + 40, box["y"] + 30
 
-    def changed() -> bool:
+    def changed():
         images.append(shown(page))
         return images[-1] != images[-2]
 
@@ -120,8 +115,8 @@ def test_mouse_keys_and_numbers_move_the_camera(page: Any) -> None:
     page.get_by_label("viewport height").last.wait_for()
 
 
-def test_a_click_marks_a_pixel_and_shows_its_ray(page: Any) -> None:
-    def marked(pixel: Pixel) -> None:
+def test_a_click_marks_a_pixel_and_shows_its_ray(page):
+    def marked(pixel):
         page.get_by_text(f"row {pixel[0]}, column {pixel[1]} of 80x60").wait_for()
         assert page.widget.pixel == pixel
 
@@ -136,7 +131,7 @@ def test_a_click_marks_a_pixel_and_shows_its_ray(page: Any) -> None:
     assert page.widget.pixel is None and page.locator(".hit tr").count() == 0
 
 
-def test_nothing_piles_up_while_the_kernel_is_busy(page: Any) -> None:
+def test_nothing_piles_up_while_the_kernel_is_busy(page):
     page.is_busy = True
     page.mouse.move(40, 30)
     page.mouse.down()

@@ -12,62 +12,66 @@ from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Mesh, PointLight, Scene, SceneObject, Sphere
 
 
-class TestAnalytic:
-    def test_a_sphere_ahead(self, rasterizer):
-        rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5), 3.0)),)))
-        frame = rasterizer.render(Camera(), (3, 3), CHANNELS)
-        assert frame.depth[1, 1] == pytest.approx(2, rel=1e-6)
-        np.testing.assert_allclose(frame.normal[1, 1], (0, 0, 1), atol=1e-6)
-        assert frame.id[1, 1] == 0
-        assert frame.primitive[1, 1] == 0
-        # The corners' rays: |(1/3, 1/3, -1) t - (0, 0, -5)| = 3.
-        a, b, c = 11 / 9, -10, 16
-        t = (-b - np.sqrt(b * b - 4 * a * c)) / (2 * a)
-        np.testing.assert_allclose(frame.depth[::2, ::2], t, rtol=1e-6)
+def test_a_sphere_ahead(rasterizer):
+    rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5), 3.0)),)))
+    frame = rasterizer.render(Camera(), (3, 3), CHANNELS)
+    assert frame.depth[1, 1] == pytest.approx(2, rel=1e-6)
+    np.testing.assert_allclose(frame.normal[1, 1], (0, 0, 1), atol=1e-6)
+    assert frame.id[1, 1] == 0
+    assert frame.primitive[1, 1] == 0
+    # The corners' rays: |(1/3, 1/3, -1) t - (0, 0, -5)| = 3.
+    a, b, c = 11 / 9, -10, 16
+    t = (-b - np.sqrt(b * b - 4 * a * c)) / (2 * a)
+    np.testing.assert_allclose(frame.depth[::2, ::2], t, rtol=1e-6)
 
-    def test_depth_is_the_ray_parameter_not_a_distance(self, rasterizer):
-        """A plane across the view has one depth everywhere; so it has in multiples of d."""
-        rasterizer.set_scene(Scene((SceneObject(square(100, -6.0)),)))
-        frame = rasterizer.render(replace(WIDE, distance=1.5), SIZE)
-        np.testing.assert_allclose(frame.depth, 4, rtol=1e-6)
-        np.testing.assert_allclose(frame.normal, np.broadcast_to((0, 0, 1), (36, 48, 3)), atol=1e-6)
-        parallel = replace(WIDE, projection="parallel", w=(0, 0, 2))
-        np.testing.assert_allclose(rasterizer.render(parallel, SIZE).depth, 3, rtol=1e-6)
 
-    def test_a_triangle_covers_the_pixels_whose_centres_project_into_it(self, rasterizer):
-        corners = np.array([(-0.51, -0.38, -1), (0.63, -0.22, -2), (0.1, 0.57, -1.5)])
-        rasterizer.set_scene(Scene((SceneObject(triangle(*corners)),)))
-        seen = rasterizer.render(WIDE, SIZE).id == 0
-        row, column, _ = WIDE.project(corners, SIZE)
-        i, j = np.mgrid[: SIZE[1], : SIZE[0]]
-        sides = []
-        for k in range(3):
-            along_i, along_j = row[k - 1] - row[k], column[k - 1] - column[k]
-            across = (i - row[k]) * along_j - (j - column[k]) * along_i
-            sides.append(across / np.hypot(along_i, along_j))
-        inside = np.min(np.multiply(sides, np.sign(np.sum(sides, 0))), axis=0)
-        assert seen[inside > 1 / 128].all()
-        assert not seen[inside < -1 / 128].any()
-        assert 100 < seen.sum() < seen.size / 2
+def test_depth_is_the_ray_parameter_not_a_distance(rasterizer):
+    """A plane across the view has one depth everywhere; so it has in multiples of d."""
+    rasterizer.set_scene(Scene((SceneObject(square(100, -6.0)),)))
+    frame = rasterizer.render(replace(WIDE, distance=1.5), SIZE)
+    np.testing.assert_allclose(frame.depth, 4, rtol=1e-6)
+    np.testing.assert_allclose(frame.normal, np.broadcast_to((0, 0, 1), (36, 48, 3)), atol=1e-6)
+    parallel = replace(WIDE, projection="parallel", w=(0, 0, 2))
+    np.testing.assert_allclose(rasterizer.render(parallel, SIZE).depth, 3, rtol=1e-6)
 
-    def test_an_empty_scene_is_background(self, rasterizer):
-        rasterizer.set_scene(Scene((), background=(0.25, 0.5, 2.0)))
-        frame = rasterizer.render(WIDE, (5, 3), CHANNELS)
-        assert (frame.color == (0.25, 0.5, 2.0)).all()
-        assert np.isposinf(frame.depth).all()
-        assert (frame.normal == 0).all()
-        assert (frame.id == -1).all()
-        assert (frame.primitive == -1).all()
 
-    def test_the_first_of_two_equal_surfaces_wins(self, rasterizer):
-        rasterizer.set_scene(Scene(tuple(SceneObject(square(5, -2.0)) for _ in range(3))))
-        assert (rasterizer.render(WIDE, SIZE).id == 0).all()
+def test_a_triangle_covers_the_pixels_whose_centres_project_into_it(rasterizer):
+    corners = np.array([(-0.51, -0.38, -1), (0.63, -0.22, -2), (0.1, 0.57, -1.5)])
+    rasterizer.set_scene(Scene((SceneObject(triangle(*corners)),)))
+    seen = rasterizer.render(WIDE, SIZE).id == 0
+    row, column, _ = WIDE.project(corners, SIZE)
+    i, j = np.mgrid[: SIZE[1], : SIZE[0]]
+    sides = []
+    for k in range(3):
+        along_i, along_j = row[k - 1] - row[k], column[k - 1] - column[k]
+        across = (i - row[k]) * along_j - (j - column[k]) * along_i
+        sides.append(across / np.hypot(along_i, along_j))
+    inside = np.min(np.multiply(sides, np.sign(np.sum(sides, 0))), axis=0)
+    assert seen[inside > 1 / 128].all()
+    assert not seen[inside < -1 / 128].any()
+    assert 100 < seen.sum() < seen.size / 2
 
-    def test_a_triangle_without_area_is_not_seen(self, rasterizer):
-        line = triangle((-1, 0, -2), (0, 0, -2), (1, 0, -2))
-        point = triangle((0, 0, -2), (0, 0, -2), (0, 0, -2))
-        rasterizer.set_scene(Scene((SceneObject(line), SceneObject(point))))
-        assert (rasterizer.render(WIDE, (7, 7)).id == -1).all()
+
+def test_an_empty_scene_is_background(rasterizer):
+    rasterizer.set_scene(Scene((), background=(0.25, 0.5, 2.0)))
+    frame = rasterizer.render(WIDE, (5, 3), CHANNELS)
+    assert (frame.color == (0.25, 0.5, 2.0)).all()
+    assert np.isposinf(frame.depth).all()
+    assert (frame.normal == 0).all()
+    assert (frame.id == -1).all()
+    assert (frame.primitive == -1).all()
+
+
+def test_the_first_of_two_equal_surfaces_wins(rasterizer):
+    rasterizer.set_scene(Scene(tuple(SceneObject(square(5, -2.0)) for _ in range(3))))
+    assert (rasterizer.render(WIDE, SIZE).id == 0).all()
+
+
+def test_a_triangle_without_area_is_not_seen(rasterizer):
+    line = triangle((-1, 0, -2), (0, 0, -2), (1, 0, -2))
+    point = triangle((0, 0, -2), (0, 0, -2), (0, 0, -2))
+    rasterizer.set_scene(Scene((SceneObject(line), SceneObject(point))))
+    assert (rasterizer.render(WIDE, (7, 7)).id == -1).all()
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
@@ -98,24 +102,25 @@ def test_normals_that_disagree_with_the_winding_are_turned(rasterizer):
         np.testing.assert_allclose(frame.color[both], frames[0].color[both], atol=1e-5)
 
 
-class TestClipping:
-    def test_near_opens_a_sphere_and_shows_its_inside(self, rasterizer):
-        scene = Scene((SceneObject(Sphere((0, 0, -3), 1.0)),))
-        frame = agrees(rasterizer, scene, replace(WIDE, near=3.0))
-        assert frame.depth[18, 24] == pytest.approx(4, rel=1e-2)
-        assert frame.normal[18, 24, 2] == pytest.approx(1, abs=1e-2)
+def test_near_opens_a_sphere_and_shows_its_inside(rasterizer):
+    scene = Scene((SceneObject(Sphere((0, 0, -3), 1.0)),))
+    frame = agrees(rasterizer, scene, replace(WIDE, near=3.0))
+    assert frame.depth[18, 24] == pytest.approx(4, rel=1e-2)
+    assert frame.normal[18, 24, 2] == pytest.approx(1, abs=1e-2)
 
-    def test_a_surface_is_cut_where_the_ray_parameter_says_so(self, rasterizer):
-        for projection in ("perspective", "parallel"):
-            camera = Camera.look_at((4, 5, 6), (0, 0, 0), fov_y_deg=35, projection=projection)
-            if projection == "parallel":
-                camera = replace(camera, viewport=(-2, 2, -2, 2))
-            agrees(rasterizer, still_life(), replace(camera, near=8.0, far=10.0))
 
-    def test_parallel_rays_begin_at_the_eyes_plane(self, rasterizer):
-        inside = replace(WIDE, eye=(0, 0, 0.3), projection="parallel", viewport=(-2, 2, -2, 2))
-        frame = agrees(rasterizer, still_life(), inside)
-        assert frame.depth.min() > 0
+def test_a_surface_is_cut_where_the_ray_parameter_says_so(rasterizer):
+    for projection in ("perspective", "parallel"):
+        camera = Camera.look_at((4, 5, 6), (0, 0, 0), fov_y_deg=35, projection=projection)
+        if projection == "parallel":
+            camera = replace(camera, viewport=(-2, 2, -2, 2))
+        agrees(rasterizer, still_life(), replace(camera, near=8.0, far=10.0))
+
+
+def test_parallel_rays_begin_at_the_eyes_plane(rasterizer):
+    inside = replace(WIDE, eye=(0, 0, 0.3), projection="parallel", viewport=(-2, 2, -2, 2))
+    frame = agrees(rasterizer, still_life(), inside)
+    assert frame.depth.min() > 0
 
 
 def test_slivers_keep_to_the_colours_of_their_corners(rasterizer):

@@ -31,7 +31,7 @@ LENSES = {
 }
 
 
-def through(name: str, **changes) -> Camera:
+def through(name, **changes):
     """A skewed camera with one of LENSES."""
     lens, half = LENSES[name]
     camera = replace(EYE, lens=lens, distance=0.7, u=tuple(np.add(EYE.u, (0, 0.1, 0))))

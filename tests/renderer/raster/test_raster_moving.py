@@ -1,8 +1,6 @@
 """A rasterizer that follows: whatever it has drawn before, moved, or left half drawn, its next
 image is that of a new one."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -28,7 +26,7 @@ SPHERE = '[[objects]]\ntype = "sphere"\nradius = 0.3\n'
 
 
 @pytest.fixture
-def start(tmp_path) -> Scene:
+def start(tmp_path):
     (tmp_path / "scene.toml").write_text(TORI + SPHERE)
     return load_scene(tmp_path / "scene.toml")
 

@@ -1,7 +1,5 @@
 """The focus of a scene, by hand: its middle, its extent, and what a picture holds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from lucida.renderer.scene.focus import Focus, object_corners, scene_focus
 from lucida.renderer.scene.model import Mesh, Scene, SceneObject, Sphere, View
 
 
-def balls(*spheres: tuple[float, float], eye: tuple[float, float, float] = (0, 0, 0)) -> Scene:
+def balls(*spheres, eye=(0, 0, 0)):
     """Spheres on the x axis, as (x, radius)."""
     objects = tuple(SceneObject(Sphere((x, 0, 0), radius)) for x, radius in spheres)
     return Scene(objects, view=View(Camera(eye=eye)))
@@ -24,18 +22,18 @@ def balls(*spheres: tuple[float, float], eye: tuple[float, float, float] = (0, 0
         ((-4.4, 0, 0), 13.0),
     ],
 )
-def test_numbers_of_the_eye_go_half_again_as_far_as_the_scene_or_its_eye(eye, reach) -> None:
+def test_numbers_of_the_eye_go_half_again_as_far_as_the_scene_or_its_eye(eye, reach):
     focus = scene_focus(balls((0, 1), (10, 1), (4, 2), eye=eye))
     assert focus.center == (4, 0, 0)
     assert focus.reach == reach
 
 
-def test_the_middle_of_two_is_between_them() -> None:
+def test_the_middle_of_two_is_between_them():
     assert scene_focus(balls((0, 1), (10, 1))).center == (5, 0, 0)
     assert scene_focus(balls((0, 1), (10, 1), (4, 1), (90, 1))).center == (7, 0, 0)
 
 
-def test_a_mesh_counts_as_the_ball_round_its_box() -> None:
+def test_a_mesh_counts_as_the_ball_round_its_box():
     moved = np.array([(2, 0, 0, 10), (0, 2, 0, 0), (0, 0, 2, -5), (0, 0, 0, 1.0)])
     mesh = Mesh([(0, 0, 0), (3, 4, 0), (3, 0, 12)], [[0, 1, 2]], transform=moved)
     focus = scene_focus(Scene((SceneObject(mesh),), view=View(Camera(eye=(13, 4, 7)))))
@@ -58,7 +56,7 @@ def test_a_mesh_counts_as_the_ball_round_its_box() -> None:
         ([(0, 50)], [0]),
     ],
 )
-def test_what_is_larger_than_the_rest_and_holds_it_is_not_framed(spheres, framed) -> None:
+def test_what_is_larger_than_the_rest_and_holds_it_is_not_framed(spheres, framed):
     scene = balls(*spheres)
     focus = scene_focus(scene)
     wanted = np.concatenate([object_corners(scene.objects[k]) for k in framed])
@@ -68,7 +66,7 @@ def test_what_is_larger_than_the_rest_and_holds_it_is_not_framed(spheres, framed
     assert focus.bounds.shape == (8, 3)
 
 
-def test_a_scene_without_objects_has_a_focus_too() -> None:
+def test_a_scene_without_objects_has_a_focus_too():
     focus = scene_focus(Scene(()))
     assert focus == Focus((0, 0, 0), 2.0)
     assert focus.framed.shape == focus.bounds.shape == (0, 3)

@@ -1,13 +1,11 @@
 """Procedural meshes: closed, outward, of the volume and area that geometry gives them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 
-from lucida.renderer.scene import Mesh, shapes
+from lucida.renderer.scene import shapes
 from lucida.renderer.scene.normals import face_normals, merge_positions
 from lucida.renderer.system.errors import LucidaError
 
@@ -21,13 +19,13 @@ CLOSED = {
 }
 
 
-def volume(mesh: Mesh) -> float:
+def volume(mesh):
     a, b, c = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
 
 @pytest.mark.parametrize("name", CLOSED)
-def test_closed_shapes_have_their_volume_and_no_gap(name: str) -> None:
+def test_closed_shapes_have_their_volume_and_no_gap(name):
     mesh, expected, euler = CLOSED[name]
     assert volume(mesh) == pytest.approx(expected, rel=3e-4)  # above 0: faces look outward
     faces = merge_positions(mesh.vertices)[mesh.faces]
@@ -39,7 +37,7 @@ def test_closed_shapes_have_their_volume_and_no_gap(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", CLOSED)
-def test_vertex_normals_are_unit_and_on_the_side_of_their_faces(name: str) -> None:
+def test_vertex_normals_are_unit_and_on_the_side_of_their_faces(name):
     mesh = CLOSED[name][0]
     if mesh.normals is None:
         assert name in ("box", "flat cylinder")
@@ -54,7 +52,7 @@ def test_vertex_normals_are_unit_and_on_the_side_of_their_faces(name: str) -> No
     assert (agreement[smooth] > 0.49).all()  # a triangle's three-sided cylinder turns by 60 degrees
 
 
-def test_torus_normals_are_those_of_the_surface() -> None:
+def test_torus_normals_are_those_of_the_surface():
     mesh = shapes.torus(1.0, 0.25, 32, 16)
     p = mesh.vertices.astype(float)
     ring = p * (1, 0, 1)
@@ -64,7 +62,7 @@ def test_torus_normals_are_those_of_the_surface() -> None:
 
 
 @pytest.mark.parametrize("mesh", [shapes.rectangle(2, 3), shapes.disk(1.0, 12)])
-def test_flat_shapes_face_up(mesh: Mesh) -> None:
+def test_flat_shapes_face_up(mesh):
     g = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
     assert (g[:, 1] > 0).all()
     np.testing.assert_allclose(g[:, [0, 2]], 0, atol=1e-12)
@@ -72,7 +70,7 @@ def test_flat_shapes_face_up(mesh: Mesh) -> None:
     assert area == pytest.approx(6.0 if len(g) == 2 else 12 * math.sin(math.pi / 6) / 2, rel=1e-6)
 
 
-def test_placement_scales_then_rotates_about_x_y_z_then_translates() -> None:
+def test_placement_scales_then_rotates_about_x_y_z_then_translates():
     matrix = shapes.placement((10, 20, 30), (90, 0, 90), (1, 2, 3))
     # x: 1 -> about x: x -> about z: y. y: 2 -> about x: z. z: 3 -> about x: -y -> about z: x.
     np.testing.assert_array_equal(matrix[:3, :3], [[0, 0, 3], [1, 0, 0], [0, 2, 0]])
@@ -80,7 +78,7 @@ def test_placement_scales_then_rotates_about_x_y_z_then_translates() -> None:
     np.testing.assert_array_equal(shapes.placement(rotate_deg=(0, 3600, 0)), np.eye(4))
 
 
-def test_moving_a_mesh_moves_it_in_world_space() -> None:
+def test_moving_a_mesh_moves_it_in_world_space():
     mesh = shapes.transformed(shapes.box(), shapes.placement((1, 0, 0)))
     mesh = shapes.transformed(mesh, shapes.placement(rotate_deg=(0, 90, 0)))
     mesh = shapes.transformed(mesh, shapes.placement(scale=2))
@@ -93,11 +91,11 @@ def test_moving_a_mesh_moves_it_in_world_space() -> None:
     [
         (lambda: shapes.cylinder(segments=10**9), "segments"),
         (lambda: shapes.torus(sides=2), "sides"),
-        (lambda: shapes.cone(segments=3.0), "segments"),  # type: ignore[arg-type]
+        (lambda: shapes.cone(segments=3.0), "segments"),
         (lambda: shapes.cone(radius=0), "radius"),
         (lambda: shapes.disk(radius=math.nan), "radius"),
         (lambda: shapes.rectangle(width=math.inf), "width"),
-        (lambda: shapes.rectangle(depth="1"), "depth"),  # type: ignore[arg-type]
+        (lambda: shapes.rectangle(depth="1"), "depth"),
         (lambda: shapes.box((1, -1, 1)), "size"),
         (lambda: shapes.box((1, 1)), "size"),
         (lambda: shapes.torus(0.5, 0.5), "tube_radius"),
@@ -105,7 +103,7 @@ def test_moving_a_mesh_moves_it_in_world_space() -> None:
         (lambda: shapes.transformed(shapes.box(), shapes.placement((0, 0, math.nan))), "translate"),
     ],
 )
-def test_wrong_numbers_are_named(make, field: str) -> None:
+def test_wrong_numbers_are_named(make, field):
     with pytest.raises(LucidaError) as caught:
         make()
     assert caught.value.field == field

@@ -1,7 +1,5 @@
 """The first trace of an installation says why it takes seconds; later ones say nothing."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import pytest

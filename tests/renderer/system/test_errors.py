@@ -20,7 +20,7 @@ def test_control_characters_and_line_breaks_do_not_reach_the_terminal():
     assert str(error) == "bell\\x07.obj: name: line one line two \\x1b[31m"
 
 
-def test_what_a_file_makes_long_is_shown_short() -> None:
+def test_what_a_file_makes_long_is_shown_short():
     line = str(LucidaError("f" * 9000, "p" * 9000, "r" * 9000, "file.toml"))
     assert line.startswith("file.toml: fff")
     assert len(line) < 2000
@@ -28,5 +28,5 @@ def test_what_a_file_makes_long_is_shown_short() -> None:
     assert shortened("abcdefgh", 8) == "abcdefgh"
 
 
-def test_bytes_that_are_no_text_are_shown_as_such() -> None:
+def test_bytes_that_are_no_text_are_shown_as_such():
     assert one_line("a\udcff\ud800\x1b\n b") == r"a\xff\ud800\x1b b"

@@ -28,7 +28,7 @@ KEYS = st.sampled_from(
         (0, _ARRAYS[0]),
     )
 )
-CALLS: list[tuple] = []
+CALLS = []
 
 
 def recorded(*key):

@@ -1,7 +1,5 @@
 """Which scenes need exact positions in the cells of checkers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject
 from lucida.renderer.trace.tiles.cells import are_blurred, cells_of
 
 
-def is_coarse_for_cells(scene: Scene, camera: Camera) -> bool:
+def is_coarse_for_cells(scene, camera):
     eye, back = np.array(camera.eye), np.array(camera.w)
     to_t = -camera.camera_from_world[2, :3]
     return are_blurred(

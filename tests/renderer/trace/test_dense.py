@@ -6,8 +6,6 @@ must give what one ray after another gives, in float64: the same triangle wherev
 is not on an edge, to what float32 can tell of edges.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +22,7 @@ from lucida.renderer.trace.threads.thread_pool import new_control
 SIZES = [(230, 170), (90, 70), (33, 47), (16, 16), (9, 5)]
 
 
-def rough(rows: int = 150, columns: int = 220) -> Mesh:
+def rough(rows=150, columns=220):
     """A closed ball of many small dents: 65,000 triangles, far denser at its poles."""
     mesh = ball(rows, columns)
     v = np.asarray(mesh.vertices, float)
@@ -58,7 +56,7 @@ def alone():
     pair.close()
 
 
-def outside(projection: str) -> Camera:
+def outside(projection):
     camera = Camera.look_at((2.6, 1.7, 3.1), (0.1, 0.1, 0.2), fov_y_deg=40)
     if projection == "parallel":
         return replace(camera, projection=projection, viewport=(-1.7, 1.7, -1.4, 1.4))
@@ -67,13 +65,13 @@ def outside(projection: str) -> Camera:
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 @pytest.mark.parametrize("size", SIZES)
-def test_every_density(projection: str, size: tuple[int, int], dense: Both) -> None:
+def test_every_density(projection, size, dense):
     frame = dense.check_closely(outside(projection), size)
     assert frame.id.max() >= 0
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_skewed_cameras(projection: str, dense: Both) -> None:
+def test_skewed_cameras(projection, dense):
     random = np.random.default_rng(5)
     for number in range(8):
         w = random.normal(size=3)
@@ -90,7 +88,7 @@ def test_skewed_cameras(projection: str, dense: Both) -> None:
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_near_and_far_cut_through(projection: str, alone: Both) -> None:
+def test_near_and_far_cut_through(projection, alone):
     camera = outside(projection)
     unit = 1.0 if camera.is_parallel else camera.distance  # of near and far, in t
     for size in SIZES[:3]:
@@ -103,7 +101,7 @@ def test_near_and_far_cut_through(projection: str, alone: Both) -> None:
         assert hits.max() < far
 
 
-def test_no_pinhole_in_a_closed_dense_mesh(alone: Both) -> None:
+def test_no_pinhole_in_a_closed_dense_mesh(alone):
     """Through every leaf's border, and at every density: a box's own rounding loses no pixel."""
     random = np.random.default_rng(13)
     for number in range(40):
@@ -118,7 +116,7 @@ def test_no_pinhole_in_a_closed_dense_mesh(alone: Both) -> None:
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_what_is_behind_a_wall_is_not_seen(projection: str) -> None:
+def test_what_is_behind_a_wall_is_not_seen(projection):
     """A wall before one half of the image, dense meshes beside it and behind it."""
     mesh = rough(80, 120)
     corners = np.array([[-3, -3, 1.6], [0.2, -3, 1.6], [0.2, 3, 1.6], [-3, 3, 1.6]])

@@ -65,20 +65,20 @@ def kernel_branching(x):
     return branching(x)
 
 
-def test_numbers_are_what_python_computes() -> None:
+def test_numbers_are_what_python_computes():
     assert kernel_numbers(-2.5, 7) == tuple(numbers(-2.5, 7))
 
 
-def test_a_choice_joins_tuples() -> None:
+def test_a_choice_joins_tuples():
     assert kernel_chosen(True, 3, 4, None) == (3, (1.0, 4))
     assert kernel_chosen(False, 3, 4, None) == (4, (2.5, 7))
 
 
-def test_an_argument_that_is_not_none_is_known_when_compiling() -> None:
+def test_an_argument_that_is_not_none_is_known_when_compiling():
     assert kernel_chosen(True, 3, 4, 2.5) == 2.5
 
 
-def test_a_choice_may_do_nothing() -> None:
+def test_a_choice_may_do_nothing():
     array = np.array([5.0, 1.0])
     kernel_set(False, array)
     assert array.tolist() == [5.0, 1.0]
@@ -86,6 +86,6 @@ def test_a_choice_may_do_nothing() -> None:
     assert array.tolist() == [5.0, 5.0]
 
 
-def test_a_branch_on_a_value_is_an_error_that_says_what_to_use() -> None:
+def test_a_branch_on_a_value_is_an_error_that_says_what_to_use():
     with pytest.raises(TypingError, match="use choose"):
         kernel_branching(1.0)

@@ -4,9 +4,6 @@ Packets are float32: a pixel may differ from the float64 reference only where a 
 pixel, in some direction, decides what is seen.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -18,14 +15,11 @@ from trace_reference import ball, closest, random_basis, random_scene, scene_of
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import MODELS, Lens
-from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.model import Scene
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.trace import Tracer
-from lucida.renderer.trace.arguments.image import Rows, new_image
-from lucida.renderer.trace.threads.thread_pool import DONE, Team, cancel, new_control
-from lucida.renderer.trace.tiles.engine import PacketEngine
+from lucida.renderer.trace.arguments.image import Rows
+from lucida.renderer.trace.threads.thread_pool import new_control
 from lucida.renderer.trace.tiles.lens_table import lens_table
 
 COEFFICIENTS = {
@@ -46,19 +40,19 @@ FROM = Camera.look_at((1.2, 0.9, 1.7), (0.0, 0.2, 0.0))
 VISIBILITY = ("depth", "primitive")
 
 
-def seen_through(lens: Lens, camera: Camera = FROM) -> Camera:
+def seen_through(lens, camera=FROM):
     viewport = WIDE.get(lens.model, (-0.8, 0.75, -0.55, 0.6))
     return replace(camera, lens=lens, distance=1.0, viewport=viewport)
 
 
 @pytest.fixture(scope="module")
-def both() -> Iterator[Both]:
+def both():
     pair = Both(crowd())
     yield pair
     pair.close()
 
 
-def check(pair: Both, camera: Camera, size: tuple[int, int]) -> Frame:
+def check(pair, camera, size):
     """Return the packets' image, which must be the reference's."""
     reference, packets = pair.frames(camera, size)
     same = packets.primitive == reference.primitive
@@ -79,13 +73,13 @@ def check(pair: Both, camera: Camera, size: tuple[int, int]) -> Frame:
 
 @pytest.mark.parametrize("size", [(150, 131), (47, 22), (5, 3)], ids=str)
 @pytest.mark.parametrize("lens", LENSES, ids=lambda lens: lens.model)
-def test_packets_see_what_the_reference_sees(lens: Lens, size: tuple[int, int], both: Both) -> None:
+def test_packets_see_what_the_reference_sees(lens, size, both):
     """A small panorama's tile sees all around, and is divided."""
     check(both, seen_through(lens), size)
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_skewed_bases_and_clip_planes(seed: int, both: Both) -> None:
+def test_skewed_bases_and_clip_planes(seed, both):
     random = np.random.default_rng(seed)
     camera = seen_through(LENSES[seed % 2 * 4 + random.integers(4)])
     u, v, w = random_basis(random).tolist()
@@ -97,7 +91,7 @@ def test_skewed_bases_and_clip_planes(seed: int, both: Both) -> None:
 
 
 @pytest.mark.parametrize("lens", LENSES, ids=lambda lens: lens.model)
-def test_images_match_brute_force(lens: Lens) -> None:
+def test_images_match_brute_force(lens):
     size = (24, 17)
     scene = random_scene(np.random.default_rng(5))
     camera = seen_through(lens, Camera.look_at((0.3, 0.5, 1.2), (0.0, 0.0, 0.0)))
@@ -113,7 +107,7 @@ def test_images_match_brute_force(lens: Lens) -> None:
     assert frame.depth.ravel()[seen][hit] == pytest.approx(hits.t[hit], rel=1e-4)
 
 
-def test_outside_of_the_lens_nothing_is_hit() -> None:
+def test_outside_of_the_lens_nothing_is_hit():
     scene = scene_of(ball())
     inside = Camera(viewport=(-2.0, 2.0, -2.0, 2.0), lens=Lens("orthographic"))
     size = (120, 120)
@@ -127,7 +121,7 @@ def test_outside_of_the_lens_nothing_is_hit() -> None:
 
 
 @pytest.mark.parametrize("size", [(640, 320), (33, 20)], ids=str)
-def test_no_ray_leaves_a_closed_mesh(size: tuple[int, int]) -> None:
+def test_no_ray_leaves_a_closed_mesh(size):
     """Through edges and corners of tiles, and from one tile to another of another frame."""
     mesh = ball(90, 130)
     with Tracer(scene_of(mesh)) as tracer:
@@ -140,10 +134,10 @@ def test_no_ray_leaves_a_closed_mesh(size: tuple[int, int]) -> None:
 
 
 @pytest.mark.parametrize("name", ["crowd", "textured"])
-def test_a_lens_that_bends_nothing_shows_the_pinholes_picture(name: str) -> None:
+def test_a_lens_that_bends_nothing_shows_the_pinholes_picture(name):
     """With shadows, mirrors, textures and several samples."""
     texture = Texture(noise(37, 23))
-    scene: Scene = crowd() if name == "crowd" else on_wall(texture)
+    scene = crowd() if name == "crowd" else on_wall(texture)
     pinhole = FROM if name == "crowd" else Camera((0.3, -0.2, 0.5), distance=0.6)
     with Tracer(scene, shadows=True, mirror_depth=2) as tracer:
         wanted, image = (
@@ -156,20 +150,10 @@ def test_a_lens_that_bends_nothing_shows_the_pinholes_picture(name: str) -> None
     assert (error > 0.02).mean() < 4e-3  # where a mirrored ray just meets an edge
 
 
-def test_a_table_is_made_once_for_a_lens_and_a_size() -> None:
+def test_a_table_is_made_once_for_a_lens_and_a_size():
     camera, size = seen_through(Lens("stereographic")), (70, 50)
     rows = Rows(size, 0, 50)
     table = lens_table(camera, rows, new_control())
     moved = replace(camera, eye=(9.0, 8.0, 7.0), u=(0.0, 1.0, 0.5), v=(-1.0, 0.0, 0.0))
     assert lens_table(moved, rows, new_control()) is table
     assert lens_table(moved.shifted(0.5, 0.0, size), rows, new_control()) is not table
-
-
-def test_a_cancelled_image_stops() -> None:
-    team, control = Team(2), new_control()
-    cancel(control)
-    image = new_image((640, 480), ("id",))
-    PacketEngine(crowd(), team).trace(seen_through(LENSES[0]), image, control)
-    assert not image.finished.any()
-    assert control[DONE] == 0
-    team.close()

@@ -7,8 +7,6 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -43,8 +41,8 @@ TASKS = [
 
 
 @pytest.mark.parametrize(("options", "scene", "camera"), TASKS)
-def test_nothing_is_compiled_beyond_the_parts_of_a_task(options, scene, camera) -> None:
-    def work(tracer: Tracer) -> None:
+def test_nothing_is_compiled_beyond_the_parts_of_a_task(options, scene, camera):
+    def work(tracer):
         if camera is not None:
             tracer.render(camera, (8, 8), CHANNELS)
             return
@@ -65,7 +63,7 @@ def test_nothing_is_compiled_beyond_the_parts_of_a_task(options, scene, camera) 
 class Children:
     """Replaces the compiling processes. Each ends with a status at once, or never (None)."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    def __init__(self, monkeypatch, folder):
         self.status: int | None = None
         self.started: list[subprocess.Popen[bytes]] = []
         self.notes: list[bool] = []
@@ -74,7 +72,7 @@ class Children:
         monkeypatch.setattr(precompile, "start_child", self.start)
         monkeypatch.setattr(precompile.compile_note, "begin", lambda kept: self.notes.append(kept))
 
-    def start(self, *arguments: str) -> subprocess.Popen[bytes]:
+    def start(self, *arguments):
         code = "input()" if self.status is None else f"exit({self.status})"
         child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE)
         self.started.append(child)
@@ -82,7 +80,7 @@ class Children:
 
 
 @pytest.fixture
-def children(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Children]:
+def children(monkeypatch, tmp_path):
     children = Children(monkeypatch, tmp_path)
     yield children
     for child in children.started:
@@ -91,9 +89,7 @@ def children(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Childr
 
 
 @pytest.mark.parametrize("status", [0, 1])
-def test_a_part_is_marked_when_its_process_succeeds(
-    children: Children, tmp_path: Path, status: int
-) -> None:
+def test_a_part_is_marked_when_its_process_succeeds(children, tmp_path, status):
     children.status = status
     precompile.precompile(["a-part"], lambda: False)
     assert len(list(tmp_path.glob("*.done"))) == (status == 0)
@@ -102,7 +98,7 @@ def test_a_part_is_marked_when_its_process_succeeds(
     assert children.notes == [True] * len(children.started)
 
 
-def no_child(*arguments: str) -> None:
+def no_child(*arguments):
     raise OSError
 
 
@@ -115,16 +111,14 @@ def no_child(*arguments: str) -> None:
         ("default_threads", lambda: 1),
     ],
 )
-def test_without_processes_nothing_is_waited_for(
-    children: Children, monkeypatch: pytest.MonkeyPatch, name: str, value: object
-) -> None:
+def test_without_processes_nothing_is_waited_for(children, monkeypatch, name, value):
     monkeypatch.setattr(precompile, name, value)
     precompile.precompile(["a-part"], lambda: False)
     assert not children.started
     assert children.notes == [name != "cache_folder"]
 
 
-def test_closing_a_tracer_ends_the_compiling_processes(children: Children) -> None:
+def test_closing_a_tracer_ends_the_compiling_processes(children):
     tracer = Tracer(Scene(()))
     job = tracer.start(Camera(), (5, 5))
     end_s = time.monotonic() + PATIENT_S
@@ -138,10 +132,8 @@ def test_closing_a_tracer_ends_the_compiling_processes(children: Children) -> No
 
 
 @pytest.mark.parametrize("is_kept", [True, False])
-def test_a_child_reports_a_cache_that_could_not_be_written(
-    monkeypatch: pytest.MonkeyPatch, is_kept: bool
-) -> None:
-    def exit_(status: int) -> None:
+def test_a_child_reports_a_cache_that_could_not_be_written(monkeypatch, is_kept):
+    def exit_(status):
         raise SystemExit(status)
 
     monkeypatch.setattr(compile_child, "end_with_parent", lambda: None)
@@ -168,7 +160,7 @@ print(child.pid)
 
 
 @pytest.mark.skipif(not can_fork(), reason="each part has a process of its own")
-def test_copies_of_a_compiling_process_end_with_its_parent(tmp_path: Path) -> None:
+def test_copies_of_a_compiling_process_end_with_its_parent(tmp_path):
     env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     done = subprocess.run(
         [sys.executable, "-c", COPIED], env=env, capture_output=True, text=True, timeout=PATIENT_S

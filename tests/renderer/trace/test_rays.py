@@ -1,7 +1,5 @@
 """Single rays on the wide trees against the scalar reference."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scenes import crowd
@@ -27,7 +25,7 @@ def team():
     made.close()
 
 
-def stretched() -> Scene:
+def stretched():
     mesh = ball(20, 30)
     random = np.random.default_rng(5)
     objects = [SceneObject(Sphere((0, 2, 0), 0.5))]
@@ -39,17 +37,17 @@ def stretched() -> Scene:
     return Scene(tuple(objects))
 
 
-def alone() -> Scene:
+def alone():
     """One object where its mesh is, for which there is neither an upper tree nor a transform."""
     return Scene((SceneObject(ball(40, 60)),))
 
 
-def alone_and_moved() -> Scene:
+def alone_and_moved():
     return Scene(stretched().objects[2:3])
 
 
 @pytest.mark.parametrize("make", [crowd, stretched, alone, alone_and_moved])
-def test_the_closest_hit_is_the_references(make, team) -> None:
+def test_the_closest_hit_is_the_references(make, team):
     scene = make()
     flat = flatten(scene)
     instances = Instances(scene, flat, team)
@@ -74,7 +72,7 @@ def test_the_closest_hit_is_the_references(make, team) -> None:
         assert np.isposinf(t[primitive < 0]).all()
 
 
-def test_no_leak_in_a_closed_mesh(team) -> None:
+def test_no_leak_in_a_closed_mesh(team):
     mesh = ball(60, 80)
     scene = Scene((SceneObject(mesh),))
     instances = Instances(scene, flatten(scene), team)
@@ -92,7 +90,7 @@ def test_no_leak_in_a_closed_mesh(team) -> None:
     assert (closest_hits(instances, team, origins, ways)[1] >= 0).all()
 
 
-def test_rays_that_are_none_hit_nothing(team) -> None:
+def test_rays_that_are_none_hit_nothing(team):
     scene = stretched()
     instances = Instances(scene, flatten(scene), team)
     origins = np.zeros((3, 3), np.float32)
@@ -105,14 +103,14 @@ def test_rays_that_are_none_hit_nothing(team) -> None:
     assert len(t) == len(primitive) == 0
 
 
-def test_an_empty_scene(team) -> None:
+def test_an_empty_scene(team):
     scene = Scene(())
     instances = Instances(scene, flatten(scene), team)
     rays = np.zeros((5, 3), np.float32), np.ones((5, 3), np.float32)
     assert (closest_hits(instances, team, *rays)[1] == -1).all()
 
 
-def test_a_tracer_takes_batches() -> None:
+def test_a_tracer_takes_batches():
     scene = stretched()
     origins, directions = [[0, 2, 5], [0, 9, 5]], [[0, 0, -2], [0, 0, -2]]
     with Tracer(scene, threads=2) as tracer:
@@ -133,7 +131,7 @@ def test_a_tracer_takes_batches() -> None:
         tracer.closest_hits(origins, directions)
 
 
-def test_batches_of_any_length_and_rays_along_an_axis(team) -> None:
+def test_batches_of_any_length_and_rays_along_an_axis(team):
     scene = alone()
     instances = Instances(scene, flatten(scene), team)
     for axis in range(3):

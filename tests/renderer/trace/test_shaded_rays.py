@@ -1,7 +1,5 @@
 """Light along any rays: a camera's own rays give the picture that the tracer gives of it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -20,18 +18,18 @@ SIZE = (160, 120)
 CLOSE, EDGES = 2e-3, 4e-3
 
 
-def far_crowd() -> tuple[Scene, View]:
+def far_crowd():
     scene = moved(crowd(), np.array([1e5, -2e5, 5e4]))
     camera = Camera.look_at((1e5 + 1.0, -2e5 + 1.5, 5e4 + 4.0), (1e5, -2e5 + 0.2, 5e4))
     return scene, View(camera)
 
 
-def near_crowd(**changes) -> tuple[Scene, View]:
+def near_crowd(**changes):
     camera = Camera.look_at((1.0, 1.5, 4.0), (0.0, 0.2, 0.0))
     return crowd(), View(replace(camera, **changes))
 
 
-def builtin(name: str) -> tuple[Scene, View]:
+def builtin(name):
     scene = load_scene(name)
     return scene, scene.view
 
@@ -46,7 +44,7 @@ SCENES = {
 }
 
 
-def picture(tracer: Tracer, camera: Camera, lengths: float = 1.0) -> np.ndarray:
+def picture(tracer, camera, lengths=1.0):
     origins, directions = np.broadcast_arrays(*camera.rays(SIZE))
     light = tracer.shaded(
         origins.reshape(-1, 3), lengths * directions.reshape(-1, 3), *camera.t_range
@@ -54,13 +52,13 @@ def picture(tracer: Tracer, camera: Camera, lengths: float = 1.0) -> np.ndarray:
     return light.reshape(directions.shape)
 
 
-def differing(a: np.ndarray, b: np.ndarray) -> float:
+def differing(a, b):
     """The part of the pixels that differ by more than rounding."""
     return float((np.abs(a - b).max(axis=2) > CLOSE * (1 + np.abs(b).max(axis=2))).mean())
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_camera_s_rays_give_its_image(name) -> None:
+def test_a_camera_s_rays_give_its_image(name):
     scene, view = SCENES[name]()
     camera = view.for_size(SIZE)
     with Tracer(scene) as tracer:
@@ -70,14 +68,14 @@ def test_a_camera_s_rays_give_its_image(name) -> None:
     assert differing(made, image) <= EDGES
 
 
-def test_rays_of_any_length_see_the_same() -> None:
+def test_rays_of_any_length_see_the_same():
     scene, view = near_crowd()
     camera, lengths = view.for_size(SIZE), np.random.default_rng(1).uniform(0.01, 100, (19200, 1))
     with Tracer(scene) as tracer:
         assert differing(picture(tracer, camera, lengths), picture(tracer, camera)) <= EDGES
 
 
-def test_rays_that_are_none_see_the_background() -> None:
+def test_rays_that_are_none_see_the_background():
     scene, _ = near_crowd()
     bad = ((math.nan, 0, -1), (0, 0, 0), (0, math.inf, -1), (1e300, 0, 0))
     ways = np.array((*bad, (0.0, 0.0, -1.0)))

@@ -1,7 +1,5 @@
 """Lanes inside kernels against NumPy; and the same without the newest instructions."""
 
-from __future__ import annotations
-
 import os
 import platform
 import subprocess
@@ -35,7 +33,7 @@ def operators(x, y, i, out, iout):
     store(iout, 48, ~k)
 
 
-def test_operators() -> None:
+def test_operators():
     x, y = random.normal(size=(2, 16)).astype(np.float32)
     i = random.integers(-1000, 1000, 16, dtype=np.int32)
     out, iout = np.empty(80, np.float32), np.empty(64, np.int32)
@@ -54,11 +52,11 @@ def comparisons(x, y, masks):
     masks[6] = simd.bits(~(a < b) & simd.mask_of(0x0FF0))
 
 
-def as_bits(lanes: np.ndarray) -> int:
+def as_bits(lanes):
     return int(np.sum(lanes.astype(int) << np.arange(16)))
 
 
-def test_comparisons_are_false_for_nan() -> None:
+def test_comparisons_are_false_for_nan():
     x, y = random.integers(0, 3, (2, 16)).astype(np.float32)
     x[3] = y[5] = np.nan
     masks = np.zeros(7, np.int64)
@@ -87,7 +85,7 @@ def functions(x, y, z, out, numbers):
     numbers[1], numbers[2] = simd.lane_of(a, 11), np.float32(simd.lowest_bit(0x0A0))
 
 
-def test_functions() -> None:
+def test_functions():
     x, y, z = random.normal(size=(3, 16)).astype(np.float32)
     out, numbers = np.empty(176, np.float32), np.empty(3, np.float32)
     functions(x, y, z, out, numbers)
@@ -118,7 +116,7 @@ def memory(table, indices, square, square3, out):
     simd_memory.store_square3(pointer(square3), 3, 15, x, x * np.float32(2), x * np.float32(3))
 
 
-def test_memory() -> None:
+def test_memory():
     table = random.normal(size=40).astype(np.float32)
     indices = random.integers(0, 40, 16, dtype=np.int32)
     indices[1::2] = 1 << 30  # of lanes that are masked: not looked at
@@ -152,7 +150,7 @@ def halves(source, out):
         out[16 + k] = room[k]
 
 
-def test_halves_and_memory_on_the_stack() -> None:
+def test_halves_and_memory_on_the_stack():
     source, out = np.arange(100, 111, dtype=np.float32), np.empty(40, np.float32)
     halves(source, out)
     half = source[3:]
@@ -175,7 +173,7 @@ def memory_by_lanes(table, indices, doubles, out):
     eighth[1] = eighth[0] / 3.0
 
 
-def test_memory_by_lanes() -> None:
+def test_memory_by_lanes():
     table = random.integers(-(1 << 31), 1 << 31, 60).astype(np.int32)
     k = random.integers(0, 52, 16, dtype=np.int32)
     numbers, out = np.array([0.0, 0.0, 8.0, 0.0, 5.0]), np.empty(96, np.int32)
@@ -196,7 +194,7 @@ def streaming(source, lines, begins):
             simd_memory.stream(lines, i, load(source, i))
 
 
-def test_streaming() -> None:
+def test_streaming():
     source = random.normal(size=64).astype(np.float32)
     lines, begins = np.zeros(64, np.float32), np.zeros(33, np.bool_)
     streaming(source, lines, begins)
@@ -216,7 +214,7 @@ def powers(x, exponent, out):
 
 
 @pytest.mark.parametrize("exponent", [1, 2, 7.5, 50, 1000])
-def test_powers(exponent: float) -> None:
+def test_powers(exponent):
     x = np.concatenate([[0, 1, 1e-30, 0.5], np.linspace(0.9, 1, 1020), random.uniform(0, 1, 1024)])
     x = x.astype(np.float32)
     out = np.empty_like(x)
@@ -229,7 +227,7 @@ def test_powers(exponent: float) -> None:
 
 
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="x86's instruction sets")
-def test_older_processors() -> None:
+def test_older_processors():
     """This file's other tests, compiled for a processor without AVX."""
     environment = {**os.environ, "NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": "+sse2"}
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", __file__]

@@ -47,7 +47,7 @@ def call(code, room, row, column, floats, ints):
     call_stage(code, pointer(room), row, column, pointer(floats), pointer(ints))
 
 
-def test_a_stage_is_called_with_what_it_always_needs() -> None:
+def test_a_stage_is_called_with_what_it_always_needs():
     out = np.zeros(4)
     rooms = [new_room(), new_room()]
     codes = [prepare(2.5, False, out, rooms[0]), prepare(4.0, True, out, rooms[1])]
@@ -58,7 +58,7 @@ def test_a_stage_is_called_with_what_it_always_needs() -> None:
     assert out.tolist() == [0.0, 7.5 + 75, -12.0 + 75, 0.0]
 
 
-def test_a_stage_that_always_needs_too_much_is_not_compiled() -> None:
+def test_a_stage_that_always_needs_too_much_is_not_compiled():
     too_much = tuple(np.arange(ROOM_BYTES // 8 + 1, dtype=np.float64))
     with pytest.raises(TypingError, match="has no room"):
         prepare_too_much(too_much, new_room())

@@ -1,7 +1,5 @@
 """Frames' memory: used again, but never while anybody can see what is in it."""
 
-from __future__ import annotations
-
 import threading
 
 import numpy as np
@@ -16,11 +14,11 @@ from lucida.renderer.trace.arguments.buffers import Buffers
 LAYOUTS = [((20, 30, 3), np.float32), ((0, 0), np.int32), ((20, 30), np.int32)]
 
 
-def address(array: np.ndarray) -> int:
+def address(array):
     return array.ctypes.data
 
 
-def test_arrays_are_as_asked_and_apart() -> None:
+def test_arrays_are_as_asked_and_apart():
     color, none, number = Buffers().arrays(LAYOUTS)
     assert (color.shape, color.dtype) == ((20, 30, 3), np.float32)
     assert (none.shape, none.dtype) == ((0, 0), np.int32)
@@ -32,7 +30,7 @@ def test_arrays_are_as_asked_and_apart() -> None:
     assert (color == 1.5).all() and (number == -7).all()
 
 
-def test_memory_is_used_again_when_the_last_array_is_gone() -> None:
+def test_memory_is_used_again_when_the_last_array_is_gone():
     pool = Buffers()
     color, _, number = pool.arrays(LAYOUTS)
     at = address(color)
@@ -45,7 +43,7 @@ def test_memory_is_used_again_when_the_last_array_is_gone() -> None:
 
 
 @pytest.mark.parametrize("hold", ["channel", "view", "memoryview"])
-def test_a_frame_that_is_held_keeps_its_pixels(hold: str) -> None:
+def test_a_frame_that_is_held_keeps_its_pixels(hold):
     with Tracer(Scene((SceneObject(Sphere()),)), threads=1) as tracer:
         near, far = Camera(eye=(0, 0, 3)), Camera(eye=(0, 0, 30))
         depth = tracer.render(near, (40, 30), ("depth",)).channel("depth")
@@ -58,7 +56,7 @@ def test_a_frame_that_is_held_keeps_its_pixels(hold: str) -> None:
     assert np.array_equal(held, before)  # nor does it end with its Tracer
 
 
-def test_what_idles_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_idles_is_bounded(monkeypatch):
     monkeypatch.setattr(buffers, "LARGEST_KEPT_BYTES", 10_000)
     pool = Buffers()
     held = [pool.arrays([((size,), np.uint8)]) for size in (64, 128, 192, 256, 320, 20_032)]
@@ -67,10 +65,10 @@ def test_what_idles_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [block.nbytes // 64 for block in pool.idle] == [5, 6, 7]
 
 
-def test_threads_never_get_the_same_memory() -> None:
+def test_threads_never_get_the_same_memory():
     pool, wrong = Buffers(), []
 
-    def work(number: int) -> None:
+    def work(number):
         for _ in range(500):
             array = pool.arrays([((64,), np.int32)])[0]
             array[:] = number

@@ -1,27 +1,25 @@
 """The tree: every primitive once, every box around what is below it, for any scene."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from trace_reference import cast, random_scene, scene_of, tree_of
 
-from lucida.renderer.scene.flat import FlatScene, flatten
-from lucida.renderer.scene.model import Mesh, Scene, Shape, Sphere
-from lucida.renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
+from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.model import Mesh, Scene, Sphere
+from lucida.renderer.trace.bvh.binary import MAX_DEPTH, build
 from lucida.renderer.trace.threads.thread_pool import Team
 
 
-def binary(flat: FlatScene, team: Team, leaf_size: int = 4) -> Bvh:
+def binary(flat, team, leaf_size=4):
     """The tree over a scene whose meshes all stand at the origin."""
     spheres = flat.spheres.astype(np.float32)
     spheres.setflags(write=False)
     return build(flat.vertices, flat.faces, spheres, team, leaf_size)
 
 
-def primitive_boxes(flat: FlatScene) -> tuple[np.ndarray, np.ndarray]:
+def primitive_boxes(flat):
     corners = flat.vertices[flat.faces].astype(float).reshape(-1, 3, 3)
     spheres = flat.spheres.astype(np.float32).astype(float)
     centre, radius = spheres[:, :3], spheres[:, 3:]
@@ -29,7 +27,7 @@ def primitive_boxes(flat: FlatScene) -> tuple[np.ndarray, np.ndarray]:
     return low, np.concatenate([corners.max(axis=1), centre + radius])
 
 
-def check(flat: FlatScene, bvh: Bvh, leaf_size: int) -> None:
+def check(flat, bvh, leaf_size):
     count = len(flat.faces) + len(flat.spheres)
     assert sorted(bvh.order) == list(range(count))
     low, high = primitive_boxes(flat)
@@ -62,11 +60,11 @@ def check(flat: FlatScene, bvh: Bvh, leaf_size: int) -> None:
 RANDOM = random_scene(np.random.default_rng(1))
 
 
-def unmoved(shape: Shape) -> Shape:
+def unmoved(shape):
     return replace(shape, transform=np.eye(4)) if isinstance(shape, Mesh) else shape
 
 
-def soup(count: int, seed: int = 0, spread: float = 1.0) -> Scene:
+def soup(count, seed=0, spread=1.0):
     random = np.random.default_rng(seed)
     centres = random.normal(size=(count, 1, 3)) * spread
     vertices = (centres + 0.1 * random.normal(size=(count, 3, 3))).reshape(-1, 3)
@@ -75,7 +73,7 @@ def soup(count: int, seed: int = 0, spread: float = 1.0) -> Scene:
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
 @pytest.mark.parametrize("leaf_size", [1, 4, 16])
-def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
+def test_every_primitive_is_in_one_leaf(threads, leaf_size):
     team = Team(threads)
     for scene in (
         Scene(()),
@@ -92,7 +90,7 @@ def test_every_primitive_is_in_one_leaf(threads: int, leaf_size: int) -> None:
 
 
 @pytest.mark.parametrize("count", [5, 20_000])
-def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
+def test_triangles_that_cannot_be_told_apart_are_halved(count):
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     flat = flatten(scene_of(Mesh(vertices, np.tile([0, 1, 2], (count, 1)))))
     bvh = binary(flat, Team(1))
@@ -104,7 +102,7 @@ def test_triangles_that_cannot_be_told_apart_are_halved(count: int) -> None:
     assert (t[0], primitive[0]) == (1.0, 0)
 
 
-def test_the_depth_is_bounded_where_sizes_explode() -> None:
+def test_the_depth_is_bounded_where_sizes_explode():
     # Each triangle is twice the size of the one before: splits take off one at a time.
     sizes = 2.0 ** np.arange(-60, 36, 0.25)
     corners = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -115,14 +113,14 @@ def test_the_depth_is_bounded_where_sizes_explode() -> None:
     assert bvh.depth <= MAX_DEPTH + 32
 
 
-def nodes_of(bvh: Bvh) -> np.ndarray:
+def nodes_of(bvh):
     """Each node's box and, of a leaf, its primitives' places; sorted: not by place in memory."""
     leaves = np.where(bvh.links[:, 1:] > 0, bvh.links, 0)
     rows = np.concatenate([bvh.bounds, leaves], axis=1)
     return rows[np.lexsort(rows.T)]
 
 
-def test_the_tree_does_not_depend_on_the_threads() -> None:
+def test_the_tree_does_not_depend_on_the_threads():
     # Few primitives go round in pieces of one size. Of many, more threads take smaller pieces: that
     # decides where nodes stand, not what they are.
     for count, is_one_size in ((40_000, True), (150_000, False)):

@@ -1,7 +1,5 @@
 """The cache of compiled kernels: read-only installations, no folder at all, edits, two at once."""
 
-from __future__ import annotations
-
 import errno
 import os
 import shutil
@@ -39,7 +37,7 @@ print(cache_folder.cache_folder(), not compiled.buffer)
 
 
 @pytest.fixture
-def installation(tmp_path: Path) -> Path:
+def installation(tmp_path):
     """Copy the package, which cannot cache beside itself here: the folder's name is taken. Beside
     it lies a module with a kernel that takes no time to compile.
     """
@@ -51,7 +49,7 @@ def installation(tmp_path: Path) -> Path:
     return package
 
 
-def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.Popen:
+def start(installation, cache, script=SCRIPT):
     env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
     env |= {
         "PYTHONPATH": str(installation.parents[1]),
@@ -66,14 +64,14 @@ def start(installation: Path, cache: Path, script: str = SCRIPT) -> subprocess.P
     )  # fmt: skip
 
 
-def finish(process: subprocess.Popen) -> str:
+def finish(process):
     out, err = process.communicate(timeout=HANG_S)
     assert process.returncode == 0, err
     assert err == ""
     return out.strip()
 
 
-def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_path: Path) -> None:
+def test_a_read_only_installation_caches_for_the_user(installation, tmp_path):
     cache = tmp_path / "cache"
     for process in [start(installation, cache) for _ in range(2)]:  # both compile, at once
         folder = finish(process).rsplit(" ", 1)[0]
@@ -100,15 +98,13 @@ def test_a_read_only_installation_caches_for_the_user(installation: Path, tmp_pa
     assert len(folders) == 5
 
 
-def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch):
     monkeypatch.setattr(compiled, "cache_folder", lambda: None)
     assert compiled.kernel(tripled)(4) == 12
     assert not compiled.is_cached()
 
 
-def test_a_kernel_that_cannot_be_stored_is_reported(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_kernel_that_cannot_be_stored_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr(compile_note, "_note", "")  # which counts for a whole process
     monkeypatch.setattr(compiled, "_has_failed", threading.Event())
     monkeypatch.setattr(compiled, "cache_folder", lambda: tmp_path)
@@ -120,7 +116,7 @@ def test_a_kernel_that_cannot_be_stored_is_reported(
     assert compile_note.note() == compile_note.EACH_TIME
 
 
-def full(self: object, signature: object, data: object) -> None:
+def full(self, signature, data):
     raise OSError(errno.ENOSPC, "No space left on device")
 
 
@@ -128,7 +124,7 @@ def tripled(x):
     return 3 * x
 
 
-def test_old_folders_are_pruned(tmp_path: Path) -> None:
+def test_old_folders_are_pruned(tmp_path):
     for age in range(10):
         folder = tmp_path / f"old{age}"
         folder.mkdir()

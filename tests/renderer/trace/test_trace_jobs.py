@@ -9,9 +9,7 @@ import sys
 import threading
 import time
 import weakref
-from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,10 +17,9 @@ from import_path import import_path
 from trace_reference import scene_of
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images.frame import Frame
-from lucida.renderer.scene.model import Mesh, Scene, Sphere
+from lucida.renderer.scene.model import Mesh, Sphere
 from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.trace import TraceJob, Tracer
+from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.arguments.image import BLOCK
 from lucida.renderer.trace.bvh import instances
 from lucida.renderer.trace.threads.thread_pool import Team
@@ -35,13 +32,22 @@ HANG_S = 60  # a failure, not a measurement
 class Gate:
     """Holds up the building of a mesh's tree. ends: how each one that was held up has ended."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(self, monkeypatch):
         self.reached, self.opened = threading.Event(), threading.Event()
         self.ends: list[str] = []
         self.build = instances.tree_of_mesh
-        monkeypatch.setattr(instances, "tree_of_mesh", self)
+        self.monkeypatch = monkeypatch
 
-    def __call__(self, *arguments: Any) -> Any:
+    def hold(self, tracer, scene):
+        """Draw an image; then return a job that waits for the tree of another scene."""
+        tracer.render(FRONT, SMALL)
+        self.monkeypatch.setattr(instances, "tree_of_mesh", self)
+        tracer.set_scene(scene)
+        job = tracer.start(FRONT, SMALL)
+        assert self.reached.wait(HANG_S)
+        return job
+
+    def __call__(self, *arguments):
         self.reached.set()
         assert self.opened.wait(HANG_S)
         self.ends.append("given up")
@@ -50,25 +56,24 @@ class Gate:
         return tree
 
 
-def one_triangle(depth: float) -> Scene:
+@pytest.fixture
+def gate(monkeypatch):
+    return Gate(monkeypatch)
+
+
+def one_triangle(depth):
     vertices = np.array([[-9, -9, depth], [9, -9, depth], [0, 20, depth]], float)
     return scene_of(Mesh(vertices, np.array([[0, 1, 2]])))
 
 
-def nearest(frame: Frame) -> float:
+def nearest(frame):
     """The distance from the eye of the nearest hit, along the view's direction."""
     return float(frame.channel("depth").min()) * FRONT.distance
 
 
-def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(gate):
     with Tracer(scene_of(Sphere())) as tracer:
-        tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        tracer.set_scene(one_triangle(1.0))
-        first = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        first = gate.hold(tracer, one_triangle(1.0))
         first.cancel()
         assert not first.result().complete  # at once
         tracer.set_scene(scene_of(Sphere(radius=0.5)))
@@ -83,21 +88,15 @@ def test_building_for_a_scene_that_nobody_wants_any_more_is_given_up(
 
 
 @pytest.mark.parametrize("fails", [False, True])
-def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(
-    monkeypatch: pytest.MonkeyPatch, fails: bool
-) -> None:
+def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(gate, fails):
     """Preparing another scene is given up, or fails. The one before is prepared again."""
     before = one_triangle(0.5)
     with Tracer(before) as tracer:
         wanted = tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        other = one_triangle(2.0)
-        tracer.set_scene(replace(other, ambient=(0.9, 0.1, 0.1), background=(0.2, 0.9, 0.2)))
-        first = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        colors = {"ambient": (0.9, 0.1, 0.1), "background": (0.2, 0.9, 0.2)}
+        first = gate.hold(tracer, replace(one_triangle(2.0), **colors))
         if fails:
-            build = gate.build
-            monkeypatch.setattr(gate, "build", None)  # calling it raises
+            build, gate.build = gate.build, None  # calling it raises
         else:
             first.cancel()
         tracer.set_scene(before)
@@ -111,15 +110,9 @@ def test_after_a_scene_that_was_not_finished_the_one_before_is_drawn_as_before(
         assert gate.ends[:1] == ["given up"]
 
 
-def test_building_goes_on_for_another_image_of_the_same_scene(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_building_goes_on_for_another_image_of_the_same_scene(gate):
     with Tracer(scene_of(Sphere())) as tracer:
-        tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        tracer.set_scene(one_triangle(1.0))
-        first = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        first = gate.hold(tracer, one_triangle(1.0))
         first.cancel()
         second = tracer.start(FRONT, SMALL)
         gate.opened.set()
@@ -127,13 +120,9 @@ def test_building_goes_on_for_another_image_of_the_same_scene(
         assert gate.ends == ["built"]
 
 
-def test_closing_gives_up_building(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_closing_gives_up_building(gate):
     tracer = Tracer(scene_of(Sphere()))
-    tracer.render(FRONT, SMALL)
-    gate = Gate(monkeypatch)
-    tracer.set_scene(one_triangle(1.0))
-    job = tracer.start(FRONT, SMALL)
-    assert gate.reached.wait(HANG_S)
+    job = gate.hold(tracer, one_triangle(1.0))
     closing = threading.Thread(target=tracer.close)
     closing.start()
     assert not job.result().complete  # at once
@@ -142,15 +131,9 @@ def test_closing_gives_up_building(monkeypatch: pytest.MonkeyPatch) -> None:
     assert gate.ends == ["given up"]
 
 
-def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(gate):
     with Tracer(scene_of(Sphere())) as tracer:
-        tracer.render(FRONT, SMALL)
-        gate = Gate(monkeypatch)
-        tracer.set_scene(one_triangle(1.0))
-        busy = tracer.start(FRONT, SMALL)
-        assert gate.reached.wait(HANG_S)
+        busy = gate.hold(tracer, one_triangle(1.0))
         tracer.set_scene(scene_of(Sphere(radius=0.5)))
         waiting = tracer.start(FRONT, SMALL)
         waiting.cancel()
@@ -160,27 +143,27 @@ def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
         assert nearest(wanted.result()) == pytest.approx(4.5, rel=1e-3)
 
 
-def slow_scene() -> Scene:
+def slow_scene():
     """Each ray tries all of 5000 equal triangles: an image of LARGE takes minutes."""
     vertices = np.array([[-9, -9, 0], [9, -9, 0], [0, 20, 0]], float)
     return scene_of(Mesh(vertices, np.tile([0, 1, 2], (5000, 1))))
 
 
 @pytest.fixture(scope="module")
-def slow() -> Iterator[Tracer]:
+def slow():
     with Tracer(slow_scene(), threads=2, method="reference") as tracer:
         tracer.render(FRONT, (1, 1))
         yield tracer
 
 
-def wait_until_tracing(job: TraceJob) -> None:
+def wait_until_tracing(job):
     deadline = time.monotonic() + HANG_S
     while job.progress == 0 and time.monotonic() < deadline:
         time.sleep(0.001)
     assert 0 < job.progress < 1
 
 
-def test_a_cancelled_job_gives_what_it_has(slow: Tracer) -> None:
+def test_a_cancelled_job_gives_what_it_has(slow):
     job = slow.start(FRONT, LARGE, ("color", "depth", "normal", "id", "primitive"))
     wait_until_tracing(job)
     assert not job.done
@@ -202,7 +185,7 @@ def test_a_cancelled_job_gives_what_it_has(slow: Tracer) -> None:
     assert np.isfinite(frame.depth[~missed]).all()
 
 
-def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow: Tracer) -> None:
+def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow):
     first = slow.start(FRONT, LARGE, ("depth",))
     second = slow.start(FRONT, SMALL)
     third = slow.start(FRONT, (8, 8))
@@ -218,7 +201,7 @@ def test_jobs_wait_for_one_another_and_can_be_cancelled_while_waiting(slow: Trac
     assert third.result().complete
 
 
-def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow: Tracer) -> None:
+def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow):
     job = slow.start(FRONT, LARGE)
     job.cancel()
     job.cancel()
@@ -230,11 +213,11 @@ def test_a_cancelled_job_stays_cancelled_and_the_tracer_goes_on(slow: Tracer) ->
     assert done.result().complete
 
 
-def test_progress_rises_to_one(slow: Tracer) -> None:
-    seen: list[float] = []
+def test_progress_rises_to_one(slow):
+    seen = []
     threads = set()
 
-    def progress(fraction: float) -> None:
+    def progress(fraction):
         seen.append(fraction)
         threads.add(threading.current_thread())
 
@@ -247,8 +230,8 @@ def test_progress_rises_to_one(slow: Tracer) -> None:
     assert threads == {threading.current_thread()}
 
 
-def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
-    def progress(fraction: float) -> None:
+def test_an_exception_in_progress_cancels(slow):
+    def progress(fraction):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -256,7 +239,7 @@ def test_an_exception_in_progress_cancels(slow: Tracer) -> None:
     assert slow.render(FRONT, (4, 4)).complete  # not after minutes
 
 
-def test_closing_cancels_and_ends_the_threads() -> None:
+def test_closing_cancels_and_ends_the_threads():
     before = threading.active_count()
     tracer = Tracer(slow_scene(), threads=3, method="reference")
     jobs = [tracer.start(FRONT, LARGE) for _ in range(3)]
@@ -270,7 +253,7 @@ def test_closing_cancels_and_ends_the_threads() -> None:
         tracer.start(FRONT, SMALL)
 
 
-def test_a_dropped_tracer_ends_its_threads() -> None:
+def test_a_dropped_tracer_ends_its_threads():
     before = set(threading.enumerate())
     tracer = Tracer(slow_scene(), threads=2, method="reference")
     job = tracer.start(FRONT, LARGE)
@@ -290,7 +273,7 @@ def test_a_dropped_tracer_ends_its_threads() -> None:
         assert not thread.is_alive()
 
 
-def test_several_tracers_at_once() -> None:
+def test_several_tracers_at_once():
     scenes = [scene_of(Sphere((0, 0, z), 1.0)) for z in (-4.0, -2.0, 0.0, 1.0)]
     tracers = [Tracer(scene, threads=2) for scene in scenes]
     jobs = [tracer.start(FRONT, (63, 65), ("depth",)) for _ in range(5) for tracer in tracers]
@@ -305,7 +288,7 @@ def test_several_tracers_at_once() -> None:
         tracer.close()
 
 
-def test_the_image_does_not_depend_on_the_threads() -> None:
+def test_the_image_does_not_depend_on_the_threads():
     frames = []
     for threads in (1, 2, 5):
         with Tracer(scene_of(Sphere(), Sphere((1, 1, 1), 0.5)), threads) as tracer:
@@ -316,22 +299,22 @@ def test_the_image_does_not_depend_on_the_threads() -> None:
         )
 
 
-def test_an_error_in_the_team_reaches_the_caller() -> None:
+def test_an_error_in_the_team_reaches_the_caller():
     team = Team(3)
 
-    def fail() -> None:
+    def fail():
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
         team.run(fail)
-    calls: list[int] = []
+    calls = []
     team.run(calls.append, 1)
     team.run(calls.append, 1, size=2)
     assert len(calls) == 5
     team.close()
 
 
-def test_the_interpreter_exits_while_jobs_run() -> None:
+def test_the_interpreter_exits_while_jobs_run():
     script = """
 import sys, time
 from test_trace_jobs import FRONT, LARGE, slow_scene

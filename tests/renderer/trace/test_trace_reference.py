@@ -1,7 +1,5 @@
 """Random scenes seen by random cameras: every channel against the float64 reference."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from trace_reference import cast, closest, kernel_rays, random_camera, random_scene, shaded, tree_of
@@ -15,7 +13,7 @@ SIZE = (37, 29)
 
 
 @pytest.mark.parametrize("seed", range(24))
-def test_images_match_the_reference(seed: int) -> None:
+def test_images_match_the_reference(seed):
     random = np.random.default_rng(seed)
     scene, camera = random_scene(random), random_camera(random, near_far=seed % 3 == 0)
     flat = flatten(scene)
@@ -38,7 +36,7 @@ def test_images_match_the_reference(seed: int) -> None:
     assert np.isfinite(frame.color).all()
 
 
-def test_rays_are_the_cameras_to_the_last_bit() -> None:
+def test_rays_are_the_cameras_to_the_last_bit():
     random = np.random.default_rng(5)
     for _ in range(20):
         camera = random_camera(random)
@@ -48,7 +46,7 @@ def test_rays_are_the_cameras_to_the_last_bit() -> None:
         assert np.array_equal(direction, want.direction)
 
 
-def test_hits_lie_within_the_range_that_counts() -> None:
+def test_hits_lie_within_the_range_that_counts():
     random = np.random.default_rng(6)
     flat = flatten(random_scene(random))
     origins, directions = random.normal(size=(2, 4000, 3)) * 3

@@ -20,10 +20,10 @@ CAMERA = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=30, aspect=4 / 3)
 class Recorder:
     """Draws images whose colour is the camera's shift, in pixels."""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.asked: list[tuple[str, ...]] = []
 
-    def __call__(self, camera, size, channels, progress) -> Frame:
+    def __call__(self, camera, size, channels, progress):
         self.asked.append(channels)
         left, right, bottom, top = camera.viewport
         columns = (left - CAMERA.viewport[0]) / (right - left) * size[0]
@@ -38,7 +38,7 @@ class Recorder:
 
 
 @pytest.mark.parametrize("samples", [0, -1, 2, 3, 8, 65, 81, 100, 4.0, "4", None, True])
-def test_only_squares_up_to_64(samples: object) -> None:
+def test_only_squares_up_to_64(samples):
     if samples is True:
         assert check_samples(samples) == 1
         return
@@ -47,7 +47,7 @@ def test_only_squares_up_to_64(samples: object) -> None:
 
 
 @pytest.mark.parametrize("k", range(1, 9))
-def test_the_grid_is_regular_and_centred(k: int) -> None:
+def test_the_grid_is_regular_and_centred(k):
     places = np.array(offsets(check_samples(np.int64(k * k)))).reshape(k, k, 2)
     want = (np.arange(k) + 0.5) / k - 0.5
     np.testing.assert_allclose(places[..., 0], np.broadcast_to(want[:, None], (k, k)), atol=1e-15)
@@ -56,7 +56,7 @@ def test_the_grid_is_regular_and_centred(k: int) -> None:
 
 
 @pytest.mark.parametrize("samples", [1, 4, 9, 16])
-def test_the_colour_is_the_mean_and_the_rest_the_centres(samples: int) -> None:
+def test_the_colour_is_the_mean_and_the_rest_the_centres(samples):
     draw, seen = Recorder(), []
     frame = supersampled(draw, CAMERA, SIZE, ("color", "depth"), samples, seen.append)
     np.testing.assert_allclose(
@@ -70,14 +70,14 @@ def test_the_colour_is_the_mean_and_the_rest_the_centres(samples: int) -> None:
     assert seen[-1] == 1
 
 
-def test_without_colour_one_image_is_enough() -> None:
+def test_without_colour_one_image_is_enough():
     draw = Recorder()
     frame = supersampled(draw, CAMERA, SIZE, ("depth",), 64)
     assert draw.asked == [("depth",)]
     assert frame.color is None
 
 
-def test_a_half_covered_pixel_is_half_bright() -> None:
+def test_a_half_covered_pixel_is_half_bright():
     vertices = np.array([[-5, -5, 0], [0.125, -5, 0], [0.125, 5, 0], [-5, 5, 0]])
     quad = Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
     scene = Scene((SceneObject(quad, Material((1, 1, 1))),), ambient=(1, 1, 1))

@@ -1,7 +1,5 @@
 """Single shapes whose image is known, and scenes at the limits."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -10,7 +8,6 @@ import pytest
 from trace_reference import cast, scene_of, tree_of
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
@@ -23,14 +20,12 @@ FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
 QUAD = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
 
 
-def quad(scale: float = 1.0, z: float = 0.0) -> Mesh:
+def quad(scale=1.0, z=0.0):
     vertices = np.array(QUAD, float) * scale + (0, 0, z)
     return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
 
 
-def draw(
-    scene: Scene, camera: Camera = FRONT, size: tuple[int, int] = (48, 48), method="packets"
-) -> Frame:
+def draw(scene, camera=FRONT, size=(48, 48), method="packets"):
     with Tracer(scene, threads=2, method=method) as tracer:
         frame = tracer.render(camera, size, ALL)
     assert frame.complete
@@ -44,7 +39,7 @@ def draw(
 
 
 @pytest.mark.parametrize("faces", [[(0, 1, 2)], [(0, 1, 2), (1, 3, 2)]])
-def test_weights_are_those_of_the_triangle_the_object_and_the_image(faces) -> None:
+def test_weights_are_those_of_the_triangle_the_object_and_the_image(faces):
     """Nothing of the triangle before is kept: a tile holds a mesh twice, and is seen from one
     camera after the other.
     """
@@ -63,7 +58,7 @@ def test_weights_are_those_of_the_triangle_the_object_and_the_image(faces) -> No
             np.testing.assert_allclose(image.color[same], expected.color[same], atol=1e-5)
 
 
-def test_nothing_is_hit_in_an_empty_scene() -> None:
+def test_nothing_is_hit_in_an_empty_scene():
     frame = draw(Scene((), background=(0.25, 0.5, 0.75)))
     assert (frame.color == np.float32([0.25, 0.5, 0.75])).all()
     assert np.isinf(frame.depth).all()
@@ -71,7 +66,7 @@ def test_nothing_is_hit_in_an_empty_scene() -> None:
     assert (frame.primitive == -1).all()
 
 
-def test_near_and_far_cut_by_the_parameter() -> None:
+def test_near_and_far_cut_by_the_parameter():
     scene = scene_of(quad(1, 0), Sphere((0, 0, -2), 0.5))
     camera = Camera((0, 0, 5), distance=2, viewport=(-0.1, 0.1, -0.1, 0.1))
     for near, far, want in (
@@ -90,7 +85,7 @@ def test_near_and_far_cut_by_the_parameter() -> None:
         assert draw(scene, cut, (1, 1)).depth[0, 0] == pytest.approx(want, rel=1e-6)
 
 
-def test_rays_that_touch_a_sphere() -> None:
+def test_rays_that_touch_a_sphere():
     camera = Camera((0, 0, 5), viewport=(0.5, 1.5, -0.5, 0.5), projection="parallel")
     for method in METHODS:
         frame = draw(scene_of(Sphere()), camera, (1, 1), method)
@@ -103,7 +98,7 @@ def test_rays_that_touch_a_sphere() -> None:
     assert (draw(scene_of(Sphere()), outwards).id == -1).all()
 
 
-def test_triangles_without_area_are_never_hit() -> None:
+def test_triangles_without_area_are_never_hit():
     vertices = [[0, 0, 0], [1, 1, 0], [2, 2, 0], [-1, 0, 0], [-1, 0, 0], [-1, 2, 0]]
     faces = [[0, 1, 2], [3, 4, 5], [0, 0, 0]]
     mesh = Mesh(np.array(vertices, float), np.array(faces))
@@ -117,7 +112,7 @@ def test_triangles_without_area_are_never_hit() -> None:
     assert (draw(both, FRONT).id == 1).any()
 
 
-def test_rays_that_run_in_the_faces_of_boxes() -> None:
+def test_rays_that_run_in_the_faces_of_boxes():
     # Axis-parallel rays, from origins on the planes of the triangles' bounding boxes.
     flat = flatten(scene_of(quad(1, 0), quad(1, -1), Sphere((0, 0, -4), 1.0)))
     grid = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
@@ -134,7 +129,7 @@ def test_rays_that_run_in_the_faces_of_boxes() -> None:
 
 @pytest.mark.parametrize("eye", [1e6, 1e9, 1e12])
 @pytest.mark.parametrize("radius", [1e-9, 1e-3, 1e9])
-def test_sizes_beyond_precision_give_no_nan(eye: float, radius: float) -> None:
+def test_sizes_beyond_precision_give_no_nan(eye, radius):
     shapes = Sphere((1, 0, 0), radius), Sphere((0, 0, 0), radius), quad(radius, 0)
     for projection in ("perspective", "parallel"):
         edge = 1e-12 * eye
@@ -142,7 +137,7 @@ def test_sizes_beyond_precision_give_no_nan(eye: float, radius: float) -> None:
         draw(scene_of(*shapes, material=Material(checker=Checker())), camera, (9, 9))
 
 
-def test_a_checkers_face_on_a_cells_border_stays_one_cell() -> None:
+def test_a_checkers_face_on_a_cells_border_stays_one_cell():
     checker = Material((1, 1, 1), checker=Checker((0, 0, 0), 1.0))
     scene = Scene((SceneObject(quad(2, 0.5), checker),), ambient=(1, 1, 1))
     camera = Camera((0, 0, 3), viewport=(-2, 2, -2, 2), projection="parallel")
@@ -152,12 +147,12 @@ def test_a_checkers_face_on_a_cells_border_stays_one_cell() -> None:
     assert np.array_equal(color, 1 - odd)
 
 
-def test_of_equally_near_faces_the_first_is_seen() -> None:
+def test_of_equally_near_faces_the_first_is_seen():
     frame = draw(scene_of(quad(1, 0), quad(1, 0)), method="reference")
     assert set(np.unique(frame.id)) == {-1, 0}
 
 
-def test_mistakes_are_told() -> None:
+def test_mistakes_are_told():
     with pytest.raises(LucidaError, match="threads: 0 is not in"):
         Tracer(scene_of(quad()), threads=0)
     with Tracer(scene_of(quad())) as tracer:

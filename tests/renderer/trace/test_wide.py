@@ -1,7 +1,5 @@
 """The wide tree and the two levels: every triangle once, inside its boxes; what moves, moves."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 
@@ -17,7 +15,6 @@ from lucida.renderer.trace.bvh.bvh16 import (
     FIRST_LEAF,
     NO_CHILD,
     WIDTH,
-    WideTree,
     collapse,
     tree_of_boxes,
     tree_of_mesh,
@@ -26,7 +23,7 @@ from lucida.renderer.trace.bvh.instances import Instances
 from lucida.renderer.trace.threads.thread_pool import Team
 
 
-def wide(mesh: Mesh, threads: int = 2) -> WideTree:
+def wide(mesh, threads=2):
     team = Team(threads)
     try:
         return tree_of_mesh(mesh.vertices, mesh.faces, team)
@@ -34,19 +31,19 @@ def wide(mesh: Mesh, threads: int = 2) -> WideTree:
         team.close()
 
 
-def top_bounds(instances: Instances) -> np.ndarray:
+def top_bounds(instances):
     """Return the bounds of the upper tree, in the world."""
     return instances.bounds[-1] + instances.world_from_space[-1, :3, 3]
 
 
-def shards(count: int, seed: int = 1) -> Mesh:
+def shards(count, seed=1):
     random = np.random.default_rng(seed)
     corners = random.uniform(-1, 1, (count, 1, 3)) + random.normal(scale=0.03, size=(count, 3, 3))
     return Mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
 
 
 @pytest.mark.parametrize("count", [1, 2, 16, 17, 300, 20_000])
-def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
+def test_each_triangle_is_in_one_leaf_within_its_boxes(count):
     mesh = shards(count)
     tree = wide(mesh)
     face, child = tree.face.reshape(-1, WIDTH), tree.child.reshape(-1, WIDTH)
@@ -55,7 +52,7 @@ def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
     seen_leaves = []
     deepest = 0
 
-    def visit(node: int, low: np.ndarray, high: np.ndarray, level: int) -> None:
+    def visit(node, low, high, level):
         nonlocal deepest
         deepest = max(deepest, level)
         for lane in np.flatnonzero(child[node] != NO_CHILD):
@@ -80,7 +77,7 @@ def test_each_triangle_is_in_one_leaf_within_its_boxes(count: int) -> None:
     assert deepest == tree.levels
 
 
-def test_normals_are_those_of_the_winding() -> None:
+def test_normals_are_those_of_the_winding():
     mesh = ball()
     tree = wide(mesh)
     used = tree.face >= 0
@@ -92,7 +89,7 @@ def test_normals_are_those_of_the_winding() -> None:
     assert not normal[lengths == 0].any()
 
 
-def test_a_triangle_takes_at_most_120_bytes() -> None:
+def test_a_triangle_takes_at_most_120_bytes():
     mesh = shards(100_000)
     tree = wide(mesh)
     size_bytes = sum(array.nbytes for array in tree if isinstance(array, np.ndarray))
@@ -101,18 +98,18 @@ def test_a_triangle_takes_at_most_120_bytes() -> None:
 
 
 @pytest.mark.parametrize("count", [300, 4000])
-def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> None:
+def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count):
     mesh, team = shards(count), Team(2)
     no_spheres = np.zeros((0, 4), np.float32)
     binary = build(mesh.vertices, mesh.faces, no_spheres, team, leaf_size=WIDTH)
     team.close()
 
-    def surface(low: np.ndarray, high: np.ndarray) -> float:
+    def surface(low, high):
         x, y, z = high.astype(float) - low
         return float(x * y + y * z + z * x)
 
     @cache
-    def least(node: int, slots: int) -> float:
+    def least(node, slots):
         """The surface of all wide nodes below a binary node that has so many slots above it."""
         first, size = binary.links[node]
         if size:
@@ -121,7 +118,7 @@ def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> N
         return alone if slots == 1 else min(alone, opened(first, slots))
 
     @cache
-    def opened(first: int, slots: int) -> float:
+    def opened(first, slots):
         return min(least(first, k) + least(first + 1, slots - k) for k in range(1, slots))
 
     box, child, _, _ = collapse(binary)
@@ -131,7 +128,7 @@ def test_nodes_have_the_least_surface_that_a_binary_tree_allows(count: int) -> N
 
 
 @pytest.mark.parametrize("count", [1, 40, 3000])
-def test_boxes_are_leaves_of_one(count: int) -> None:
+def test_boxes_are_leaves_of_one(count):
     random = np.random.default_rng(2)
     low = random.uniform(-1, 1, (count, 3)).astype(np.float32)
     high = low + random.uniform(0, 0.1, (count, 3)).astype(np.float32)
@@ -145,11 +142,11 @@ def test_boxes_are_leaves_of_one(count: int) -> None:
     assert np.array_equal(found, np.concatenate([low[item], high[item]], axis=1))
 
 
-def scene_of(*shapes: Mesh | Sphere) -> Scene:
+def scene_of(*shapes):
     return Scene(tuple(SceneObject(shape) for shape in shapes))
 
 
-def placed(mesh: Mesh, x: float) -> Mesh:
+def placed(mesh, x):
     """The same arrays elsewhere."""
     transform = np.eye(4)
     transform[0, 3] = x
@@ -159,7 +156,7 @@ def placed(mesh: Mesh, x: float) -> Mesh:
     return moved
 
 
-def test_objects_share_the_tree_of_a_shared_mesh() -> None:
+def test_objects_share_the_tree_of_a_shared_mesh():
     mesh, other = ball(), shards(50)
     scene = scene_of(mesh, placed(mesh, 3), Sphere((9, 0, 0)), other, placed(mesh, -3))
     team = Team(1)

@@ -1,7 +1,5 @@
 """Files that earlier versions wrote are still read. One folder for each version that wrote them."""
 
-from __future__ import annotations
-
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 
@@ -137,7 +135,7 @@ def test_a_session_reports_removed_options_that_were_in_use_and_no_others():
 
 def test_no_removed_key_is_a_present_one():
     for path in removed.REMOVED:
-        kind: type = Options
+        kind = Options
         *parts, last = path.split(".")
         for part in parts:
             kind = next(f.default_factory for f in fields(kind) if f.name == part)

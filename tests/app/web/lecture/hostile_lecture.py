@@ -1,10 +1,5 @@
 """A lecture whose texts try to be more than texts, in every place that a page shows."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
-from lucida.app.lecture.model import Lecture
 from lucida.app.lecture.reading import lecture_from_toml
 
 CALL = "window.hurt = true"
@@ -74,7 +69,7 @@ FORMULAS = (
 )
 
 
-def hostile_lecture(folder: Path) -> Lecture:
+def hostile_lecture(folder):
     """Return a lecture of one step for each text and each formula."""
     steps = [_step(text, text.replace("`", "").replace("$", r"\$")) for text in TEXTS]
     steps += [_step("A formula", f"${latex}$") for latex in FORMULAS if _is_balanced(latex)]
@@ -82,11 +77,11 @@ def hostile_lecture(folder: Path) -> Lecture:
     return lecture_from_toml("\n".join(lines), folder, "hostile.toml")
 
 
-def _is_balanced(latex: str) -> bool:
+def _is_balanced(latex):
     return latex.count("{") == latex.count("}")
 
 
-def _step(name: str, text: str) -> str:
+def _step(name, text):
     shown = _quoted(text)
     title = _quoted(name.replace("\n", " "))
     return f"""
@@ -103,7 +98,7 @@ exercise.answers = [
 """
 
 
-def _quoted(text: str) -> str:
+def _quoted(text):
     """Return a text as TOML's basic string."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'

@@ -1,7 +1,5 @@
 """A lecture as a page, in a browser: keys, answers, prints; hostile texts; axe."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path
@@ -63,15 +61,15 @@ def opened(browser, written):
     assert said == []
 
 
-def _is_remote(url: str) -> bool:
+def _is_remote(url):
     return not url.startswith(("file:", "data:", "blob:"))
 
 
-def place(tab) -> str:
+def place(tab):
     return tab.inner_text("#place")
 
 
-def go(tab, number: int) -> None:
+def go(tab, number):
     tab.evaluate(f"location.hash = '#{number}'")
     tab.get_by_text(f"{number} / {len(TITLES)}", exact=True).wait_for()
 
@@ -103,7 +101,7 @@ def test_keys_walk_all_builds(opened, written):
     assert opened.evaluate("scrollY") == 0  # an address does not hide the bar
 
 
-def try_it(tab) -> None:
+def try_it(tab):
     tab.locator(".current .try summary").click()
 
 
@@ -128,7 +126,7 @@ def test_swipes_and_typed_numbers_go_to_builds(opened):
 
     finger = opened.context.new_cdp_session(opened)
 
-    def swipe(*way: tuple[int, int], to: str) -> None:
+    def swipe(*way, to):
         moves = [("touchMove", [one]) for one in way[1:]]
         for kind, points in (("touchStart", way[:1]), *moves, ("touchEnd", ())):
             touches = [{"x": x, "y": y} for x, y in points]

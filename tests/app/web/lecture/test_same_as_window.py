@@ -1,10 +1,7 @@
 """A lecture's page shows what the window shows: builds, cameras, rays, marked pixels, drawings."""
 
-from __future__ import annotations
-
 import json
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from html import unescape
 from itertools import zip_longest
@@ -17,16 +14,13 @@ from lucida.app.images.request import MIRROR_DEPTH
 from lucida.app.instruments.laboratory.looks import look_of
 from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.pages import drawn
-from lucida.app.instruments.outside.figure import Figure, Inset, Label
+from lucida.app.instruments.outside.figure import Inset, Label
 from lucida.app.lecture.exercises import ChoiceExercise
 from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.model import Lecture, Step
-from lucida.app.state.app_state import AppState
 from lucida.app.ui.explaining.notation import text_tuple
 from lucida.app.ui.palettes import PRESENTED_DARK
 from lucida.app.web.lecture.page import Still, page
 from lucida.app.window.start import first_state
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.views import view_from_table
 
 GRAY = np.full((30, 40, 3), 128, np.uint8)
@@ -39,25 +33,25 @@ Said = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
-def html(lecture: Lecture) -> str:
+def html(lecture):
     return page(lecture, [stills(build, state_of(lecture, build)) for build in lecture.builds])
 
 
 @pytest.fixture(scope="module")
-def shown(lecture: Lecture) -> list[Said]:
+def shown(lecture):
     return [*window_says(lecture)]
 
 
-def state_of(lecture: Lecture, build: Step) -> AppState:
+def state_of(lecture, build):
     return first_state(lecture, (build.number, build.build))
 
 
-def stills(build: Step, state: AppState) -> list[Still]:
+def stills(build, state):
     given = (page_of(state), page_of(state)) if build.views == ("laboratory",) else None
     return [Still(view, GRAY, given) for view in build.views]
 
 
-def page_of(state: AppState) -> Page:
+def page_of(state):
     options, look = state.options.laboratory, look_of(PRESENTED_DARK)
     size = state.images.resolution or (64, 48)
     color = np.zeros((size[1], size[0], 3), np.float32)
@@ -65,20 +59,20 @@ def page_of(state: AppState) -> Page:
     return Page((640, 480), look, options, color, taken_ev, options.point, notation)
 
 
-def labels_of(figure: Figure) -> Iterator[str]:
+def labels_of(figure):
     insets = [part.figure for part in figure.parts if isinstance(part, Inset)]
     yield from (part.text for part in figure.parts if isinstance(part, Label))
     for inset in insets:
         yield from labels_of(inset)
 
 
-def numbers_of(camera: Camera) -> tuple[Camera, dict[str, float]]:
+def numbers_of(camera):
     """Return a camera without its lens, and what that distorts: a page names all of its numbers."""
     lens = camera.lens.coefficients if camera.lens else {}
     return replace(camera, lens=None), {name: value for name, value in lens.items() if value}
 
 
-def window_says(lecture: Lecture) -> Iterator[Said]:
+def window_says(lecture):
     """Yield what the window shows in each build."""
     for build in lecture.builds:
         state = state_of(lecture, build)
@@ -111,17 +105,17 @@ def window_says(lecture: Lecture) -> Iterator[Said]:
         }
 
 
-def page_says(html: str) -> Iterator[Said]:
+def page_says(html):
     """Yield what a page shows in each build; the camera and what follows, of a live figure only."""
-    data = json.loads(DATA.search(html)[0])  # type: ignore[index]
+    data = json.loads(DATA.search(html)[0])
     for match in SECTION.finditer(html):
         name, section = match[1], match[0]
         texts = re.findall(r'(?:alt|aria-label)="([^"]*)"', section)
         drawings = re.findall(r"<svg viewBox.*?</svg>\s*<figcaption", section, re.DOTALL)
         words = re.findall(r"<text[^>]*>(.*?)</text>", "".join(drawings))
-        said: Said = {
+        said = {
             "name": name,
-            "title": unescape(re.search(r"<h2[^>]*>(.*?)</h2>", section)[1]),  # type: ignore[index]
+            "title": unescape(re.search(r"<h2[^>]*>(.*?)</h2>", section)[1]),
             "views": re.findall(r'<figure class="view of-([\w-]+)', section.replace(" still", "")),
             "rays": [ray.groups() for text in texts if (ray := RAY.search(unescape(text)))],
             "labels": sorted({unescape(re.sub(r"<.*?>", "", word)) for word in words}),
@@ -143,7 +137,7 @@ def page_says(html: str) -> Iterator[Said]:
         yield said
 
 
-def differences(shown: list[Said], html: str) -> list[str]:
+def differences(shown, html):
     """Return what a page shows otherwise than the window. shown: there."""
     found = []
     for wanted, said in zip_longest(shown, page_says(html), fillvalue={}):
@@ -157,5 +151,5 @@ def differences(shown: list[Said], html: str) -> list[str]:
     return found
 
 
-def test_the_page_shows_what_the_window_shows(shown: list[Said], html: str) -> None:
+def test_the_page_shows_what_the_window_shows(shown, html):
     assert differences(shown, html) == []

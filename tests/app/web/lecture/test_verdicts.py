@@ -1,7 +1,5 @@
 """A lecture's page in a browser has the program's verdicts on answers."""
 
-from __future__ import annotations
-
 import random
 
 import numpy as np
@@ -22,17 +20,17 @@ ODD = (
 ANSWERS, PLACES = 250, 12  # of each exercise
 
 
-def _typed(rng: random.Random, value: float) -> str:
+def _typed(rng, value):
     forms = (repr(value), f"{value:.3g}", f"({value!r})", f"{8 * value!r}/8", f"-({-value!r})")
     return rng.choice(ODD) if rng.random() < 0.05 else rng.choice(forms)
 
 
-def _vector(rng: random.Random, values) -> str:
+def _vector(rng, values):
     form = rng.choice(("({}, {}, {})", "{},{},{}", "{};{};{}", "[{}, {}, {}]", "{}  {} {}"))
     return form.format(*(_typed(rng, float(value)) for value in np.nan_to_num(values)))
 
 
-def _answers(rng: random.Random, task) -> dict[str, str]:
+def _answers(rng, task):
     """Return what a student may type: right, a classic mistake, longer, backwards, off by a bit."""
 
     def near(values):

@@ -1,11 +1,8 @@
 """Things that nobody does on purpose: windows without room, mistakes in a view, random events."""
 
-from __future__ import annotations
-
 import moderngl
 from imgui_bundle import imgui
-from option_changes import with_options
-from window_driver import SIZE, Driver
+from window_driver import SIZE
 
 from lucida.app.cameras.camera_panel.view import CAMERA
 from lucida.app.images.pair.view import RAY
@@ -13,28 +10,28 @@ from lucida.app.ui import layout
 from lucida.app.window.platform import set_size
 
 
-def resize(d: Driver, size: tuple[int, int]) -> None:
+def resize(d, size):
     """Resize the window, in its own thread, and wait until that is drawn."""
     callbacks = d.run.params.callbacks
 
-    def once() -> None:
+    def once():
         callbacks.post_new_frame = lambda: None
         set_size(size)
 
     callbacks.post_new_frame = once
     d.until(lambda: tuple(imgui.get_io().display_size) == size)
-    d.ctx.yield_(2)
+    d.frames(2)
 
 
-def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
-    stage = d.window.shell.stage
+def drive_no_view_fails_where_it_has_no_room(d):
+    stage = d.stage
     for size, scale in (((640, 480), 3.0), ((200, 900), 2.0), ((1600, 120), 1.0), ((16, 16), 1.0)):
-        d.window.change(with_options(d.window.state, preferences={"font_scale": scale}))
+        d.change(preferences={"font_scale": scale})
         resize(d, size)
         for one in layout.LAYOUTS:
             layout.switch(one.name)
-            d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
-            d.ctx.yield_(6)
+            d.until(lambda name=one.name: layout.current().name == name)
+            d.frames(6)
             assert not stage.failed.errors, (size, scale, one.name)
         d.settle()
     layout.switch(layout.LAYOUTS[0].name)
@@ -43,12 +40,12 @@ def drive_no_view_fails_where_it_has_no_room(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
-    stage = d.window.shell.stage
+def drive_a_mistake_in_a_view_is_told_in_its_place(d):
+    stage = d.stage
     view = stage.views[CAMERA]
     for error in (None, moderngl.Error("GLSL: 0:1: syntax error")):
 
-        def fail(_: object, error: Exception | None = error) -> None:
+        def fail(_, error=error):
             imgui.begin_child("half drawn")
             imgui.push_id("and more")
             if error is not None:
@@ -56,12 +53,12 @@ def drive_a_mistake_in_a_view_is_told_in_its_place(d: Driver) -> None:
             imgui.push_font(None, 30.0)
             imgui.push_font(None, -1.0)  # ImGui's assertions are exceptions
 
-        before = d.window.state
-        view.draw = fail  # type: ignore[method-assign]
+        before = d.state
+        view.draw = fail
         d.until(lambda: CAMERA in stage.failed.errors)
         d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
-        assert d.window.state != before
+        assert d.state != before
         del view.draw
-        d.ctx.item_click(f"//{CAMERA}/Try again")
+        d.click(f"//{CAMERA}/Try again")
         d.until(lambda: not stage.failed.errors)
     d.settle()

@@ -1,77 +1,74 @@
 """The camera panel: numbers dragged and typed."""
 
-from __future__ import annotations
-
-from window_driver import RASTER, SIZE, Driver, Key, changed
+from window_driver import RASTER, SIZE, Key, changed
 
 
-def drive_a_slider_is_dragged(d: Driver) -> None:
+def drive_a_slider_is_dragged(d):
     before = d.agreeing_images()
-    center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
+    center = d.box(d.field("w.x")).get_center()
     d.ctx.mouse_teleport_to_pos((center.x, center.y))
     d.ctx.mouse_down(0)
     seen = []
     for step in range(1, 30):
         d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
-        d.ctx.yield_()
-        image = d.window.renderers.ray_image
+        d.frames()
+        image = d.renderers.ray_image
         assert image is not None  # never nothing
-        assert d.window.renderers.ray_error is None
+        assert d.renderers.ray_error is None
         seen.append(image.request.camera.eye)
     d.ctx.mouse_up(0)
-    assert d.window.state.camera.w[0] > d.start.camera.w[0] + 0.05
+    assert d.state.camera.w[0] > d.start.camera.w[0] + 0.05
     after = d.agreeing_images()
     assert changed(before[0], after[0]) > 0.1
     assert changed(before[1], after[1]) > 0.1
-    assert len(d.window.history.past) == 1  # the whole drag
-    assert d.window.renderers.ray_image.factor == 1
+    assert d.steps == 1  # the whole drag
+    assert d.renderers.ray_image.factor == 1
 
 
 NOTE = "//###pending camera"
 
 
-def drive_a_number_that_is_not_legal_moves_nothing(d: Driver) -> None:
+def drive_a_number_that_is_not_legal_moves_nothing(d):
     """The buttons stay where they are, and one of them is a way out."""
     names = ("Scene's view", "Canonical", "Look at", "##eye.x", "##distance")
 
-    def places() -> list[tuple[float, float]]:
-        boxes = (d.ctx.item_info(f"//Camera/{name}").rect_full for name in names)
+    def places():
+        boxes = (d.box(f"//Camera/{name}") for name in names)
         return [(box.min.x, box.min.y) for box in boxes]
 
     before = places()
     d.type("left", "9")  # and right is smaller
     panel = d.window.views["Camera"]
     assert panel.has_pending
-    d.ctx.yield_(2)
+    d.frames(2)
     assert places() == before
     note = d.ctx.window_info(NOTE).rect_full
     box = d.ctx.window_info("//Camera").rect_full
     assert note.min.x >= box.max.x or note.max.x <= box.min.x, "it hides numbers"
     assert note.max.x <= SIZE[0]
     d.picture()
-    d.ctx.item_click("//Camera/Canonical")
-    d.ctx.yield_(2)
+    d.click("//Camera/Canonical")
     assert not panel.has_pending
-    assert d.window.state.camera.eye == (0, 0, 0)
+    assert d.state.camera.eye == (0, 0, 0)
     d.type("left", "9")
     assert panel.has_pending
-    d.ctx.item_click("//Camera/Canonical")  # where the camera is already
-    d.ctx.yield_(2)
+    d.click("//Camera/Canonical")  # where the camera is already
+    d.frames(2)
     assert not panel.has_pending
 
 
-def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
-    d.ctx.item_click("//Camera/keep orthonormal")
-    assert not d.window.state.keep_orthonormal
+def drive_a_singular_basis_is_told_and_survived(d):
+    d.click("//Camera/keep orthonormal")
+    assert not d.state.keep_orthonormal
     d.settle()
-    legal, before = d.window.state, d.images()
+    legal, before = d.state, d.images()
     for axis in "xyz":
         d.type(f"w.{axis}", "0")
     draft = d.window.views["Camera"].draft
     assert draft.error is not None
     assert draft.error.field == "w"
     assert "independent" in str(draft.error)
-    assert d.window.state.camera.w[2] == legal.camera.w[2]  # only the legal steps were taken
+    assert d.state.camera.w[2] == legal.camera.w[2]  # only the legal steps were taken
     assert d.ctx.item_exists(f"{NOTE}/Back to the camera shown")
     d.settle()
     # Beside the note, which stands over a part of the raster image, both agree.
@@ -80,31 +77,30 @@ def drive_a_singular_basis_is_told_and_survived(d: Driver) -> None:
     assert raster.std() > 5
     assert changed(raster, ray) < 0.002
     d.type("distance", "-1")
-    assert d.window.state.camera.distance == legal.camera.distance
+    assert d.state.camera.distance == legal.camera.distance
     d.type("right", "-5")
     assert d.window.views["Camera"].draft.error is not None
-    d.ctx.item_click(f"{NOTE}/Back to the camera shown")
+    d.click(f"{NOTE}/Back to the camera shown")
     d.type("w.x", "0.34567")
     d.type("w.y", "0.24567")
     for name in ("u", "v", "w"):
         d.type(f"{name}.z", "0")
     assert "lies in the plane" in str(d.window.views["Camera"].draft.error)  # the longest
-    d.ctx.yield_(2)
+    d.frames(2)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
-    d.ctx.item_click(f"{NOTE}/Back to the camera shown")
-    d.ctx.yield_(2)
+    d.click(f"{NOTE}/Back to the camera shown")
     assert d.window.views["Camera"].draft.error is None
-    assert d.window.views["Camera"].draft.camera == d.window.state.camera
-    while d.window.state != legal and d.window.can_undo():
-        d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))
+    assert d.window.views["Camera"].draft.camera == d.state.camera
+    while d.state != legal and d.window.can_undo():
+        d.press(Key.mod_ctrl | Key.z)
     d.settle()
-    assert d.window.state == legal
+    assert d.state == legal
     assert changed(before[0], d.images()[0]) == 0
 
 
-def drive_letters_typed_into_a_field_are_no_shortcuts(d: Driver) -> None:
+def drive_letters_typed_into_a_field_are_no_shortcuts(d):
     d.ctx.item_double_click(d.field("eye.y"))
     d.ctx.key_chars_replace("po")
-    d.ctx.key_press(int(Key.p))
-    d.ctx.key_press(int(Key.escape))
-    assert d.window.state == d.start
+    d.press(Key.p)
+    d.press(Key.escape)
+    assert d.state == d.start

@@ -1,15 +1,11 @@
 """Cameras of other programs in the window: copied, pasted, dropped, saved; scenes exported; K, R
 and t in the panel."""
 
-from __future__ import annotations
-
 import threading
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from imgui_bundle import imgui
-from window_driver import PATIENT_S, Driver, Key
+from window_driver import PATIENT_S, Key
 
 from lucida.app.window import exporting
 from lucida.renderer.camera.camera import Camera
@@ -18,97 +14,94 @@ from lucida.renderer.files import load_scene
 from lucida.renderer.files.cameras import PosedCamera, read_cameras, written
 from lucida.renderer.system.cancelling import check_cancelled
 
-CTRL = int(Key.mod_ctrl)
+CTRL = Key.mod_ctrl
 PANEL = "//Camera"
 SIZE = (64, 48)
 AIMED = Camera.look_at((3, 2, 5), (0, 0.5, 0), fov_y_deg=40, aspect=SIZE[0] / SIZE[1])
 LENS = '{"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}'
 
 
-def only_sections(d: Driver, *names: str) -> None:
+def only_sections(d, *names):
     for other in ("Look at", "K, R and t"):
         d.ctx.item_close(f"{PANEL}/{other}")
-    d.ctx.yield_(2)
+    d.frames(2)
     for wanted in names:
         d.ctx.item_open(f"{PANEL}/{wanted}")
-        d.ctx.yield_(2)
+        d.frames(2)
 
 
-def said(d: Driver) -> str:
+def said(d):
     texts = d.window.shell.toasts.texts
     return texts[-1] if texts else ""
 
 
-def answer(d: Driver, words: str) -> None:
-    d.ctx.item_click(f"//##message/{words}")
-    d.ctx.yield_(3)
+def answer(d, words):
+    d.click(f"//##message/{words}")
 
 
-def save_as(d: Driver, action: str, path: Path) -> None:
+def save_as(d, action, path):
     """Through the menu and the window's own dialog, until the file is there."""
-    d.ctx.menu_click(f"//##MainMenuBar/File/{action}")
-    d.ctx.yield_(2)
-    assert d.window.files.dialog.is_open
+    d.menu(f"File/{action}")
+    assert d.files.dialog.is_open
     d.ctx.key_chars_replace_enter(str(path))
-    d.until(lambda: path.exists() and not d.window.files.busy)
-    d.ctx.yield_(3)
+    d.until(lambda: path.exists() and not d.files.busy)
+    d.frames(3)
 
 
-def same_camera(one: Camera, other: Camera, size: tuple[int, int] = SIZE) -> bool:
+def same_camera(one, other, size=SIZE):
     points = np.random.default_rng(1).uniform(-1, 1, (9, 3))
     seen, wanted = one.project(points, size), other.project(points, size)
     return np.allclose(seen.row, wanted.row) and np.allclose(seen.column, wanted.column)
 
 
-def drive_a_camera_is_copied_and_pasted(d: Driver) -> None:
-    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
-    d.ctx.menu_click("//##MainMenuBar/Edit/Copy camera as/OpenCV")
-    d.ctx.yield_(2)
+def drive_a_camera_is_copied_and_pasted(d):
+    shown, size = d.renderers.camera(d.state), d.renderers.size
+    d.menu("Edit/Copy camera as/OpenCV")
     assert said(d).endswith("OpenCV.")
-    d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
-    d.press(CTRL | int(Key.v))
-    assert same_camera(d.window.renderers.camera(d.window.state), shown, size)
+    d.menu("Camera/Canonical camera")
+    d.press(CTRL | Key.v)
+    assert same_camera(d.renderers.camera(d.state), shown, size)
     assert "pasted from the clipboard: " in said(d)
 
 
-def drive_a_pasted_matrix_asks_for_its_meaning(d: Driver) -> None:
+def drive_a_pasted_matrix_asks_for_its_meaning(d):
     pose = np.linalg.inv(AIMED.camera_from_world) * (1, -1, -1, 1)
     imgui.set_clipboard_text(str(pose.tolist()))
-    d.press(CTRL | int(Key.v))
-    question = d.window.files.question
-    assert question is not None and len(question.answers) == 4
+    d.press(CTRL | Key.v)
+    question = d.files.question
+    assert len(question.answers) == 4
     d.picture()
     opencv = "camera to world, y down"
     answer(d, next(words for words in question.answers if opencv in words))
     d.until(lambda: not d.window.travelling)
-    assert np.allclose(d.window.state.camera.u, AIMED.u)
-    assert np.allclose(d.window.state.camera.eye, AIMED.eye)
-    assert len(d.window.history.past) == 1
+    assert np.allclose(d.state.camera.u, AIMED.u)
+    assert np.allclose(d.state.camera.eye, AIMED.eye)
+    assert d.steps == 1
 
 
-def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
+def drive_a_dropped_camera_is_taken_with_its_lens(d):
     plain, bent = d.folder / "plain.yml", d.folder / "bent.json"
     plain.write_bytes(written([PosedCamera(AIMED, SIZE)], "opencv")[""])
     bent.write_text(LENS)
     d.drop([str(plain)])
-    d.until(lambda: d.window.state.camera != d.start.camera)
-    d.ctx.yield_(3)
-    assert same_camera(d.window.state.camera, AIMED)
+    d.until(lambda: d.state.camera != d.start.camera)
+    d.frames(3)
+    assert same_camera(d.state.camera, AIMED)
     assert said(d).startswith("The camera is plain.yml's: OpenCV's K, R and t")
-    assert d.window.files.question is None
-    before = d.window.state
+    assert d.files.question is None
+    before = d.state
     d.drop([str(bent)])
-    d.until(lambda: d.window.state.camera != before.camera)
-    d.ctx.yield_(3)
-    assert d.window.state.camera.lens == Lens("brown", {"k1": 0.5})
+    d.until(lambda: d.state.camera != before.camera)
+    d.frames(3)
+    assert d.state.camera.lens == Lens("brown", {"k1": 0.5})
     assert said(d).startswith("The camera is bent.json's: ")
     # A glTF file of a camera alone, which ends as models do.
     path = d.folder / "alone.gltf"
     path.write_bytes(written([PosedCamera(AIMED, SIZE)], "gltf")[""])
     d.window.change(d.start)
     d.drop([str(path)])
-    d.until(lambda: same_camera(d.window.state.camera, AIMED))
-    d.ctx.yield_(3)
+    d.until(lambda: same_camera(d.state.camera, AIMED))
+    d.frames(3)
     assert said(d).startswith("The camera is alone.gltf's: ")
     d.window.change(d.start)
     # A folder of COLMAP with one image, and no points.
@@ -117,52 +110,50 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d: Driver) -> None:
     for name, data in written([PosedCamera(AIMED, SIZE)], "colmap").items():
         (folder / name).write_bytes(data)
     d.drop([str(folder)])
-    d.until(lambda: same_camera(d.window.state.camera, AIMED))
-    d.ctx.yield_(3)
+    d.until(lambda: same_camera(d.state.camera, AIMED))
+    d.frames(3)
     assert "COLMAP" in said(d)
 
 
-def drive_the_camera_is_saved_in_every_format(d: Driver) -> None:
-    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
+def drive_the_camera_is_saved_in_every_format(d):
+    shown, size = d.renderers.camera(d.state), d.renderers.size
     saved = {
         "OpenCV (.yml)...": d.folder / "saved.yml",
         "COLMAP (a folder)...": d.folder / "model",
     }
     for name, path in saved.items():
         save_as(d, f"Save camera as/{name}", path)
-        d.until(lambda path=path: str(path) in said(d))  # type: ignore[misc]
-        assert not d.window.files.message
+        d.until(lambda path=path: str(path) in said(d))
+        assert not d.files.message
     for path in (d.folder / "saved.yml", d.folder / "model"):
         posed = read_cameras(path).cameras[0]
         assert posed.size == size
         assert same_camera(posed.camera, shown, size)
 
 
-def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d: Driver) -> None:
+def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d):
     path = d.folder / "out.glb"
-    d.press(CTRL | int(Key.e))
-    assert d.window.files.dialog.is_open
+    d.press(CTRL | Key.e)
+    assert d.files.dialog.is_open
     d.ctx.key_chars_replace_enter(str(path))
     exports = d.window.shell.exports
     d.until(lambda: exports.listing is not None)
-    d.ctx.yield_(3)
+    d.frames(3)
     d.picture()
-    assert len(load_scene(path).objects) == len(d.window.state.scene.objects)
+    assert len(load_scene(path).objects) == len(d.state.scene.objects)
     listing = exports.listing
-    assert listing is not None and listing.lines
-    d.ctx.item_click("//##listing/Copy")
-    d.ctx.yield_(2)
+    assert listing.lines
+    d.click("//##listing/Copy")
     assert imgui.get_clipboard_text().splitlines() == [listing.title, *listing.lines]
-    d.ctx.item_click("//##listing/Close")
-    d.ctx.yield_(2)
+    d.click("//##listing/Close")
     assert exports.listing is None
     assert str(path) in said(d)
 
 
-def drive_a_long_export_is_cancelled(d: Driver) -> None:
+def drive_a_long_export_is_cancelled(d):
     export, begun, gate = exporting.export_scene, threading.Event(), threading.Event()
 
-    def slow(*arguments: Any) -> tuple[str, ...]:
+    def slow(*arguments):
         begun.set()
         gate.wait(PATIENT_S)
         check_cancelled()
@@ -171,19 +162,19 @@ def drive_a_long_export_is_cancelled(d: Driver) -> None:
     exporting.export_scene = slow
     try:
         path = d.folder / "never.glb"
-        d.press(CTRL | int(Key.e))
+        d.press(CTRL | Key.e)
         d.ctx.key_chars_replace_enter(str(path))
         d.until(begun.is_set)
         d.until(lambda: d.window.shell.exports.time_s > 0.5)
-        d.ctx.yield_(3)
+        d.frames(3)
         d.picture()
-        d.press(CTRL | int(Key.e))  # one at a time
-        assert not d.window.files.dialog.is_open
+        d.press(CTRL | Key.e)  # one at a time
+        assert not d.files.dialog.is_open
         assert "still being written" in said(d)
-        d.press(int(Key.escape))
+        d.press(Key.escape)
         gate.set()
         d.until(lambda: not d.window.shell.exports.busy)
-        d.ctx.yield_(2)
+        d.frames(2)
         assert "never.glb was cancelled" in said(d)
         assert not path.exists()
     finally:
@@ -191,25 +182,22 @@ def drive_a_long_export_is_cancelled(d: Driver) -> None:
         exporting.export_scene = export
 
 
-def drive_k_r_and_t_are_read_switched_and_copied(d: Driver) -> None:
+def drive_k_r_and_t_are_read_switched_and_copied(d):
     only_sections(d, "K, R and t")
-    shown, size = d.window.renderers.camera(d.window.state), d.window.renderers.size
-    assert d.window.state.options.pixel_origin == "center"
+    shown, size = d.renderers.camera(d.state), d.renderers.size
+    assert d.options.pixel_origin == "center"
     for origin, button in (("corner", "corners"), ("center", "centres")):
-        d.ctx.item_click(f"{PANEL}/{button}")
-        d.ctx.yield_(2)
-        assert d.window.state.options.pixel_origin == origin
-        d.ctx.item_click(f"{PANEL}/Copy K, R, t")
-        d.ctx.yield_(2)
-        names: dict[str, Any] = {}
+        d.click(f"{PANEL}/{button}")
+        assert d.options.pixel_origin == origin
+        d.click(f"{PANEL}/Copy K, R, t")
+        names = {}
         exec(imgui.get_clipboard_text(), names)
         assert np.allclose(names["K"], shown.intrinsics(size, origin).K, atol=1e-9)
-        d.ctx.menu_click("//##MainMenuBar/Camera/Canonical camera")
-        d.press(CTRL | int(Key.v))
-        assert same_camera(d.window.renderers.camera(d.window.state), shown, size)
+        d.menu("Camera/Canonical camera")
+        d.press(CTRL | Key.v)
+        assert same_camera(d.renderers.camera(d.state), shown, size)
     d.picture()
-    d.press(int(Key.p))
-    d.ctx.yield_(2)
+    d.press(Key.p)
     assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
     d.picture()
     only_sections(d)

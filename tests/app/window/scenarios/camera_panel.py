@@ -1,23 +1,20 @@
 """The camera panel beyond its plain numbers: what is coupled, presets, lenses, passages."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from held_clock import Clock
 from imgui_bundle import imgui
-from window_driver import Driver, Key, changed
+from window_driver import Key, changed
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS
 from lucida.app.cameras.travel import DURATION_S
 from lucida.app.ui import typed
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
 
 SIZE = (400, 300)
 
 
-def size_at_focus(d: Driver, camera: Camera) -> float:
+def size_at_focus(d, camera):
     """Return the size in pixels at which a length at the focus is seen."""
     focus = np.asarray(d.window.focus.center)
     points = np.array([focus, focus + np.asarray(camera.u)])
@@ -25,84 +22,80 @@ def size_at_focus(d: Driver, camera: Camera) -> float:
     return float(np.hypot(np.diff(seen.row), np.diff(seen.column))[0])
 
 
-def open_section(d: Driver, name: str) -> None:
+def open_section(d, name):
     d.ctx.item_open(f"//Camera/{name}")
-    d.ctx.yield_(2)
+    d.frames(2)
 
 
-def close_sections(d: Driver) -> None:
+def close_sections(d):
     for name in ("Look at", "K, R and t", "Lens"):
         d.ctx.item_close(f"//Camera/{name}")
-    d.ctx.yield_(2)
+    d.frames(2)
 
 
-def right_click_menu(d: Driver, field: str, entry: str) -> None:
-    d.ctx.item_click(d.field(field), imgui.MouseButton_.right)
-    d.ctx.yield_(2)
-    d.ctx.item_click(f"//$FOCUSED/{entry}")
-    d.ctx.yield_(2)
+def right_click_menu(d, field, entry):
+    d.click(d.field(field), imgui.MouseButton_.right)
+    d.click(f"//$FOCUSED/{entry}")
 
 
-def drive_all_of_the_main_part_is_seen_without_scrolling(d: Driver) -> None:
+def drive_all_of_the_main_part_is_seen_without_scrolling(d):
     close_sections(d)
     assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
     for name in ("Lens", "K, R and t", "Look at"):
-        assert d.ctx.item_info(f"//Camera/{name}").rect_full.max.y < bottom
+        assert d.box(f"//Camera/{name}").max.y < bottom
 
 
-def drive_the_field_of_view_is_typed(d: Driver) -> None:
+def drive_the_field_of_view_is_typed(d):
     before = d.agreeing_images()
-    was = d.window.state.camera
+    was = d.state.camera
     d.type("field of view", "35")
-    camera = d.window.state.camera
-    assert abs(d.window.renderers.camera(d.window.state).fov_y_deg - 35) < 1e-4
+    camera = d.state.camera
+    assert abs(d.renderers.camera(d.state).fov_y_deg - 35) < 1e-4
     assert camera.viewport == was.viewport
     assert camera.distance > was.distance
     assert changed(before[0], d.agreeing_images()[0]) > 0.1
     d.type("field of view", "200")
     assert "between 0 and 180" in str(d.window.views["Camera"].draft.error)
-    assert d.window.state.camera == camera
-    d.ctx.item_click("//###pending camera/Back to the camera shown")
+    assert d.state.camera == camera
+    d.click("//###pending camera/Back to the camera shown")
 
 
-def drive_fractions_and_roots_are_typed(d: Driver) -> None:
+def drive_fractions_and_roots_are_typed(d):
     d.type("eye.x", "1/3")
-    assert d.window.state.camera.eye[0] == 1 / 3
+    assert d.state.camera.eye[0] == 1 / 3
     d.type("eye.y", "2*sqrt(2)/2")
-    assert d.window.state.camera.eye[1] == pytest.approx(2**0.5, abs=1e-15)
-    before = d.window.state
+    assert d.state.camera.eye[1] == pytest.approx(2**0.5, abs=1e-15)
+    before = d.state
     d.ctx.item_double_click(d.field("eye.x"))  # all of its digits are there
-    d.ctx.yield_(2)
-    d.ctx.key_press(int(Key.enter))
-    d.ctx.yield_(2)
-    assert d.window.state == before
+    d.frames(2)
+    d.press(Key.enter)
+    assert d.state == before
     d.ctx.item_double_click(d.field("eye.x"))
     d.ctx.key_chars_replace("abc")
-    d.ctx.yield_(2)
+    d.frames(2)
     assert "'abc' is not a number" in next(iter(typed.open_fields.values())).wrong
-    assert d.window.state == before
-    d.ctx.key_press(int(Key.escape))
-    d.ctx.yield_(2)
-    assert d.window.state == before and not typed.open_fields
+    assert d.state == before
+    d.press(Key.escape)
+    assert d.state == before and not typed.open_fields
     d.type("eye.x", "0.5")  # and it can be typed anew
-    assert d.window.state.camera.eye[0] == 0.5
+    assert d.state.camera.eye[0] == 0.5
     d.ctx.item_double_click(d.field("eye.x"))
     d.ctx.key_chars_replace("1/4")
-    d.ctx.yield_(2)
-    d.ctx.key_press(int(Key.tab))  # goes on to the next field, as ImGui's own do
-    d.ctx.yield_(3)
+    d.frames(2)
+    d.press(Key.tab)  # goes on to the next field, as ImGui's own do
+    d.frames(3)
     d.ctx.key_chars_replace_enter("sqrt(4)")
-    d.ctx.yield_(2)
-    assert d.window.state.camera.eye[:2] == (0.25, 2.0)
+    d.frames(2)
+    assert d.state.camera.eye[:2] == (0.25, 2.0)
 
 
-def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
+def drive_near_and_far_are_switched_on_and_cut(d):
     before = d.agreeing_images()
-    assert (d.window.state.camera.near, d.window.state.camera.far) == (None, None)
-    d.ctx.item_click("//Camera/near")
-    d.ctx.item_click("//Camera/far")
-    camera = d.window.state.camera
+    assert (d.state.camera.near, d.state.camera.far) == (None, None)
+    d.click("//Camera/near")
+    d.click("//Camera/far")
+    camera = d.state.camera
     assert camera.near is not None
     assert camera.far is not None
     assert changed(before[0], d.agreeing_images()[0]) < 0.002  # fitted: nothing is cut off
@@ -113,104 +106,101 @@ def drive_near_and_far_are_switched_on_and_cut(d: Driver) -> None:
     assert changed(before[1], after[1]) > 0.05
     d.type("far plane", "8")
     assert "not above near" in str(d.window.views["Camera"].draft.error)
-    assert d.window.state.camera.far == 11
-    d.ctx.item_click("//###pending camera/Back to the camera shown")
-    d.ctx.item_click("//Camera/near")
-    d.ctx.item_click("//Camera/far")
-    assert d.window.state.camera == d.start.camera
+    assert d.state.camera.far == 11
+    d.click("//###pending camera/Back to the camera shown")
+    d.click("//Camera/near")
+    d.click("//Camera/far")
+    assert d.state.camera == d.start.camera
 
 
-def drive_a_number_is_reset(d: Driver) -> None:
+def drive_a_number_is_reset(d):
     d.type("eye.x", "-2.5")
     right_click_menu(d, "eye.x", "###reset")
-    assert d.window.state.camera.eye[0] == d.start.camera.eye[0]
-    assert len(d.window.history.past) == 2
+    assert d.state.camera.eye[0] == d.start.camera.eye[0]
+    assert d.steps == 2
 
 
-def drive_presets_frame_the_scene_in_both_images(d: Driver) -> None:
+def drive_presets_frame_the_scene_in_both_images(d):
     for name in ("Left", "Cabinet"):
-        d.ctx.menu_click(f"//##MainMenuBar/Camera/Presets/{name}")
+        d.menu(f"Camera/Presets/{name}")
         d.agreeing_images()
 
 
-def drive_a_lens_is_chosen_dragged_and_taken_off(d: Driver) -> None:
+def drive_a_lens_is_chosen_dragged_and_taken_off(d):
     close_sections(d)
     open_section(d, "Lens")
     before = d.images()
-    d.ctx.menu_click("//##MainMenuBar/Camera/Lens/Barrel")
-    barrel = d.window.state.camera
+    d.menu("Camera/Lens/Barrel")
+    barrel = d.state.camera
     assert barrel.lens == LENS_PRESETS[0].lens
     assert changed(before[0], d.agreeing_images()[0]) > 0.1
-    past = len(d.window.history.past)
+    past = d.steps
     d.drag_field("lens.k1", 60)
-    dragged = d.window.state.camera.lens
-    assert dragged is not None and dragged.coefficient("k1") > -0.2
+    dragged = d.state.camera.lens
+    assert dragged.coefficient("k1") > -0.2
     assert dragged.coefficient("k2") == 0.06
-    assert len(d.window.history.past) == past + 1
+    assert d.steps == past + 1
     right_click_menu(d, "lens.k1", "###reset")
-    assert d.window.state.camera.lens == Lens("brown", {"k2": 0.06})
-    d.ctx.item_click("//Camera/##lens model")
-    d.ctx.yield_(2)
-    d.ctx.item_click("//$FOCUSED/Wide-angle lens (FOV)")
-    d.ctx.yield_(2)
-    assert d.window.state.camera.lens == Lens("fov", {"omega": 1.0})
+    assert d.state.camera.lens == Lens("brown", {"k2": 0.06})
+    d.click("//Camera/##lens model")
+    d.click("//$FOCUSED/Wide-angle lens (FOV)")
+    assert d.state.camera.lens == Lens("fov", {"omega": 1.0})
     d.type("lens.omega", "4")
     assert "not between 0 and pi" in str(d.window.views["Camera"].draft.error)
-    d.ctx.item_click("//###pending camera/Back to the camera shown")
-    d.press(int(Key.p))
-    assert d.window.state.camera.is_parallel
-    assert d.window.state.camera.lens is None
+    d.click("//###pending camera/Back to the camera shown")
+    d.press(Key.p)
+    assert d.state.camera.is_parallel
+    assert d.state.camera.lens is None
     assert any("The lens is off" in text for text in d.window.shell.toasts.texts)
-    d.window.undo()
-    d.ctx.menu_click("//##MainMenuBar/Camera/Lens/No lens")
-    camera = d.window.state.camera
+    d.undo()
+    d.menu("Camera/Lens/No lens")
+    camera = d.state.camera
     assert (camera.lens, camera.distance) == (None, d.start.camera.distance)
     close_sections(d)
 
 
-def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d: Driver) -> None:
-    d.ctx.menu_click("//##MainMenuBar/Camera/Lens/190 degrees")
+def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d):
+    d.menu("Camera/Lens/190 degrees")
     d.agreeing_images()
     window = d.window
     assert window.renderers.seen_at(window.state, (1, 1)) == "outside of the lens"
-    d.ctx.menu_click("//##MainMenuBar/Image/Straight lines")
+    d.menu("Image/Straight lines")
     assert window.state.options.pair.straight_lines
-    d.ctx.yield_(2)
-    d.press(int(Key.mod_alt) | int(Key._2))
+    d.frames(2)
+    d.press(Key.mod_alt | Key._2)
     d.agreeing_images()
 
 
-def drive_look_at_is_typed(d: Driver) -> None:
+def drive_look_at_is_typed(d):
     close_sections(d)
     open_section(d, "Look at")
     for axis, value in zip("xyz", ("0", "6", "9"), strict=True):
         d.type(f"look.eye.{axis}", value)
-    d.ctx.item_click("//Camera/Look there")
-    camera = d.window.state.camera
+    d.click("//Camera/Look there")
+    camera = d.state.camera
     assert camera.eye == (0, 6, 9)
     toward = np.subtract(d.window.focus.center, camera.eye)
     assert np.allclose(np.cross(toward, camera.w), 0)
-    assert len(d.window.history.past) == 1
+    assert d.steps == 1
     for axis, value in zip("xyz", toward, strict=True):
         d.type(f"look.up.{axis}", f"{value:.6f}")
-    d.ctx.item_click("//Camera/Look there")
-    assert d.window.state.camera == camera
+    d.click("//Camera/Look there")
+    assert d.state.camera == camera
     assert "along the view direction" in str(d.window.views["Camera"].entered.look.error)
-    d.ctx.item_click("//###pending look/Back to the camera's own")
-    d.ctx.yield_(2)
+    d.click("//###pending look/Back to the camera's own")
     assert d.window.views["Camera"].entered.look.error is None
     close_sections(d)
 
 
-def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
+def drive_a_passage_is_smooth_and_one_step(d):
     clock = Clock(d)
-    d.ctx.key_press(int(Key.p))
+    d.press(Key.p)
     window = d.window
     assert window.motions.transition.under_way
     distances = []
     for part in (0.2, 0.4, 0.6):
         clock.s = 10.0 + part * DURATION_S
-        d.ctx.yield_(2)
+        d.frames(2)
         camera = window.state.camera
         assert not camera.is_parallel
         distances.append(camera.distance)
@@ -218,17 +208,17 @@ def drive_a_passage_is_smooth_and_one_step(d: Driver) -> None:
         assert abs(same - 1) < 1e-4  # the size at the focus stays
     assert distances == sorted(distances)
     clock.s += DURATION_S
-    d.ctx.yield_(2)
+    d.frames(2)
     assert window.state.camera.is_parallel
     assert not window.motions.transition.under_way
-    assert len(window.history.past) == 1
+    assert d.steps == 1
     d.agreeing_images()
     window.undo()
     assert window.state == d.start
 
 
-def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
-    view, stage = d.window.views["Camera"], d.window.shell.stage
+def drive_sections_stay_as_the_user_leaves_them(d):
+    view, stage = d.window.views["Camera"], d.stage
     close_sections(d)
     open_section(d, "Look at")
     assert view.sections == ("Look at",)
@@ -237,7 +227,7 @@ def drive_sections_stay_as_the_user_leaves_them(d: Driver) -> None:
     close_sections(d)
     assert view.sections == ()
     view.open_sections(left.sections["Camera"])  # as a session does
-    d.ctx.yield_(10)
+    d.frames(10)
     assert d.ctx.item_info("//Camera/##look.eye.x").id_ != 0
     assert view.sections == ("Look at",)
     close_sections(d)

@@ -1,96 +1,88 @@
 """Type in a lecture hall: what is read grows with it, and is not cut."""
 
-from __future__ import annotations
-
-from typing import Any
-
 from capitals import capital_heights
-from imgui_bundle import hello_imgui, imgui
-from option_changes import with_options
+from imgui_bundle import imgui
 from views_in_turn import views_in_turn
-from window_driver import SIZE, Driver, Key
+from window_driver import Key
 
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.view import LECTURE
 
 
-def overflow(d: Driver) -> float:
+def overflow(d):
     """How far the step's text can be scrolled."""
-    found: list[float] = []
+    found = []
     end_child = imgui.end_child
 
-    def told() -> None:
+    def told():
         if "/step_" in imgui.internal.get_current_window().name:
             found.append(imgui.get_scroll_max_y())
         end_child()
 
     imgui.end_child = told
     try:
-        d.ctx.yield_(2)
+        d.frames(2)
     finally:
         imgui.end_child = end_child
     return max(found, default=0.0)  # over a picture, nothing can be scrolled
 
 
-def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d: Driver) -> None:
+def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d):
     """1/50 of the window's height at least: at the end of all steps, and in all views alone."""
     lecture = load_lecture(BUILTIN)
     for size in ((1920, 1080), (1024, 728)):  # 1024x768 less a title bar
-        hello_imgui.change_window_size(size)
-        d.ctx.yield_(4)
-        low: dict[str, dict[float, str]] = {}
-        scrolled: dict[str, float] = {}
+        d.resize(size)
+        low = {}
+        scrolled = {}
 
-        def look(name: str, least: float = size[1] / 50, low: Any = low) -> None:
+        def look(name, least=size[1] / 50, low=low):
             d.until(lambda: d.in_draw_lists(capital_heights))
             heights = d.in_draw_lists(capital_heights)
             low |= {name: small} if (small := below(heights, least)) else {}
 
         d.window.lecture.give(lecture, BUILTIN)
         d.settle()
-        assert d.window.state.preferences.presentation
+        assert d.state.preferences.presentation
         for number, step in enumerate(lecture.steps):
             d.window.lecture.go(d.window, number, lecture.count(number) - 1)
             d.until(lambda: not d.window.lecture.is_entering)
-            d.ctx.yield_(8)
+            d.frames(8)
             look(step.title)
             scrolled |= {step.title: px} if (px := overflow(d)) else {}
         before = imgui.get_font_size()
-        d.press(int(Key.f9))  # which leaves presentation mode
-        assert not d.window.state.preferences.presentation
+        d.press(Key.f9)  # which leaves presentation mode
+        assert not d.state.preferences.presentation
         assert imgui.get_font_size() == before
         d.window.lecture.leave(d.window)
         d.settle()
-        d.window.change(with_options(d.window.state, preferences={"presentation": True}))
+        d.change(preferences={"presentation": True})
         for name in views_in_turn(d):
             look(name)
         d.window.change(d.start)
         d.settle()
         assert not low, (size, low)
         assert not scrolled, (size, scrolled)
-    hello_imgui.change_window_size(SIZE)
-    d.ctx.yield_(4)
 
 
-def below(heights: dict[float, str], least: float) -> dict[float, str]:
+def below(heights, least):
     return {height: letters for height, letters in heights.items() if height < least}
 
 
-def drive_the_lecture_ends(d: Driver) -> None:
+def drive_the_lecture_ends(d):
     """The scene and the camera from before the lecture come back."""
-    camera, scene = d.window.state.camera, d.window.state.scene
+    camera, scene = d.state.camera, d.state.scene
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     d.settle()
     d.window.lecture.go(d.window, 26)  # an image of 8 x 8 pixels
     d.settle()
-    assert d.window.state.camera != camera
+    assert d.state.camera != camera
     d.ctx.mouse_move_to_pos((300, 300))
-    d.ctx.item_click("//##stage menu/Menu")
+    d.click("//##stage menu/Menu")
     d.ctx.menu_click("//$FOCUSED/Lecture/End the lecture")
     d.settle()
-    state = d.window.state
+    state = d.state
     assert not d.window.lecture.is_given and state.step is None
     assert (state.scene, state.camera) == (scene, camera)
     assert state.images.resolution is None and not state.preferences.presentation
-    shown = {view.name for view in d.window.shell.stage.shown}
+    shown = {view.name for view in d.stage.shown}
     assert {"Camera", "Raster", "Ray"} <= shown and LECTURE not in shown

@@ -1,9 +1,7 @@
 """The image windows: sizes and layouts, channels, resolutions, display."""
 
-from __future__ import annotations
-
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
 from window_driver import SIZE, Key
 
@@ -14,18 +12,17 @@ from lucida.renderer.raster import Display
 
 
 def drive_pixels_can_be_large_and_are_marked(d):
-    before = d.window.renderers.size
-    d.ctx.menu_click("//##MainMenuBar/Image/Resolution/Window, pixels 8 x 8")
-    d.ctx.key_press(int(Key.mod_alt) | int(Key.x))  # without the pixel grid
+    before = d.renderers.size
+    d.menu("Image/Resolution/Window, pixels 8 x 8")
+    d.press(Key.mod_alt | Key.x)  # without the pixel grid
     d.settle()
-    assert d.window.renderers.size == (before[0] // 8, before[1] // 8)
+    assert d.renderers.size == (before[0] // 8, before[1] // 8)
     raster, ray = d.images()
-    assert raster.shape[:2] == (8 * d.window.renderers.size[1], 8 * d.window.renderers.size[0])
-    blocks = raster.reshape(d.window.renderers.size[1], 8, d.window.renderers.size[0], 8, 3)
+    assert raster.shape[:2] == (8 * d.renderers.size[1], 8 * d.renderers.size[0])
+    blocks = raster.reshape(d.renderers.size[1], 8, d.renderers.size[0], 8, 3)
     assert (blocks == blocks[:, :1, :, :1]).all()  # nearest neighbour: no pixel is blurred
     x, y, *_ = d.rect(RASTER)
-    d.ctx.mouse_teleport_to_pos((x + 8 * 20 + 4, y + 8 * 30 + 4))
-    d.ctx.yield_(3)
+    d.move_to((x + 8 * 20 + 4, y + 8 * 30 + 4))
     assert d.window.hovered == (RASTER, (30, 20))
     d.stay = True
     marked = d.images()[1]
@@ -35,25 +32,23 @@ def drive_pixels_can_be_large_and_are_marked(d):
 
 
 def drive_windows_can_be_hidden(d):
-    both = d.window.renderers.size
+    both = d.renderers.size
     d.ctx.window_close(f"//###{RAY}")
-    d.ctx.yield_(3)
-    d.until(lambda: d.window.renderers.size[0] > both[0])
-    d.ctx.menu_click("//##MainMenuBar/View/Views/###Ray")
-    d.ctx.yield_(3)
-    d.ctx.menu_click("//##MainMenuBar/View/Layout/Reset the layout")
-    d.ctx.yield_(5)
+    d.frames(3)
+    d.until(lambda: d.renderers.size[0] > both[0])
+    d.menu("View/Views/###Ray")
+    d.menu("View/Layout/Reset the layout")
+    d.frames(5)
     d.agreeing_images()
-    assert abs(d.window.renderers.size[0] - both[0]) <= 2
+    assert abs(d.renderers.size[0] - both[0]) <= 2
 
 
 def drive_the_window_is_resized(d):
     for size in ((1500, 640), (300, 60), SIZE):  # of which the second is too small for images
-        hello_imgui.change_window_size(size)
-        d.ctx.yield_(5)
+        d.resize(size)
         if size != (300, 60):
             d.agreeing_images()
-            widths = [width for width, _ in d.window.renderers.panes_px.values()]
+            widths = [width for width, _ in d.renderers.panes_px.values()]
             assert abs(widths[0] - widths[1]) <= 2, "both images have half of the room"
 
 
@@ -64,9 +59,9 @@ def drive_channels_are_shown_in_both(d):
         if number % 2:
             choose(d, f"Channel/{name}")
         else:
-            d.ctx.key_press(ALT | int((Key._2, Key._3, Key._4, Key._1)[number]))
+            d.press(ALT | int((Key._2, Key._3, Key._4, Key._1)[number]))
             d.settle()
-        assert d.window.state.images.channel == channel
+        assert d.state.images.channel == channel
         raster, ray = d.images()
         for pane, image in ((RASTER, raster), (RAY, ray)):
             difference = np.abs(without_overlays(image) - pixels(d, pane, channel)).max(axis=2)
@@ -78,17 +73,16 @@ def drive_channels_are_shown_in_both(d):
 
 def drive_channels_follow_a_drag(d):
     """While the camera moves, coarse images have the channel too, and nothing is read back."""
-    both = d.window.renderers
-    d.ctx.key_press(ALT | int(Key._2))
+    both = d.renderers
+    d.press(ALT | Key._2)
     d.settle()
-    assert both.textures is not None
     reads = counting(both.textures.raster, "read_back")
-    center = d.ctx.item_info(d.field("w.x")).rect_full.get_center()
+    center = d.box(d.field("w.x")).get_center()
     d.ctx.mouse_teleport_to_pos((center.x, center.y))
     d.ctx.mouse_down(0)
     for step in range(1, 20):
         d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
-        d.ctx.yield_()
+        d.frames()
         image = both.ray_image
         assert image is not None
         assert image.frame.depth is not None
@@ -106,7 +100,7 @@ def drive_channels_follow_a_drag(d):
 
 
 def drive_resolutions_are_fixed_and_fitted(d):
-    window, both = d.window, d.window.renderers
+    window, both = d.window, d.renderers
     for text, size in (("16 x 9", (16, 9)), ("4 x 3", (4, 3)), ("1280 x 720", (1280, 720))):
         choose(d, f"Resolution/{text}")
         assert both.size == size
@@ -118,18 +112,17 @@ def drive_resolutions_are_fixed_and_fitted(d):
             assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
         assert at.whole == (size[0] < 1000)
     # A size of one's own.
-    d.ctx.key_press(ALT | int(Key.s))
-    d.ctx.yield_(3)
+    d.press(ALT | Key.s)
     d.ctx.key_chars_replace_enter("nonsense")
-    d.ctx.yield_(3)
+    d.frames(3)
     assert both.size == (1280, 720)
-    assert window.box is not None and "nonsense" in window.box.problem
+    assert "nonsense" in window.box.problem
     d.ctx.key_chars_replace_enter("37x23")
-    d.ctx.yield_(3)
+    d.frames(3)
     d.settle()
     assert both.size == (37, 23)
     assert window.box is None
-    d.ctx.key_press(ALT | int(Key.w))
+    d.press(ALT | Key.w)
     d.settle()
     assert window.state.images.resolution is None
     while window.can_undo():
@@ -147,27 +140,52 @@ def drive_the_strip_does_the_same(d):
         ("channel", LINEAR.name, lambda images: images.transfer == "linear"),
         ("channel", "Red only", lambda images: images.component == "red"),
     ):
-        d.ctx.item_click(f"**/##{name}")
-        d.ctx.yield_(2)
-        d.ctx.item_click(f"//$FOCUSED/{item}")
+        d.click(f"**/##{name}")
+        d.click(f"//$FOCUSED/{item}")
         d.settle()
-        assert check(d.window.state.images), name
+        assert check(d.state.images), name
     d.ctx.set_ref("")
-    assert len(d.window.history.past) == 1  # the resolution
+    assert d.steps == 1  # the resolution
     assert imgui.get_io().display_size.x > 0
 
 
 def drive_nothing_is_drawn_twice(d):
     """At rest, no frame draws or uploads an image again."""
-    both = d.window.renderers
+    both = d.renderers
     choose(d, "Resolution/640 x 360")
     choose(d, "Magnification/32x")
     choose(d, "Channel/Depth")
     textures = both.textures
-    assert textures is not None
     shown = counting(Display, "show")
-    rasterizer = textures.rasterizer.of(d.window.state.scene)
+    rasterizer = textures.rasterizer.of(d.state.scene)
     drawn = counting(rasterizer, "draw")
     read = counting(rasterizer, "read")
-    d.ctx.yield_(10)
+    d.frames(10)
     assert [count() for count in (shown, drawn, read)] == [0, 0, 0]
+
+
+def drive_images_are_on_the_screen_in_the_frame_of_their_change(d):
+    found, seen, asked = d.renderers.textures, [], ["color"]
+    left, top, right, bottom = (round(edge) for edge in d.rect(RASTER))
+    raster_in = found.raster_in
+
+    def ask(placement, wanted, look, *more, **named):
+        asked.append(look.channel)
+        return raster_in(placement, wanted, look, *more, **named)
+
+    def look(target):
+        seen.append((asked[-1], hash(target.read()[top:bottom, left:right].tobytes())))
+
+    found.raster_in, d.run.on_drawn = ask, look
+    try:
+        d.frames(3)
+        d.change(images={"channel": "id"})
+        d.frames(3)
+    finally:
+        d.run.on_drawn = None
+        del found.raster_in
+    colors = {number for channel, number in seen if channel == "color"}
+    others = {number for channel, number in seen if channel == "id"}
+    assert colors and others
+    assert not colors & others
+    assert len(others) == 1

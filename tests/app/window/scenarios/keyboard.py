@@ -1,27 +1,23 @@
 """Everything by keys alone: Tab reaches every control, a frame shows where, Alt opens the menus."""
 
-from __future__ import annotations
-
 import numpy as np
 from imgui_bundle import imgui
-from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
-from window_driver import FRAME_S, Driver, Key
+from window_driver import FRAME_S, Key
 
 from lucida.app.ui import theme
 from lucida.app.window.menu_keys import BAR
 
 STEPS_BACK = 8  # to controls where Tab was before, one after another: it is round
-ALT, CTRL, SHIFT = (int(key) for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
+ALT, CTRL, SHIFT = (key for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
 OTHERS = int(imgui.ItemFlags_.disabled)
 Box = tuple[int, int, int, int]  # left, top, right, bottom
 
 
-def controls(d: Driver) -> dict[int, Box]:
+def controls(d):
     """Return the visible controls of the view in use, by their ids. ImGui counts inner windows
     among a window's items, and ImPlot its axes, without flags."""
     context, found = imgui.get_current_context(), imgui.test_engine.TestItemList()
-    assert context.nav_window is not None
     d.ctx.gather_items(found, f"//{context.nav_window.root_window.name}")
     inner = {window.child_id for window in context.windows}
     items = {}
@@ -33,19 +29,19 @@ def controls(d: Driver) -> dict[int, Box]:
     return items
 
 
-def walked(d: Driver) -> set[int]:
+def walked(d):
     """Return the ids that Tab, held, goes to until it finds nothing new."""
     context, ids, old = imgui.get_current_context(), set[int](), 0
-    d.ctx.key_down(int(Key.tab))
+    d.ctx.key_down(Key.tab)
     while old < STEPS_BACK:
-        d.ctx.yield_()
+        d.frames()
         old = old + 1 if context.nav_id in ids else 0
         ids.add(context.nav_id)
-    d.ctx.key_up(int(Key.tab))
+    d.ctx.key_up(Key.tab)
     return ids
 
 
-def drive_tab_reaches_every_control(d: Driver) -> None:
+def drive_tab_reaches_every_control(d):
     d.window.change(with_content(d))
     missed, io = {}, imgui.get_io()
     io.key_repeat_delay = io.key_repeat_rate = FRAME_S / 2  # a step a frame
@@ -56,9 +52,9 @@ def drive_tab_reaches_every_control(d: Driver) -> None:
     assert not missed, missed
 
 
-def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
+def drive_a_frame_shows_where_the_keyboard_is(d):
     for look in ("dark", "light", "contrast"):
-        d.window.change(with_options(d.window.state, preferences={"theme": look}))
+        d.change(preferences={"theme": look})
         d.ctx.nav_move_to(d.field("eye.x"))
         box = d.ctx.item_info(d.field("eye.x")).rect_clipped
         left, top, right = int(box.min.x), int(box.min.y), int(box.max.x)
@@ -68,52 +64,51 @@ def drive_a_frame_shows_where_the_keyboard_is(d: Driver) -> None:
         assert (rows.max(axis=2) < 60).all(axis=1).sum() >= 2, look
 
 
-def drive_alt_leads_into_the_menus_and_back(d: Driver) -> None:
+def drive_alt_leads_into_the_menus_and_back(d):
     context, menus = imgui.get_current_context(), d.window.menu_keys
 
-    def at() -> str:
-        d.ctx.yield_(5)
+    def at():
+        d.frames(5)
         return context.nav_window.name if context.nav_window else ""
 
     d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.5, 0.5))
     imgui.set_window_focus(None)
-    d.press(int(Key.f10))
-    d.press(int(Key.escape))
+    d.press(Key.f10)
+    d.press(Key.escape)
     assert at() == ""
-    d.press(int(Key.f3))
+    d.press(Key.f3)
     before = at(), context.nav_id
     for key in (Key.left_alt, Key.f10):
-        d.press(int(key))
+        d.press(key)
         assert at() == BAR
-        d.press(int(Key.right_arrow))
-        d.press(int(Key.down_arrow))
+        d.press(Key.right_arrow)
+        d.press(Key.down_arrow)
         assert at() == "Edit###Menu_00"
-        d.press(int(Key.left_arrow))
+        d.press(Key.left_arrow)
         assert at() == "File###Menu_00"
-        d.press(int(Key.escape))
+        d.press(Key.escape)
         assert (at(), context.nav_id) == before, (key, at(), context.nav_id, before)
-    d.press(int(Key.f10))
-    d.press(int(Key.down_arrow))
-    d.press(int(Key.enter))  # Open...
-    d.ctx.yield_(5)
-    assert d.window.files.dialog.is_open
-    d.press(int(Key.escape))
+    d.press(Key.f10)
+    d.press(Key.down_arrow)
+    d.press(Key.enter)  # Open...
+    d.frames(5)
+    assert d.files.dialog.is_open
+    d.press(Key.escape)
     assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
-    assert d.window.state.marked is None  # the arrows were the menus', not the image's
+    assert d.state.marked is None  # the arrows were the menus', not the image's
     # Alt with a letter or the mouse is no way into the menus.
-    d.press(ALT | int(Key.l))
+    d.press(ALT | Key.l)
     assert (at(), context.nav_id) == before, (at(), context.nav_id, before)
-    d.ctx.key_down(int(Key.left_alt))
+    d.ctx.key_down(Key.left_alt)
     d.drag(d.point("Raster", 0.4, 0.5), d.point("Raster", 0.5, 0.5))
-    d.ctx.key_up(int(Key.left_alt))
+    d.ctx.key_up(Key.left_alt)
     assert at() != BAR
     assert not menus.in_menus
 
 
-def drive_the_first_tab_goes_into_a_view(d: Driver) -> None:
+def drive_the_first_tab_goes_into_a_view(d):
     imgui.set_window_focus(None)
-    d.ctx.yield_(2)
-    d.press(int(Key.tab))
-    d.ctx.yield_(3)
-    assert d.window.shell.stage.keyboard
+    d.frames(2)
+    d.press(Key.tab)
+    assert d.stage.keyboard
     assert imgui.get_current_context().nav_id

@@ -1,12 +1,8 @@
 """The image laboratory: every drawing in the window, and its light at the pointer."""
 
-from __future__ import annotations
-
 import itertools
 
 from maximised import Maximised
-from option_changes import with_options
-from window_driver import Driver
 
 from lucida.app.instruments.laboratory.pages import PAGES
 from lucida.app.instruments.laboratory.view import LaboratoryView
@@ -15,34 +11,32 @@ from lucida.app.instruments.outside.figure import Label
 ALONE = Maximised(LaboratoryView, "laboratory")
 
 
-def drive_every_page_is_drawn_and_moves(d: Driver) -> None:
+def drive_every_page_is_drawn_and_moves(d):
     view = ALONE.open(d)
     for page, kind in PAGES.items():
         seen = []
         for progress in sorted({0.0, kind.builds / 2, float(kind.builds)}):
             options = {"page": page, "progress": progress}
-            d.window.change(with_options(d.window.state, laboratory=options))
+            d.change(laboratory=options)
             d.settle()
-            assert view.figure is not None and view.figure.parts
+            assert view.figure.parts
             seen.append(d.picture())
         for one, other in itertools.pairwise(seen):
             assert (one != other).any(), page
     ALONE.close(d)
 
 
-def drive_the_pointer_reads_the_image(d: Driver) -> None:
+def drive_the_pointer_reads_the_image(d):
     view = ALONE.open(d, page="function", progress=1.0)
 
-    def words() -> list[str]:
-        assert view.figure is not None
+    def words():
         return [part.text for part in view.figure.parts if isinstance(part, Label)]
 
-    box, texts = d.ctx.item_info(ALONE.item("image")).rect_full, []
+    box, texts = d.box(ALONE.item("image")), []
     for part in (0.02, 0.5):  # the background, and what is in the middle
         x = box.min.x + part * (box.max.x - box.min.x)
         y = box.min.y + part * (box.max.y - box.min.y)
-        d.ctx.mouse_teleport_to_pos((x, y))
-        d.ctx.yield_(3)
+        d.move_to((x, y))
         texts.append(words())
     assert texts[0] != texts[1] and "schematic" in texts[1]
     ALONE.close(d)

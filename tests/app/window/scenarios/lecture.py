@@ -1,78 +1,74 @@
 """The guided lecture: its steps, keys and buttons, its column, the file that is edited."""
 
-from __future__ import annotations
-
 import threading
 from dataclasses import replace
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 from lecture_window import SMALL, give, lecture_of, number_of, shown
 from option_changes import with_options
-from window_driver import SIZE, Driver, Key, changed
+from window_driver import SIZE, Key, changed
 
 from lucida.app.lecture import view
 from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.lecture.session import LectureReread, LectureSession
 from lucida.app.lecture.step_options import state_of
 from lucida.app.lecture.view import LECTURE
 from lucida.app.ui import formula, layout
 
 
-def drive_a_key_right_after_the_beginning_is_not_lost(d: Driver) -> None:
+def drive_a_key_right_after_the_beginning_is_not_lost(d):
     d.ctx.menu_click('//##MainMenuBar/Lecture/Begin "Images, rays and cameras"')
-    d.ctx.key_press(int(Key.page_down))
+    d.press(Key.page_down)
     d.settle()
     session = lecture_of(d).session
-    assert session is not None
     assert session.place[1:] == (0, 1)
-    assert d.window.state.preferences.presentation
+    assert d.state.preferences.presentation
     lecture_of(d).leave(d.window)
     d.settle()
 
 
-def drive_the_end_brings_back_what_was_shown_before(d: Driver) -> None:
-    moved = replace(d.window.state.camera, eye=(1.0, 2.0, 7.0))
-    before = d.window.state.with_camera(moved).with_fit(False)
+def drive_the_end_brings_back_what_was_shown_before(d):
+    moved = replace(d.state.camera, eye=(1.0, 2.0, 7.0))
+    before = d.state.with_camera(moved).with_fit(False)
     d.window.change(before)
     give(d)
-    d.press(int(Key.page_down))
+    d.press(Key.page_down)
     d.settle()
-    assert d.window.state.scene is not before.scene
+    assert d.state.scene is not before.scene
     give(d)  # one lecture after another
     lecture_of(d).leave(d.window)
     d.settle()
-    assert d.window.state.scene is before.scene
-    assert d.window.state.view == before.view
+    assert d.state.scene is before.scene
+    assert d.state.view == before.view
 
 
-def drive_keys_and_buttons_walk_the_steps(d: Driver) -> None:
+def drive_keys_and_buttons_walk_the_steps(d):
     first, second = give(d).steps
     assert layout.current().name == layout.LECTURE
-    assert d.window.state == state_of(first, d.window.state)
+    assert d.state == state_of(first, d.state)
     assert shown(d) == {LECTURE, "Raster"}
     before = d.picture()
-    d.ctx.key_press(int(Key.page_down))
+    d.press(Key.page_down)
     d.settle()
-    assert (number_of(d), d.window.state.scene) == (1, second.scene)
-    assert d.window.state.images.exposure_ev == 1.0
+    assert (number_of(d), d.state.scene) == (1, second.scene)
+    assert d.state.images.exposure_ev == 1.0
     assert shown(d) == {LECTURE, "Ray"}
     assert changed(before, d.picture()) > 0.3
-    d.ctx.key_press(int(Key.page_down))  # there is no third
+    d.press(Key.page_down)  # there is no third
     assert number_of(d) == 1
-    d.ctx.key_press(int(Key.page_up))
+    d.press(Key.page_up)
     d.settle()
-    assert (number_of(d), d.window.state.scene) == (0, first.scene)
-    assert d.window.state.images.exposure_ev == 0.0
-    d.ctx.item_click(f"//{LECTURE}/>##next")
+    assert (number_of(d), d.state.scene) == (0, first.scene)
+    assert d.state.images.exposure_ev == 0.0
+    d.click(f"//{LECTURE}/>##next")
     d.settle()
     assert number_of(d) == 1
     d.ctx.window_focus(f"//{LECTURE}")
-    d.ctx.key_press(int(Key.left_arrow))
+    d.press(Key.left_arrow)
     d.settle()
     assert number_of(d) == 0
-    d.ctx.item_click(f"//{LECTURE}/###outline")
-    d.ctx.item_click("//$FOCUSED/2  Second")
+    d.click(f"//{LECTURE}/###outline")
+    d.click("//$FOCUSED/2  Second")
     d.settle()
     assert number_of(d) == 1
 
@@ -96,16 +92,14 @@ title = "Second"
 """
 
 
-def drive_builds_are_walked_and_move(d: Driver) -> None:
+def drive_builds_are_walked_and_move(d):
     give(d, BUILDS)
     lecture, session = lecture_of(d), lecture_of(d).session
-    assert session is not None
-    window, past = d.window, len(d.window.history.past)
+    window, past = d.window, d.steps
     first, picture = window.state, d.picture()
 
-    def press(key: Key) -> tuple[int, int]:
-        d.ctx.key_press(int(key))
-        d.ctx.yield_(3)
+    def press(key):
+        d.press(key)
         return session.place[1:]
 
     assert press(Key.page_down) == (0, 1)
@@ -113,13 +107,13 @@ def drive_builds_are_walked_and_move(d: Driver) -> None:
     assert window.state.camera not in (first.camera, window.present.camera)
     assert not window.settled
     assert press(Key.page_down) == (0, 1)  # ends the movement, and no more
-    assert window.state is window.present and len(window.history.past) == past + 1
+    assert window.state is window.present and d.steps == past + 1
     d.settle()
     assert changed(picture, d.picture()) > 0.01
     assert press(Key.r) == (0, 1) and window.state.images.exposure_ev < 4  # plays it again
     d.ctx.mouse_move_to_pos((200, 300))
     d.ctx.mouse_click(0)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert window.state is window.present and window.state.images.exposure_ev == 4
     window.change(state_of(session.step, window.state))
     assert press(Key.page_down) == (0, 2)
@@ -133,9 +127,9 @@ def drive_builds_are_walked_and_move(d: Driver) -> None:
     assert press(Key.page_up) == (0, 0)
     d.settle()
     assert window.state.camera == first.camera
-    window.change(with_options(window.state, preferences={"reduced_motion": True}))
+    d.change(preferences={"reduced_motion": True})
     assert press(Key.page_down) == (0, 1) and window.state is window.present
-    window.change(with_options(window.state, preferences={"reduced_motion": False}))
+    d.change(preferences={"reduced_motion": False})
     window.undo()
     d.settle()
     assert session.place[1:] == (0, 0)  # a build is one step of undo
@@ -144,102 +138,90 @@ def drive_builds_are_walked_and_move(d: Driver) -> None:
     assert session.place[1:] == (0, 2) and window.state.images.exposure_ev == 4
 
 
-def drive_one_key_comes_back_to_the_step(d: Driver) -> None:
+def drive_one_key_comes_back_to_the_step(d):
     first, _ = give(d).steps
-    lecture = d.window.state
-    d.window.change(with_options(d.window.state, shadows=True, images={"exposure_ev": 3.0}))
-    d.window.change(d.window.state.with_scene(d.start.scene))
+    lecture = d.state
+    d.change(shadows=True, images={"exposure_ev": 3.0})
+    d.window.change(d.state.with_scene(d.start.scene))
     d.settle()
-    d.ctx.key_press(int(Key.backspace))
+    d.press(Key.backspace)
     d.settle()
-    assert d.window.state == lecture == state_of(first, lecture)
-    d.ctx.key_press(int(Key.mod_ctrl) | int(Key.z))  # and that is one step of undo
-    assert d.window.state.scene is d.start.scene
+    assert d.state == lecture == state_of(first, lecture)
+    d.press(Key.mod_ctrl | Key.z)  # and that is one step of undo
+    assert d.state.scene is d.start.scene
 
 
-def drive_undo_walks_back_over_steps(d: Driver) -> None:
+def drive_undo_walks_back_over_steps(d):
     first, second = give(d).steps
-    moved = with_options(d.window.state, mirrors=True)
+    moved = with_options(d.state, mirrors=True)
     d.window.change(moved)
     d.settle()
-    d.ctx.key_press(int(Key.page_down))
+    d.press(Key.page_down)
     d.settle()
-    entered = d.window.state
+    entered = d.state
     d.window.change(with_options(entered, shadows=True))
-    ctrl = int(Key.mod_ctrl)
-    d.ctx.key_press(ctrl | int(Key.z))  # what was changed in this step
+    ctrl = Key.mod_ctrl
+    d.press(ctrl | Key.z)  # what was changed in this step
     d.settle()
-    assert (number_of(d), d.window.state) == (1, entered)
-    d.ctx.key_press(ctrl | int(Key.z))  # the way to it: text, views and state come back together
+    assert (number_of(d), d.state) == (1, entered)
+    d.press(ctrl | Key.z)  # the way to it: text, views and state come back together
     d.settle()
-    assert (number_of(d), d.window.state) == (0, moved)
+    assert (number_of(d), d.state) == (0, moved)
     assert shown(d) == {LECTURE, "Raster"}
-    d.ctx.key_press(ctrl | int(Key.z))
+    d.press(ctrl | Key.z)
     d.settle()
-    assert (number_of(d), d.window.state) == (0, state_of(first, moved))
+    assert (number_of(d), d.state) == (0, state_of(first, moved))
     for _ in range(2):
-        d.ctx.key_press(ctrl | int(Key.y))
+        d.press(ctrl | Key.y)
         d.settle()
-    assert (number_of(d), d.window.state) == (1, entered)
-    assert d.window.state == state_of(second, entered)
+    assert (number_of(d), d.state) == (1, entered)
+    assert d.state == state_of(second, entered)
     assert shown(d) == {LECTURE, "Ray"}
     # Before the lecture there is no step: the text stays where it is.
     while d.window.can_undo():
-        d.window.undo()
-        d.ctx.yield_(2)
+        d.undo()
+        d.frames(2)
     d.settle()
     begun = with_options(d.start, preferences={"presentation": True})  # which undo leaves alone
-    assert (number_of(d), d.window.state) == (0, begun)
+    assert (number_of(d), d.state) == (0, begun)
 
 
-def drive_the_column_keeps_its_share_of_a_window_that_grows(d: Driver) -> None:
+def drive_the_column_keeps_its_share_of_a_window_that_grows(d):
     give(d, SMALL.replace('["ray"]', '["raster", "ray"]'))
     lecture_of(d).advance(d.window, 1)
     d.settle()
 
-    def shares() -> tuple[float, float]:
+    def shares():
         """The column's part of the width, and the lower image's of the height of both."""
-        rects = d.window.shell.stage.rects
+        rects = d.stage.rects
         low, high = rects["Ray"], rects["Raster"]
         (left, _, right, _), width = rects[LECTURE], imgui.get_io().display_size.x
         height = low[3] - low[1]
         return (right - left) / width, height / (height + high[3] - high[1])
 
     before = shares()
-    hello_imgui.change_window_size((1700, 1000))
-    try:
-        d.until(lambda: imgui.get_io().display_size.x == 1700)
-        d.settle()
+    for size in ((1700, 1000), SIZE):
+        d.resize(size)
         assert np.allclose(shares(), before, atol=0.02)
-    finally:
-        hello_imgui.change_window_size(SIZE)
-    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
-    d.settle()
-    assert np.allclose(shares(), before, atol=0.02)
 
 
-def drive_in_a_narrow_column_no_button_is_cut_off(d: Driver) -> None:
+def drive_in_a_narrow_column_no_button_is_cut_off(d):
     give(d)
     for size in ((1600, 720), SIZE, (640, 480)):
-        hello_imgui.change_window_size(size)
-        d.until(lambda size=size: imgui.get_io().display_size.x == size[0])
-        d.settle()
-        low_x, low_y, high_x, high_y = d.window.shell.stage.rects[LECTURE]
-        box = d.ctx.item_info(f"//{LECTURE}/>##next").rect_full
+        d.resize(size)
+        low_x, low_y, high_x, high_y = d.stage.rects[LECTURE]
+        box = d.box(f"//{LECTURE}/>##next")
         assert low_x <= box.min.x < box.max.x <= high_x
         assert low_y <= box.min.y < box.max.y <= high_y
-    hello_imgui.change_window_size(SIZE)
-    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
-    d.settle()
 
 
-def drive_a_column_that_was_widened_stays_so(d: Driver) -> None:
+def drive_a_column_that_was_widened_stays_so(d):
     give(d)
 
-    def left() -> float:
-        return d.window.shell.stage.rects[LECTURE][0]
+    def left():
+        return d.stage.rects[LECTURE][0]
 
-    before, top = left(), d.window.shell.stage.rects[LECTURE][1]
+    before, top = left(), d.stage.rects[LECTURE][1]
     edge = (before - lecture_of(d).padding.x - 1, top + 200)
     d.drag(edge, (edge[0] - 150, edge[1]))
     d.settle()
@@ -250,47 +232,45 @@ def drive_a_column_that_was_widened_stays_so(d: Driver) -> None:
         d.settle()
         d.until(lambda: abs(left() - widened) < 3)
     layout.reset()  # what the user asks for gives the layout's own
-    d.ctx.yield_(6)
+    d.frames(6)
     d.settle()
     assert abs(left() - before) < 3
 
 
-def drive_a_lecture_is_read_again_when_it_is_saved(d: Driver) -> None:
+def drive_a_lecture_is_read_again_when_it_is_saved(d):
     give(d)
     session = lecture_of(d).session
-    assert session is not None
     path = session.path
-    d.ctx.key_press(int(Key.page_down))
+    d.press(Key.page_down)
     d.settle()
     path.write_text(SMALL.replace('"canonical"', '"columns"').replace("[[steps]]", "\n[[steps]]"))
-    d.until(lambda: d.window.state.scene.name == "columns")
+    d.until(lambda: d.state.scene.name == "columns")
     assert (number_of(d), session.error) == (1, "")
     # A mistake is told with its line; the last legal version goes on.
     path.write_text(SMALL.replace('"canonical"', '"canonicle"'))
     d.until(lambda: bool(session.error))
     assert "small.toml:9: steps[1].scene: 'canonicle' is unknown" in session.error
     d.settle()
-    assert d.window.state.scene.name == "columns"
+    assert d.state.scene.name == "columns"
     if formula.available():  # a formula that cannot be set is told, and shown as it is
         path.write_text(SMALL.replace("$z =", r"$\\foo =").replace('"columns"', '"spheres"'))
         d.until(lambda: "is no command" in session.error)
         assert r"small.toml:4: steps[0].text: \foo is no command" in session.error
-        assert d.window.state.scene.name == "canonical camera"
+        assert d.state.scene.name == "canonical camera"
         d.picture()
     path.write_text(SMALL)
     d.until(lambda: not session.error)
     d.settle()
-    assert d.window.state.scene.name == "canonical camera"
+    assert d.state.scene.name == "canonical camera"
 
 
-def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d: Driver) -> None:
+def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d):
     give(d)
     first = lecture_of(d).session
-    assert first is not None
     begun, gate = threading.Event(), threading.Event()
     again = view.reread
 
-    def slow(session: LectureSession) -> LectureReread:
+    def slow(session):
         begun.set()
         assert gate.wait(60)
         return again(session)
@@ -302,37 +282,37 @@ def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d: Dri
     finally:
         view.reread = again
     lecture_of(d).give(load_lecture(BUILTIN), BUILTIN)
-    d.ctx.yield_(3)
+    d.frames(3)
     gate.set()
     d.settle()
     second = lecture_of(d).session
-    assert second is not None and second.lecture.title != "Newer" and second.path == BUILTIN
+    assert second.lecture.title != "Newer" and second.path == BUILTIN
     assert number_of(d) == 0
 
 
-def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
+def drive_a_lecture_is_opened_and_dropped(d):
     path, broken = d.folder / "mine.toml", d.folder / "broken.toml"
     path.write_text(SMALL.replace('"Small"', '"Mine"'))
     broken.write_text(SMALL.replace('"canonical"', '"canonicle"'))
-    lecture, files = d.window.lecture, d.window.files
+    lecture, files = d.window.lecture, d.files
     lecture.session = None
-    d.ctx.menu_click("//##MainMenuBar/Lecture/Open lecture...")
+    d.menu("Lecture/Open lecture...")
     assert files.dialog.is_open
-    d.ctx.yield_(2)
+    d.frames(2)
     d.ctx.key_chars_replace_enter(str(path))
     d.until(lambda: lecture.session is not None)
     d.settle()
-    assert lecture.session is not None and lecture.session.lecture.title == "Mine"
-    assert d.window.state.scene.name == "spheres"
+    assert lecture.session.lecture.title == "Mine"
+    assert d.state.scene.name == "spheres"
     assert shown(d) == {LECTURE, "Raster"}
     d.until(lambda: [entry.name for entry in files.recent.entries][:1] == ["mine.toml"])
     # A broken one is told with its line, and nothing is lost.
-    session, state = lecture.session, d.window.state
+    session, state = lecture.session, d.state
     d.drop([str(broken)])
     d.until(lambda: bool(files.message))
     assert "broken.toml:9: steps[1].scene: 'canonicle' is unknown" in files.message
-    assert (lecture.session, d.window.state) == (session, state)
-    d.ctx.key_press(int(Key.escape))
+    assert (lecture.session, d.state) == (session, state)
+    d.press(Key.escape)
     assert files.message == ""
     path.write_text(SMALL.replace('"Small"', '"Dropped"'))
     lecture.session = None
@@ -341,7 +321,7 @@ def drive_a_lecture_is_opened_and_dropped(d: Driver) -> None:
     d.drop([str(path)])
     d.until(lambda: lecture.session is not None)
     d.settle()
-    assert lecture.session is not None and lecture.session.lecture.title == "Dropped"
+    assert lecture.session.lecture.title == "Dropped"
     assert shown(d) == {LECTURE, "Raster"}
-    d.window.undo()  # what was there before is one step of undo away
-    assert d.window.state == with_options(d.start, preferences={"presentation": True})
+    d.undo()  # what was there before is one step of undo away
+    assert d.state == with_options(d.start, preferences={"presentation": True})

@@ -1,7 +1,5 @@
 """The lecture's exercises, and the formula that grows."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -9,55 +7,51 @@ from both_lectures import both_lectures
 from lecture_window import answer, item, lecture_of
 from objects_window import handle_px
 from outside_window import place
-from window_driver import Driver, Key, changed
+from window_driver import Key, changed
 
 from lucida.app.instruments.objects.choosing import chosen
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
 from lucida.app.lecture.hiding import HideExercise
 from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.state.kept_lecture import Judgement
 from lucida.renderer.editing.moving import bounds_of
 
 
-def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
+def drive_exercises_say_what_is_right_and_wrong(d):
     lecture = both_lectures()
     titles = [step.title for step in lecture.steps]
     lecture_of(d).give(lecture, BUILTIN, (titles.index("Exercise: a pixel's ray"), 0))
     d.settle()
     session = lecture_of(d).session
-    assert session is not None
     answer(d, "origin", "$, **, `")  # signs of the text's own
-    d.ctx.item_click(item(d, "Check"))
+    d.click(item(d, "Check"))
     d.settle()  # fails if the view has failed
-    assert session.answers.verdict is not None and session.answers.verdict.field == "origin"
+    assert session.answers.verdict.field == "origin"
     # Pixel (2, 5) of 8 x 8: u = 4.5/8 - 1/2, v = -(1.5/8 - 1/2).
     answer(d, "origin", "0, 0, 0")
     answer(d, "direction", "1/16, -5/16, -1")
-    d.ctx.item_click(item(d, "Check"))
-    d.ctx.yield_(2)
+    d.click(item(d, "Check"))
     verdict = session.answers.verdict
-    assert verdict is not None and not verdict.right and "minus sign" in verdict.text
-    d.ctx.yield_(2)
+    assert not verdict.right and "minus sign" in verdict.text
+    d.frames(2)
     outside = d.window.view(OutsideView)
     drawn = outside.extensions.lines
     assert any(item.name == "your d" for item in drawn)  # next to the correct one
     wrong = d.picture()
     answer(d, "origin", "0, 0, 0")
     answer(d, "direction", "1/16, 5/16, -1")
-    d.ctx.item_click(item(d, "Check"))
-    d.ctx.yield_(2)
-    assert session.answers.verdict is not None and session.answers.verdict.right
+    d.click(item(d, "Check"))
+    assert session.answers.verdict.right
     assert changed(wrong, d.picture()) > 0 and not outside.extensions.lines
     d.window.lecture.go(d.window, titles.index("Exercise: which lens?"))
     d.settle()
-    d.ctx.item_click(item(d, "option 1"))
+    d.click(item(d, "option 1"))
     d.settle()
-    assert session.answers.verdict is not None and not session.answers.verdict.right
-    lens = d.window.state.camera.lens
-    assert lens is not None and lens.coefficients["k1"] == -0.12  # the chosen answer's
-    d.ctx.item_click(item(d, "option 0"))
+    assert not session.answers.verdict.right
+    lens = d.state.camera.lens
+    assert lens.coefficients["k1"] == -0.12  # the chosen answer's
+    d.click(item(d, "option 0"))
     d.settle()
-    assert session.answers.verdict is not None and session.answers.verdict.right
+    assert session.answers.verdict.right
     # The answers are still there after a look elsewhere.
     d.window.lecture.advance(d.window, -1)
     d.settle()
@@ -67,7 +61,7 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     assert session.answers.chosen == 0
 
 
-def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
+def drive_an_object_is_moved_until_it_hides_another(d):
     lecture = load_lecture(BUILTIN)
     number, step = next(
         (k, one) for k, one in enumerate(lecture.steps) if isinstance(one.exercise, HideExercise)
@@ -76,17 +70,14 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     assert isinstance(task, HideExercise)
     lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
-    d.ctx.yield_(12)  # the mark finds its image's size
+    d.frames(12)  # the mark finds its image's size
     d.settle()
-    begun = d.window.state
+    begun = d.state
     assert chosen(begun) == (task.item,)
 
-    def said() -> Judgement:
+    def said():
         watch = lecture_of(d).column.hidden_watch
-        assert watch is not None
-        judged = watch.said[1]
-        assert judged is not None
-        return judged
+        return watch.said[1]
 
     assert said().text == "100 % of the box can still be seen."
     low, high = bounds_of(begun.scene, [task.item])
@@ -94,33 +85,31 @@ def drive_an_object_is_moved_until_it_hides_another(d: Driver) -> None:
     ball, across = place(d, middle), place(d, middle + np.array([0.3, 0.0, 0.0]))
     way = np.subtract(across, ball) / np.linalg.norm(np.subtract(across, ball))
     grip = np.array(ball) + 0.6 * handle_px(d, OUTSIDE) * way
-    d.ctx.mouse_teleport_to_pos(tuple(grip))
-    d.ctx.yield_(3)
-    steps = len(d.window.history.past)
+    d.move_to(tuple(grip))
+    steps = d.steps
     d.drag(tuple(grip), tuple(grip + 40 * way))
-    moved = d.window.state.scene
-    assert moved is not begun.scene and len(d.window.history.past) == steps + 1
+    moved = d.state.scene
+    assert moved is not begun.scene and d.steps == steps + 1
     d.settle()
     assert said().text.endswith("can still be seen."), said()
-    d.ctx.item_click(item(d, "###solution"))
-    d.ctx.yield_(2)
-    d.ctx.item_click(item(d, "Put it there"))
+    d.click(item(d, "###solution"))
+    d.click(item(d, "Put it there"))
     d.settle()
     assert said().right, said()
-    d.window.undo()
+    d.undo()
     d.settle()
-    assert d.window.state.scene is moved and not said().right
-    d.window.change(replace(d.window.state, scene=task.solved(moved)))
-    camera = d.window.state.camera
+    assert d.state.scene is moved and not said().right
+    d.window.change(replace(d.state, scene=task.solved(moved)))
+    camera = d.state.camera
     d.window.change(
-        d.window.state.with_camera(replace(camera, eye=tuple(np.add(camera.eye, (0, 0.1, 0)))))
+        d.state.with_camera(replace(camera, eye=tuple(np.add(camera.eye, (0, 0.1, 0)))))
     )
     d.settle()
     assert not said().right and said().text.startswith("The camera has moved.")
-    d.ctx.key_press(int(Key.backspace))
+    d.press(Key.backspace)
     d.settle()
-    assert d.window.state == begun
+    assert d.state == begun
     assert said().text == "100 % of the box can still be seen."
-    d.ctx.key_press(int(Key.page_down))  # and keeps nothing for the next
+    d.press(Key.page_down)  # and keeps nothing for the next
     d.settle()
-    assert chosen(d.window.state) == ()
+    assert chosen(d.state) == ()

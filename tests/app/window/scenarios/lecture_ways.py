@@ -1,45 +1,42 @@
 """Every step of the built-in lecture shows its own state and views, whichever way leads to it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.lecture.view import LECTURE, LectureView
+from lucida.app.lecture.view import LECTURE
 from lucida.app.ui import layout
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.app.window.capture import Rect
 
 SPOILED = (1, 9, 21, 30)  # steps with images, without, and with a resolution
 JUMPS = (0, 33, 3, 29, 1, 22, 12, 21, 2, 19)
 STILL = 6  # frames in which a mark finds its image's size
 
 
-def _begin(d: Driver) -> LectureView:
+def _begin(d):
     d.window.lecture.give(load_lecture(BUILTIN), BUILTIN)
     _rest(d)
     return d.window.lecture
 
 
-def _rest(d: Driver) -> None:
+def _rest(d):
     d.settle()
-    d.ctx.yield_(2 * STILL)
+    d.frames(2 * STILL)
     d.settle()
 
 
-def _go(d: Driver, number: int) -> None:
+def _go(d, number):
     d.window.lecture.go(d.window, number)
     _rest(d)
 
 
-def _facts(d: Driver) -> tuple[object, ...]:
+def _facts(d):
     """Return a step's state, its images' size and camera, and the places of its views."""
-    state, both = d.window.state, d.window.renderers
+    state, both = d.state, d.renderers
     return (
         replace(state, options=replace(state.options, bookmarks=())),
         both.size,
@@ -48,7 +45,7 @@ def _facts(d: Driver) -> tuple[object, ...]:
     )
 
 
-def _views(d: Driver, picture: np.ndarray) -> dict[str, np.ndarray]:
+def _views(d, picture):
     """Return what the views show, without their tabs, which show who has the keyboard, and without
     the status line, which reports work in the background.
     """
@@ -59,18 +56,18 @@ def _views(d: Driver, picture: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def _rects(d: Driver) -> dict[str, Rect]:
-    return dict(sorted(d.window.shell.stage.rects.items()))
+def _rects(d):
+    return dict(sorted(d.stage.rects.items()))
 
 
-def _leave(d: Driver) -> None:
+def _leave(d):
     d.window.lecture.leave(d.window)
     d.settle()
 
 
-def _spoil(d: Driver) -> None:
+def _spoil(d):
     """Do what a user may do between two steps."""
-    state = d.window.state
+    state = d.state
     changed = with_options(
         state,
         marked=(1, 2),
@@ -82,13 +79,12 @@ def _spoil(d: Driver) -> None:
     )
     d.window.change(changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))))
     for name in ("Raster", "Outside"):
-        d.window.shell.stage.show(name, not d.window.shell.stage.is_shown(name))
+        d.stage.show(name, not d.stage.is_shown(name))
     _rest(d)
 
 
-def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
+def drive_a_step_does_not_depend_on_the_way(d):
     lecture = _begin(d)
-    assert lecture.session is not None
     count = len(lecture.session.lecture.steps)
     facts, before = [], np.zeros(0)
     for number, step in enumerate(lecture.session.lecture.steps):
@@ -101,7 +97,7 @@ def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
             is_over = step.full and name == LECTURE  # the text, if there is one
             assert is_over or (min(view.shape[:2]) > 80 and view.std() > 5), (step.title, name)
         assert not number or np.abs(picture.astype(int) - before).max() > 30, step.title
-        assert d.window.renderers.failure is None and not d.window.files.message, step.title
+        assert d.renderers.failure is None and not d.files.message, step.title
         before = picture
     for number in (*reversed(range(0, count, 5)), *JUMPS):
         _go(d, number)
@@ -113,14 +109,13 @@ def drive_a_step_does_not_depend_on_the_way(d: Driver) -> None:
     _leave(d)
 
 
-def drive_the_stage_has_pictures_and_text_alone(d: Driver) -> None:
+def drive_the_stage_has_pictures_and_text_alone(d):
     before = layout.LAYOUTS[1].name
-    layout.switch(before)
-    d.ctx.yield_(6)
+    d.layout(before)
     lecture = _begin(d)
     bars = hello_imgui.get_runner_params().imgui_window_params
 
-    def is_bare() -> bool:
+    def is_bare():
         return not (bars.show_menu_bar or bars.show_status_bar or d.window.has_tools)
 
     d.ctx.mouse_teleport_to_pos((200, 200))
@@ -134,16 +129,14 @@ def drive_the_stage_has_pictures_and_text_alone(d: Driver) -> None:
     d.stay = True
     assert np.abs(d.picture().astype(int) - resting).max() > 30  # the foot and the menu's button
     assert _rects(d) == rects  # on which nothing depends
-    d.window.change(with_options(d.window.state, marked=(1, 1)))
-    d.press(int(Key.escape))  # leaves the stage, and the mark where it is
-    assert bars.show_menu_bar and d.window.has_tools and d.window.state.marked == (1, 1)
-    d.press(int(Key.f9))
+    d.change(marked=(1, 1))
+    d.press(Key.escape)  # leaves the stage, and the mark where it is
+    assert bars.show_menu_bar and d.window.has_tools and d.state.marked == (1, 1)
+    d.press(Key.f9)
     assert is_bare()
     for key in (Key._1, Key._2, Key.enter):
-        d.press(int(key))
-    assert lecture.session is not None and lecture.session.number == 11
+        d.press(key)
+    assert lecture.session.number == 11
     _rest(d)
     _leave(d)
     assert layout.current().name == before and bars.show_menu_bar
-    layout.switch(layout.LAYOUTS[0].name)
-    d.ctx.yield_(6)

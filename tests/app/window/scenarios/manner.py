@@ -1,12 +1,9 @@
 """The surroundings of the views: palette, sheet, layouts, looks, bookmarks, pictures."""
 
-from __future__ import annotations
-
 import numpy as np
-from imgui_bundle import ImVec2, hello_imgui, imgui
-from option_changes import with_options
+from imgui_bundle import ImVec2, imgui
 from PIL import Image
-from window_driver import SIZE, Driver, Key
+from window_driver import SIZE, Key
 
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.images.pair.view import RASTER, RAY
@@ -14,201 +11,197 @@ from lucida.app.ui import layout, theme
 from lucida.app.window.platform import begin_letters, lock_letters
 
 SIDE = layout.LAYOUTS[0].name
-CTRL, SHIFT = int(Key.mod_ctrl), int(Key.mod_shift)
+CTRL, SHIFT = Key.mod_ctrl, Key.mod_shift
 
 
-def into(d: Driver, name: str) -> None:
+def into(d, name):
     """Shows a layout as it was made, and waits for it."""
     layout.switch(name)
     d.until(lambda: layout.current().name == name)
     layout.reset()
-    d.ctx.yield_(4)
+    d.frames(4)
 
 
-def drive_the_palette_does_what_is_typed(d: Driver) -> None:
+def drive_the_palette_does_what_is_typed(d):
     palette = d.window.shell.palette
-    d.press(CTRL | SHIFT | int(Key.p))
+    d.press(CTRL | SHIFT | Key.p)
     assert palette.open
     d.ctx.key_chars("parallel")
-    d.ctx.yield_(2)
-    d.press(int(Key.enter))
+    d.frames(2)
+    d.press(Key.enter)
     assert not palette.open
-    assert d.window.state.camera.is_parallel
-    d.press(CTRL | SHIFT | int(Key.p))
+    assert d.state.camera.is_parallel
+    d.press(CTRL | SHIFT | Key.p)
     d.ctx.key_chars("scene spheres")
-    d.ctx.yield_(2)
-    d.press(int(Key.enter))
-    d.until(lambda: d.window.state.scene.name == "spheres")
+    d.frames(2)
+    d.press(Key.enter)
+    d.until(lambda: d.state.scene.name == "spheres")
     # Without letters, what was done last stands first; the arrows choose.
-    d.press(CTRL | SHIFT | int(Key.p))
-    d.press(int(Key.down_arrow))
-    assert not d.window.state.camera.is_parallel  # the scene's own view
-    d.press(int(Key.enter))
-    assert d.window.state.camera.is_parallel
-    d.press(CTRL | SHIFT | int(Key.p))
+    d.press(CTRL | SHIFT | Key.p)
+    d.press(Key.down_arrow)
+    assert not d.state.camera.is_parallel  # the scene's own view
+    d.press(Key.enter)
+    assert d.state.camera.is_parallel
+    d.press(CTRL | SHIFT | Key.p)
     d.ctx.key_chars("qqqqq")
-    d.press(int(Key.enter))
+    d.press(Key.enter)
     assert palette.open  # nothing of that name: nothing is done
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert not palette.open
 
 
-def drive_the_sheet_fits_the_window_at_every_size_of_type(d: Driver) -> None:
+def drive_the_sheet_fits_the_window_at_every_size_of_type(d):
     for scale in (1.0, 3.0):
-        d.window.change(with_options(d.window.state, preferences={"font_scale": scale}))
-        d.press(SHIFT | int(Key.slash))
-        d.ctx.yield_(3)
+        d.change(preferences={"font_scale": scale})
+        d.press(SHIFT | Key.slash)
         assert d.window.shell.help
         box = d.ctx.window_info("//Mouse and keys").rect_full
         assert box.min.x >= 0 and box.max.x <= SIZE[0]
         assert box.min.y >= 0 and box.max.y <= SIZE[1]
-        d.press(int(Key.escape))
+        d.press(Key.escape)
         assert not d.window.shell.help
 
 
-def drive_looks_are_options_that_undo_leaves_alone(d: Driver) -> None:
+def drive_looks_are_options_that_undo_leaves_alone(d):
     dark = d.picture().mean()
-    d.ctx.menu_click("//##MainMenuBar/View/Theme/Light theme")
-    d.ctx.yield_(3)
-    assert d.window.state.preferences.theme == "light"
+    d.menu("View/Theme/Light theme")
+    assert d.state.preferences.theme == "light"
     assert theme.PANEL.x > 0.9
     assert d.picture().mean() > dark + 40
     height = imgui.get_font_size()
-    d.press(CTRL | int(Key.equal))
-    d.press(CTRL | int(Key.equal))
-    assert d.window.state.preferences.font_scale == 1.5
+    d.press(CTRL | Key.equal)
+    d.press(CTRL | Key.equal)
+    assert d.state.preferences.font_scale == 1.5
     assert imgui.get_font_size() == 1.5 * height
-    d.press(CTRL | int(Key._0))
-    assert d.window.state.preferences.font_scale == 1.0
+    d.press(CTRL | Key._0)
+    assert d.state.preferences.font_scale == 1.0
     for _ in range(12):
-        d.press(CTRL | int(Key.minus))
-    assert d.window.state.preferences.font_scale == 0.75
+        d.press(CTRL | Key.minus)
+    assert d.state.preferences.font_scale == 0.75
     assert not d.window.can_undo()
 
 
-def drive_presentation_is_large_and_ends_with_escape(d: Driver) -> None:
-    d.press(int(Key.f9))
+def drive_presentation_is_large_and_ends_with_escape(d):
+    d.press(Key.f9)
     d.settle()
     assert imgui.get_font_size() >= 0.02 * SIZE[1]
     assert theme.LINE_WIDTH == 2.0
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     d.settle()
     assert theme.LINE_WIDTH == 1.0
-    assert d.window.state == d.start
+    assert d.state == d.start
 
 
-def drive_layouts_have_keys_and_remember_the_users_changes(d: Driver) -> None:
-    stage = d.window.shell.stage
+def drive_layouts_have_keys_and_remember_the_users_changes(d):
+    stage = d.stage
     into(d, layout.LAYOUTS[1].name)
     into(d, layout.LAYOUTS[0].name)
     for number, one in enumerate(layout.CHOICES):
-        d.press(CTRL | (int(Key.f1) + number))
-        d.until(lambda name=one.name: layout.current().name == name)  # type: ignore[misc]
-        d.ctx.yield_(3)
+        d.press(CTRL | (Key.f1 + number))
+        d.until(lambda name=one.name: layout.current().name == name)
+        d.frames(3)
         for name in one.places:
             if name in stage.views:
                 assert stage.is_shown(name), (one.name, name)
-    d.press(CTRL | int(Key.f2))
+    d.press(CTRL | Key.f2)
     d.until(lambda: layout.current().name == layout.LAYOUTS[1].name)
     stage.show(RASTER, False)
-    d.ctx.yield_(3)
-    d.press(CTRL | int(Key.f1))
+    d.frames(3)
+    d.press(CTRL | Key.f1)
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
-    d.ctx.yield_(3)
+    d.frames(3)
     assert stage.is_shown(RASTER)
-    d.ctx.menu_click("//##MainMenuBar/View/Layout/Reset the layout")
+    d.menu("View/Layout/Reset the layout")
     d.settle()
 
 
-def boxes(d: Driver) -> dict[str, tuple[int, ...]]:
-    rects = d.window.shell.stage.rects
+def boxes(d):
+    rects = d.stage.rects
     return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
 
 
-def drive_an_opened_view_is_as_large_as_the_main_one(d: Driver) -> None:
-    stage = d.window.shell.stage
+def drive_an_opened_view_is_as_large_as_the_main_one(d):
+    stage = d.stage
     into(d, SIDE)
     room = boxes(d)[RASTER]
     stage.show("Mistakes")
-    d.ctx.yield_(4)
+    d.frames(4)
     left, top, right, bottom = boxes(d)["Mistakes"]
     assert (right - left) * (bottom - top) > 0.9 * (room[2] - room[0]) * (room[3] - room[1])
     stage.show("Mistakes", False)
     into(d, SIDE)
 
 
-def drive_a_view_is_maximised_and_comes_back(d: Driver) -> None:
-    stage = d.window.shell.stage
+def drive_a_view_is_maximised_and_comes_back(d):
+    stage = d.stage
     d.settle()
     small = stage.rects[RASTER]
     stage.show(RASTER)
     d.until(lambda: stage.focused == RASTER)
-    d.press(CTRL | int(Key.m))
+    d.press(CTRL | Key.m)
     d.until(lambda: stage.maximised == RASTER and stage.rects[RASTER][2] > small[2] + 100)
     assert RAY not in stage.rects
     # From view to view, each in its turn.
-    d.press(int(Key.f3))
+    d.press(Key.f3)
     d.until(lambda: stage.maximised == RAY and RAY in stage.rects)
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     d.until(lambda: not stage.maximised)
     d.settle()
     assert stage.rects[RASTER] == small
-    assert d.window.state == d.start
+    assert d.state == d.start
     d.agreeing_images()
 
 
-def drive_the_keyboard_goes_from_view_to_view(d: Driver) -> None:
-    stage = d.window.shell.stage
+def drive_the_keyboard_goes_from_view_to_view(d):
+    stage = d.stage
     seen = []
     for _ in stage.shown:
-        d.press(int(Key.f3))
-        d.ctx.yield_(2)
+        d.press(Key.f3)
         seen.append(stage.focused)
     assert sorted(seen) == sorted(view.name for view in stage.shown)
-    d.press(SHIFT | int(Key.f3))
-    d.ctx.yield_(2)
+    d.press(SHIFT | Key.f3)
     assert stage.focused == seen[-2]
 
 
-def drive_bookmarks_bring_views_back(d: Driver) -> None:
+def drive_bookmarks_bring_views_back(d):
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
-    home = d.window.state.view
-    d.press(CTRL | int(Key._3))
+    home = d.state.view
+    d.press(CTRL | Key._3)
     d.type("eye.x", "1")
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.5))
-    away = d.window.state.view
+    away = d.state.view
     assert away != home
-    d.press(CTRL | int(Key._9))
-    d.press(int(Key._3))
-    d.until(lambda: d.window.state.view == home)
-    d.press(int(Key._9))
-    d.until(lambda: d.window.state.view == away)
-    d.press(int(Key._5))
+    d.press(CTRL | Key._9)
+    d.press(Key._3)
+    d.until(lambda: d.state.view == home)
+    d.press(Key._9)
+    d.until(lambda: d.state.view == away)
+    d.press(Key._5)
     assert "free" in d.window.shell.toasts.texts[-1]
-    assert d.window.state.view == away
-    d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/###go3")
-    d.until(lambda: d.window.state.view == home)
-    d.press(CTRL | int(Key.z))
-    d.until(lambda: d.window.state.view == away)
-    d.ctx.menu_click("//##MainMenuBar/Camera/Bookmarks/Forget all bookmarks")
-    assert d.window.state.options.bookmarks == ()
-    d.press(CTRL | int(Key.z))
-    assert [mark.number for mark in d.window.state.options.bookmarks] == [3, 9]
+    assert d.state.view == away
+    d.menu("Camera/Bookmarks/###go3")
+    d.until(lambda: d.state.view == home)
+    d.press(CTRL | Key.z)
+    d.until(lambda: d.state.view == away)
+    d.menu("Camera/Bookmarks/Forget all bookmarks")
+    assert d.options.bookmarks == ()
+    d.press(CTRL | Key.z)
+    assert [mark.number for mark in d.options.bookmarks] == [3, 9]
 
 
-def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
+def drive_pictures_show_what_the_window_shows(d):
     shell = d.window.shell
     shell.captures.folder = d.folder / "pictures"
     shell.captures.folder.mkdir(exist_ok=True)
     d.settle()
-    d.press(int(Key.f12))
+    d.press(Key.f12)
     d.until(lambda: len(list(shell.captures.folder.glob("*.png"))) == 1)
     window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
     assert window.shape == (SIZE[1], SIZE[0], 3)
     assert window.std() > 20
     shell.stage.show(RAY)
     d.until(lambda: shell.stage.focused == RAY)
-    d.press(SHIFT | int(Key.f12))
+    d.press(SHIFT | Key.f12)
     d.until(lambda: len(list(shell.captures.folder.glob("lucida ray *.png"))) == 1)
     view = np.asarray(Image.open(next(shell.captures.folder.glob("lucida ray *.png"))))
     left, top, right, bottom = map(round, shell.stage.rects[RAY])
@@ -221,30 +214,27 @@ def drive_pictures_show_what_the_window_shows(d: Driver) -> None:
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
 
 
-def drive_a_narrow_window_keeps_its_menus_and_its_status(d: Driver) -> None:
-    d.window.change(with_options(d.window.state, preferences={"font_scale": 3.0}))
+def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
+    d.change(preferences={"font_scale": 3.0})
     try:
         for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
-            hello_imgui.change_window_size((width, 480))
-            d.until(lambda width=width: imgui.get_io().display_size.x == width)
-            d.settle()
+            d.resize((width, 480))
             for name in names:
                 assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
-            d.press(int(Key.f1))
+            d.press(Key.f1)
             assert d.window.shell.help
-            d.ctx.yield_(3)
-            d.press(int(Key.escape))
+            d.frames(3)
+            d.press(Key.escape)
             assert not d.window.shell.help
     finally:
-        hello_imgui.change_window_size(SIZE)
-    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+        d.resize(SIZE)
     d.window.change(d.start)
     d.settle()
-    d.ctx.menu_click("//##MainMenuBar/View/Shadows (ray image only)")
-    assert d.window.state.options.shadows
+    d.menu("View/Shadows (ray image only)")
+    assert d.options.shadows
 
 
-def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
+def drive_a_framebuffer_out_of_scale_makes_no_letters(d):
     """As ImGui's backend finds it where the window is resized between two of its questions."""
     io, viewport = imgui.get_io(), imgui.get_main_viewport()
     scale, far = imgui.get_io().display_framebuffer_scale.x, ImVec2(1280, 720)
@@ -253,44 +243,41 @@ def drive_a_framebuffer_out_of_scale_makes_no_letters(d: Driver) -> None:
     begin_letters()
     for found in (io.display_framebuffer_scale, viewport.framebuffer_scale):
         assert (found.x, found.y) == (scale, scale)
-    d.ctx.yield_(2)
-    hello_imgui.change_window_size((1, 1))
-    d.until(lambda: imgui.get_io().display_size.x == 1)
-    hello_imgui.change_window_size(SIZE)
-    d.until(lambda: imgui.get_io().display_size.x == SIZE[0])
+    d.frames(2)
+    d.resize((1, 1))
+    d.resize(SIZE)
     d.agreeing_images()
 
 
-def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d: Driver) -> None:
+def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
     window = d.window
-    window.change(with_options(window.state, marked=(20, 30)))
+    d.change(marked=(20, 30))
     d.settle()
-    d.ctx.item_click("//Raster/strip Raster/##channel")
-    d.ctx.yield_(3)
+    d.click("//Raster/strip Raster/##channel")
     any_popup = int(imgui.PopupFlags_.any_popup)
     assert imgui.is_popup_open("", any_popup)
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert not imgui.is_popup_open("", any_popup)
     assert window.state.marked == (20, 30)
     ask_resolution(window)
-    d.ctx.yield_(3)
-    d.press(int(Key.escape))
+    d.frames(3)
+    d.press(Key.escape)
     assert window.box is None
     assert window.state.marked == (20, 30)
     # A box behind the sheet.
-    d.press(int(Key.f1))
+    d.press(Key.f1)
     ask_resolution(window)
-    d.ctx.yield_(3)
+    d.frames(3)
     d.ctx.mouse_teleport_to_pos((SIZE[0] / 2, 0.25 * SIZE[1]))  # on the sheet, above the box
-    d.ctx.yield_(2)
+    d.frames(2)
     d.ctx.mouse_click(0)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert window.shell.help
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert not window.shell.help
     assert window.box is not None
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert window.box is None
     assert window.state.marked == (20, 30)
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert window.state.marked is None

@@ -1,42 +1,37 @@
 """Renderers and views that fail: told in the window, survived, tried again."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import Any
 
 import moderngl
-from option_changes import with_options
-from window_driver import Driver
 
 from lucida.renderer.system.errors import LucidaError
 
 
-def is_told(d: Driver) -> bool:
+def is_told(d):
     return d.ctx.item_exists("//##message/Try again")
 
 
-def fail_until_retried(d: Driver, error: BaseException, told: str) -> None:
+def fail_until_retried(d, error, told):
     """The tracer fails; the window tells it, goes on, and tries again when asked."""
-    renderers = d.window.renderers
+    renderers = d.renderers
     live = renderers.live
     good = live.make_tracer
 
-    def bad(request: object) -> Any:
+    def bad(request):
         raise error
 
     live.make_tracer = bad
-    d.window.change(with_options(d.window.state, shadows=not d.window.state.options.shadows))
+    d.change(shadows=not d.options.shadows)
     # The full image of a camera at rest is a request of its own, which fails once more.
-    d.until(lambda: live.error is not None and not renderers.unfinished(d.window.state))
+    d.until(lambda: live.error is not None and not renderers.unfinished(d.state))
     d.until(lambda: live.error is not None and is_told(d))
     assert told in str(live.error) or told in type(live.error).__name__
     live.make_tracer = good
-    d.ctx.item_click("//##message/Try again")
+    d.click("//##message/Try again")
     d.until(lambda: live.error is None and d.window.settled)
 
 
-def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
+def drive_failures_of_the_tracer_are_told_and_tried_again(d):
     fail_until_retried(d, MemoryError(), "MemoryError")
     fail_until_retried(d, LucidaError("tracer", "broke", "mend it"), "broke")
     fail_until_retried(d, SystemExit(3), "SystemExit")
@@ -44,23 +39,22 @@ def drive_failures_of_the_tracer_are_told_and_tried_again(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_failures_of_the_rasterizer_are_told_and_survived(d: Driver) -> None:
-    textures = d.window.renderers.textures
-    assert textures is not None
-    rasterizer = textures.rasterizer.of(d.window.state.scene)
+def drive_failures_of_the_rasterizer_are_told_and_survived(d):
+    textures = d.renderers.textures
+    rasterizer = textures.rasterizer.of(d.state.scene)
     for error in (
         moderngl.Error("GLSL: 0:1: syntax error"),
         LucidaError("OpenGL", "GL_OUT_OF_MEMORY at a texture of 1x1", "close other programs"),
         MemoryError(),
     ):
 
-        def fail(*_: object, error: Exception = error) -> Any:
+        def fail(*_, error=error):
             raise error
 
-        rasterizer.draw = fail  # type: ignore[method-assign]
+        rasterizer.draw = fail
         d.drag_field("eye.x", 10)
-        d.until(lambda: d.window.renderers.raster_error is not None)
+        d.until(lambda: d.renderers.raster_error is not None)
         d.until(lambda: is_told(d))
         del rasterizer.draw
-        d.until(lambda: d.window.renderers.raster_error is None)
+        d.until(lambda: d.renderers.raster_error is None)
     d.agreeing_images()

@@ -1,16 +1,14 @@
 """The mouse over the images, and the keys that act where it is."""
 
-from __future__ import annotations
-
 import numpy as np
-from window_driver import Driver, Key, changed
+from window_driver import Key, changed
 
 from lucida.app.images.pair.view import RASTER, RAY
 
 SIZE = (400, 300)  # to project with
 
 
-def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
+def drive_the_mouse_turns_moves_and_zooms(d):
     window, start = d.window, d.start.camera
     for name in (RASTER, RAY):
         before = d.agreeing_images()
@@ -21,7 +19,7 @@ def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
         assert not np.allclose(camera.w, start.w)
         after = d.agreeing_images()
         assert min(changed(a, b) for a, b in zip(before, after, strict=True)) > 0.1
-        for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
+        for button, key in ((1, 0), (2, 0), (0, Key.mod_shift)):
             was = window.state.camera
             pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
             parameter = window.renderers.depth_at(window.state, pixel)
@@ -43,82 +41,74 @@ def drive_the_mouse_turns_moves_and_zooms(d: Driver) -> None:
             assert abs(column - (pixel[1] + 37)) < 0.05
             d.settle()
         was = window.state.camera
-        steps = len(window.history.past)
+        steps = d.steps
         d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.6))
-        d.ctx.yield_()
+        d.frames()
         d.ctx.mouse_wheel_y(2)
         d.ctx.mouse_wheel_y(1)
-        d.ctx.yield_(2)
+        d.frames(2)
         assert window.state.camera.eye != was.eye
-        assert len(window.history.past) == steps + 1
+        assert d.steps == steps + 1
         d.agreeing_images()
         d.reset()
-    d.ctx.item_click("//Camera/parallel")
+    d.click("//Camera/parallel")
     d.settle()
     was = window.state.camera
     d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.3, 0.3))
-    d.ctx.yield_()
+    d.frames()
     d.ctx.mouse_wheel_y(3)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert window.state.camera.eye == was.eye
     assert window.state.camera.viewport[1] < was.viewport[1]
     d.agreeing_images()
 
 
-def drive_the_wheel_goes_through_nothing(d: Driver) -> None:
+def drive_the_wheel_goes_through_nothing(d):
     """Scrolling faster than images are finished: the point under the mouse stays the aim."""
     window = d.window
     pixel = (window.renderers.size[1] // 2 + 30, window.renderers.size[0] // 2)
     x, y, *_ = d.rect(RASTER)
     d.ctx.mouse_teleport_to_pos((x + pixel[1], y + pixel[0]))  # ImGui's mouse has whole numbers
-    d.ctx.yield_()
+    d.frames()
     corner = pixel[0] - 0.5, pixel[1] - 0.5
     ray = window.renderers.camera(window.state).ray(*corner, window.renderers.size)
     aim = ray.origin + window.renderers.depth_at(window.state, pixel) * ray.direction
     for _ in range(30):
         d.ctx.mouse_wheel_y(3)
-    d.ctx.yield_(2)
+    d.frames(2)
     to_aim = aim - np.asarray(window.state.camera.eye)
     assert to_aim @ ray.direction > -0.01, "the eye has gone through what was under the mouse"
     assert np.linalg.norm(to_aim) < 0.01, to_aim
     for _ in range(20):
         d.ctx.mouse_wheel_y(-10)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert 100 < np.linalg.norm(window.state.camera.eye) < 1e4
-    d.ctx.key_press(int(Key.home))
+    d.press(Key.home)
     assert window.state == d.start
 
 
-def drive_keys_fly_over_an_image(d: Driver) -> None:
+def drive_keys_fly_over_an_image(d):
     window = d.window
     keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
     for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
-        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
-        d.ctx.yield_(2)
-        d.ctx.key_down(int(key))
+        d.move_to(d.point(name, 0.5, 0.5))
+        d.ctx.key_down(key)
         d.until(
             lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
         )
-        d.ctx.key_up(int(key))
-        d.ctx.yield_(2)
+        d.ctx.key_up(key)
+        d.frames(2)
         way = np.subtract(window.state.camera.eye, d.start.camera.eye)
         assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
         assert window.state.camera.w == d.start.camera.w
-        assert len(window.history.past) == 1
+        assert d.steps == 1
         resting = window.state
-        d.ctx.yield_(4)
+        d.frames(4)
         assert window.state == resting
         d.reset()
-    d.ctx.item_double_click(d.field("eye.y"))
-    d.ctx.key_chars_replace("w")
-    d.ctx.key_down(int(Key.w))
-    d.ctx.yield_(4)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.key_press(int(Key.escape))
-    assert window.state == d.start
 
 
-def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
+def drive_the_object_under_the_mouse_is_framed(d):
     d.settle()
     window = d.window
     _, _, frame = window.renderers.agreement.pair
@@ -129,9 +119,8 @@ def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
     x, y, right, bottom = d.rect(RASTER)
     height, width = numbers.shape
     at = x + (columns[k] + 0.5) / width * (right - x), y + (rows[k] + 0.5) / height * (bottom - y)
-    d.ctx.mouse_teleport_to_pos(at)
-    d.ctx.yield_(3)
-    d.ctx.key_press(int(Key.f))
+    d.move_to(at)
+    d.press(Key.f)
     camera = window.state.camera
     assert (camera.u, camera.v, camera.w) == (
         d.start.camera.u,
@@ -143,22 +132,22 @@ def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
     assert abs(seen.row - (SIZE[1] - 1) / 2) < 1
     assert abs(seen.column - (SIZE[0] - 1) / 2) < 1
     frame = d.agreeing_images()
-    assert len(window.history.past) == 1
-    d.ctx.key_press(int(Key.h))
+    assert d.steps == 1
+    d.press(Key.h)
     assert window.state == d.start
     assert frame[0].std() > 5
 
 
-def drive_alt_and_a_drag_looks_around(d: Driver) -> None:
+def drive_alt_and_a_drag_looks_around(d):
     start, goal = d.point(RASTER, 0.5, 0.5), d.point(RASTER, 0.6, 0.45)
-    d.ctx.key_down(int(Key.mod_alt))
+    d.ctx.key_down(Key.mod_alt)
     d.drag(start, goal)
-    d.ctx.key_up(int(Key.mod_alt))
-    camera = d.window.state.camera
+    d.ctx.key_up(Key.mod_alt)
+    camera = d.state.camera
     assert np.allclose(camera.eye, d.start.camera.eye)
     assert not np.allclose(camera.w, d.start.camera.w)
     # The mouse went to the image's right: so does the view direction.
     turned = -np.asarray(camera.w) @ np.asarray(d.start.camera.u)
     assert turned > 0.05
-    assert len(d.window.history.past) == 1
+    assert d.steps == 1
     d.agreeing_images()

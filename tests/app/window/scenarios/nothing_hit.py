@@ -1,7 +1,5 @@
 """An image that shows nothing says so: over both images, in the status line, as the comparison."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from window_driver import RASTER, RAY
@@ -20,7 +18,6 @@ def drive_an_empty_image_says_why(d):
     window.change(window.state.with_camera(away))
     d.settle()
     reason = window.renderers.why_black(window.state)
-    assert reason is not None
     assert reason.text == WHY
     verdict = window.renderers.verdict(window.state)
     assert told(verdict, None) == f"nothing is hit: {WHY}"
@@ -46,7 +43,7 @@ def drive_a_black_image_has_a_button_that_helps(d):
         window.change(before.with_camera(camera))
         d.settle()
         assert window.renderers.why_black(window.state) is not None
-        d.ctx.item_click(f"//###{view}/**/{remedy}")
+        d.click(f"//###{view}/**/{remedy}")
         d.settle()
         assert window.renderers.why_black(window.state) is None
         window.undo()

@@ -1,7 +1,5 @@
 """The scene in hand: choosing, the list, the inspector; adding, deleting."""
 
-from __future__ import annotations
-
 import numpy as np
 from objects_window import (
     CTRL,
@@ -17,7 +15,7 @@ from objects_window import (
     seen_at,
 )
 from option_changes import with_options
-from window_driver import RASTER, RAY, Driver, Key
+from window_driver import RASTER, RAY, Key
 
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of
 from lucida.app.instruments.objects.in_views import CHOSEN
@@ -27,31 +25,31 @@ from lucida.renderer.editing import objects
 # Choosing.
 
 
-def drive_a_double_click_leaves_no_mark_and_no_step(d: Driver) -> None:
+def drive_a_double_click_leaves_no_mark_and_no_step(d):
     enter(d)
     click(d, seen_at(d, RASTER, "matte sphere"))
-    marked, steps = d.window.state.marked, d.window.history.past
+    marked, steps = d.state.marked, d.window.history.past
     assert marked is not None
     for view in (RASTER, RAY, OUTSIDE):
         click(d, seen_at(d, view, "shiny sphere"), double=True)
         assert now(d) == ("shiny sphere",), view
-        assert d.window.state.marked == marked, view
+        assert d.state.marked == marked, view
         assert d.window.history.past == steps, view
-        d.window.amend(choose(d.window.state, ()))
+        d.window.amend(choose(d.state, ()))
     click(d, seen_at(d, RASTER, "matte sphere"), double=True)  # on the mark itself
     assert now(d) == ("matte sphere",)
-    assert d.window.state.marked == marked
+    assert d.state.marked == marked
     assert d.window.history.past == steps
 
 
-def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
+def drive_clicks_mark_pixels_unless_they_are_to_choose(d):
     enter(d)
     window = d.window
     click(d, seen_at(d, RASTER, "matte sphere"))
     assert window.state.marked is not None
     assert now(d) == ()
-    window.change(with_options(window.state, marked=None))
-    d.press(int(Key.v))
+    d.change(marked=None)
+    d.press(Key.v)
     assert window.state.options.objects.selects
     for view in (RASTER, RAY, OUTSIDE):
         click(d, seen_at(d, view, "matte sphere"))
@@ -63,11 +61,11 @@ def drive_clicks_mark_pixels_unless_they_are_to_choose(d: Driver) -> None:
             click(d, seen_at(d, view, "matte sphere"))
         assert now(d) == ("shiny sphere",), view
         assert window.state.marked is None
-        d.press(int(Key.escape))
+        d.press(Key.escape)
     d.picture()
 
 
-def drive_outlines_end_where_the_image_does(d: Driver) -> None:
+def drive_outlines_end_where_the_image_does(d):
     enter(d)
     window = d.window
     state = with_options(window.state, images={"resolution": (64, 64)}, objects={"handle": "none"})
@@ -85,115 +83,110 @@ def drive_outlines_end_where_the_image_does(d: Driver) -> None:
 # The list.
 
 
-def drive_rows_are_chosen_as_everywhere(d: Driver) -> None:
+def drive_rows_are_chosen_as_everywhere(d):
     enter(d)
-    names = [row.shown for row in rows_of(d.window.state.scene)]
-    d.ctx.item_click(in_list(d, names[1]))
+    names = [row.shown for row in rows_of(d.state.scene)]
+    d.click(in_list(d, names[1]))
     assert now(d) == (names[1],)
     with held(d, Key.mod_ctrl):
-        d.ctx.item_click(in_list(d, names[3]))
+        d.click(in_list(d, names[3]))
     assert now(d) == (names[1], names[3])
     with held(d, Key.mod_shift):
-        d.ctx.item_click(in_list(d, names[1]))
+        d.click(in_list(d, names[1]))
     assert now(d) == (names[3],)
     d.picture()
-    d.ctx.key_press(CTRL | int(Key.a))
-    d.ctx.yield_(3)
+    d.press(CTRL | Key.a)
     assert now(d) == tuple(names)
-    d.press(int(Key.escape))
+    d.press(Key.escape)
 
 
-def drive_what_is_typed_edits_no_object(d: Driver) -> None:
+def drive_what_is_typed_edits_no_object(d):
     """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
     enter(d)
-    d.ctx.item_click(in_list(d, "box"))
-    before = d.window.state.scene
-    d.ctx.item_click("//###Inspector/##texture")
-    for chord in (CTRL | int(Key.a), CTRL | int(Key.d)):
+    d.click(in_list(d, "box"))
+    before = d.state.scene
+    d.click("//###Inspector/##texture")
+    for chord in (CTRL | Key.a, CTRL | Key.d):
         d.press(chord)
-    d.press(int(Key.delete))
-    d.press(CTRL | int(Key.a))
-    d.press(int(Key.delete))
-    assert d.window.state.scene is before
+    d.press(Key.delete)
+    d.press(CTRL | Key.a)
+    d.press(Key.delete)
+    assert d.state.scene is before
     assert now(d) == ("box",)
-    d.press(int(Key.escape))
+    d.press(Key.escape)
 
 
-def drive_the_palette_edits_what_is_chosen(d: Driver) -> None:
+def drive_the_palette_edits_what_is_chosen(d):
     """Though its own field has the keyboard."""
     enter(d)
-    count = len(rows_of(d.window.state.scene))
-    d.window.amend(choose(d.window.state, (item(d, "box"),)))
+    count = len(rows_of(d.state.scene))
+    d.window.amend(choose(d.state, (item(d, "box"),)))
     for words, more in (("duplicate", 1), ("delete", 0)):
-        d.press(CTRL | SHIFT | int(Key.p))
+        d.press(CTRL | SHIFT | Key.p)
         d.ctx.key_chars(words)
-        d.ctx.yield_(3)
-        d.press(int(Key.enter))
-        assert len(rows_of(d.window.state.scene)) == count + more, words
+        d.frames(3)
+        d.press(Key.enter)
+        assert len(rows_of(d.state.scene)) == count + more, words
 
 
-def drive_a_checkbox_hides_from_both_images(d: Driver) -> None:
+def drive_a_checkbox_hides_from_both_images(d):
     enter(d)
     before = d.agreeing_images()
-    d.ctx.item_click(in_list(d, "matte sphere", "##shown"))
-    d.ctx.yield_(3)
-    assert next(r for r in rows_of(d.window.state.scene) if r.shown == "matte sphere").hidden
+    d.click(in_list(d, "matte sphere", "##shown"))
+    assert next(r for r in rows_of(d.state.scene) if r.shown == "matte sphere").hidden
     after = d.agreeing_images()
     assert all(
         (np.abs(a - b).max(axis=2) > 8).mean() > 0.01 for a, b in zip(before, after, strict=True)
     )
-    d.window.undo()
+    d.undo()
     d.settle()
 
 
 # The inspector.
 
 
-def drive_a_number_that_is_dragged_is_one_step(d: Driver) -> None:
+def drive_a_number_that_is_dragged_is_one_step(d):
     enter(d)
     window = d.window
-    d.ctx.item_click(in_list(d, "matte sphere"))
-    d.ctx.yield_(3)
-    steps, radius = len(window.history.past), ball(d, "matte sphere").radius
-    middle = d.ctx.item_info("//###Inspector/##radius").rect_full.get_center()
+    d.click(in_list(d, "matte sphere"))
+    steps, radius = d.steps, ball(d, "matte sphere").radius
+    middle = d.box("//###Inspector/##radius").get_center()
     d.drag((middle.x, middle.y), (middle.x + 30, middle.y))
-    d.ctx.yield_(3)
+    d.frames(3)
     assert ball(d, "matte sphere").radius != radius
-    assert len(window.history.past) == steps + 1
+    assert d.steps == steps + 1
     window.undo()
     assert ball(d, "matte sphere").radius == radius
     assert now(d) == ("matte sphere",)
 
 
-def drive_a_material_is_changed_for_one_object(d: Driver) -> None:
+def drive_a_material_is_changed_for_one_object(d):
     enter(d)
     window = d.window
     row = next(row for row in rows_of(window.state.scene) if row.shown == "box")
     assert window.state.scene.objects[row.ids[0]].material.checker is None
     before = {entry.material.shininess for entry in window.state.scene.objects}
-    d.ctx.item_click(in_list(d, row.shown))
-    d.ctx.yield_(3)
+    d.click(in_list(d, row.shown))
     d.picture()
-    d.ctx.item_click("//###Inspector/##name")
+    d.click("//###Inspector/##name")
     d.ctx.key_chars_replace("crate")
-    d.press(int(Key.tab))
+    d.press(Key.tab)
     assert item(d, "crate") == row.item
     d.ctx.item_double_click("//###Inspector/##shininess")
     d.ctx.key_chars_replace_enter("7")
-    d.ctx.yield_(3)
+    d.frames(3)
     assert {e.material.shininess for e in window.state.scene.objects} == {7.0, *before}
-    d.ctx.item_click("//###Inspector/checker")
-    d.ctx.yield_(3)
+    d.click("//###Inspector/checker")
     assert window.state.scene.objects[row.ids[0]].material.checker is not None
 
 
-def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
+def drive_nothing_chosen_shows_the_scene_s_own(d):
     enter(d)
-    before = d.window.state.scene.background
+    before = d.state.scene.background
     d.ctx.item_double_click("//###Inspector/##sky/##X")
     d.ctx.key_chars_replace_enter("200")
-    d.ctx.yield_(3)
-    after = d.window.state.scene.background
+    d.frames(3)
+    after = d.state.scene.background
     assert after[0] > before[0]
     assert after[1:] == before[1:]
 
@@ -201,15 +194,14 @@ def drive_nothing_chosen_shows_the_scene_s_own(d: Driver) -> None:
 # Adding.
 
 
-def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> None:
+def drive_every_shape_and_light_is_added_and_both_images_agree(d):
     enter(d)
     window = d.window
     for kind in (*objects.SHAPES, *objects.LIGHTS):
         light = kind in objects.LIGHTS
         name = f"Add {kind} light" if light else f"Add {kind}"
         before = {row.item for row in rows_of(window.state.scene)}
-        d.ctx.menu_click(f"//##MainMenuBar/Scene/Add/{name}")
-        d.ctx.yield_(3)
+        d.menu(f"Scene/Add/{name}")
         (new,) = {row.item for row in rows_of(window.state.scene)} - before
         assert chosen(window.state) == (new,)
     d.agreeing_images()
@@ -221,7 +213,7 @@ def drive_every_shape_and_light_is_added_and_both_images_agree(d: Driver) -> Non
 # Many objects, large type.
 
 
-def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d: Driver) -> None:
+def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d):
     enter(d)
     balls = "".join(
         f'[[objects]]\ntype = "sphere"\nname = "ball {k}"\ncenter = [{k % 20}, 0, {k // 20}]\n'
@@ -230,19 +222,19 @@ def drive_a_long_list_draws_what_is_seen_and_follows_what_is_chosen(d: Driver) -
     )
     opened(d, f'name = "kept"\n{balls}', "many")
     for name, other in (("ball 0", "ball 150"), ("ball 150", "ball 0"), ("ball 0", "ball 150")):
-        d.window.amend(choose(d.window.state, (item(d, name),)))
-        d.ctx.yield_(4)
+        d.window.amend(choose(d.state, (item(d, name),)))
+        d.frames(4)
         assert d.ctx.item_exists(in_list(d, name))
         assert not d.ctx.item_exists(in_list(d, other))
 
 
-def drive_the_column_grows_with_the_type(d: Driver) -> None:
+def drive_the_column_grows_with_the_type(d):
     enter(d)
     window = d.window
     window.amend(choose(window.state, (item(d, "box"),)))
     wide = []
     for scale in (1.0, 1.5, 1.0):
-        window.change(with_options(window.state, preferences={"font_scale": scale}))
+        d.change(preferences={"font_scale": scale})
         d.settle()
         d.picture()
         wide.append(d.ctx.item_info("//###Objects/Add").rect_full.get_width())

@@ -1,7 +1,5 @@
 """The scene in hand: saving what was changed, and what is dropped on it."""
 
-from __future__ import annotations
-
 from objects_window import (
     CTRL,
     SCENE,
@@ -10,7 +8,7 @@ from objects_window import (
     item,
     opened,
 )
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.instruments.objects.choosing import chosen
 from lucida.app.instruments.objects.editing import with_scene
@@ -23,15 +21,15 @@ from lucida.renderer.files import load_scene
 # Saving.
 
 
-def drive_a_changed_scene_is_saved_with_its_comments(d: Driver) -> None:
+def drive_a_changed_scene_is_saved_with_its_comments(d):
     enter(d)
     window, path = d.window, opened(d)
     assert "*" not in title(window.state.scene)
     scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.75)
     window.change(with_scene(window.state, scene))
-    d.ctx.yield_(3)
+    d.frames(3)
     assert "*" in title(window.state.scene)
-    d.press(CTRL | int(Key.s))
+    d.press(CTRL | Key.s)
     d.until(lambda: not is_unsaved(window.state.scene))
     assert "*" not in title(window.state.scene)
     text = path.read_text()
@@ -40,15 +38,15 @@ def drive_a_changed_scene_is_saved_with_its_comments(d: Driver) -> None:
     assert "radius = 0.75" in text
     d.until(lambda: any("kept.toml" in said for said in window.shell.toasts.texts))
     window.undo()  # not what is in the file
-    d.ctx.yield_(3)
+    d.frames(3)
     assert is_unsaved(window.state.scene)
     window.redo()
-    d.ctx.yield_(3)
+    d.frames(3)
     assert not is_unsaved(window.state.scene)
     window.shell.toasts.clear()
 
 
-def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
+def drive_a_file_that_another_has_changed_is_asked_about(d):
     enter(d)
     window, path = d.window, opened(d, name="theirs")
     scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.5)
@@ -57,13 +55,12 @@ def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
         window.change(with_scene(window.state, scene))
         path.write_text(SCENE + "\n# theirs\n")
         for answer, kept in (("Cancel", True), ("Overwrite it", False)):
-            d.press(CTRL | int(Key.s))
+            d.press(CTRL | Key.s)
             d.until(lambda: window.files.question is not None)
-            d.ctx.yield_(3)
+            d.frames(3)
             d.picture()
             assert "# theirs" in path.read_text()
-            d.ctx.item_click(f"//##message/{answer}")
-            d.ctx.yield_(3)
+            d.click(f"//##message/{answer}")
             if kept:
                 assert is_unsaved(window.state.scene)
         d.until(lambda: not is_unsaved(window.state.scene))
@@ -73,53 +70,51 @@ def drive_a_file_that_another_has_changed_is_asked_about(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-def drive_closing_asks_about_what_is_not_saved(d: Driver) -> None:
+def drive_closing_asks_about_what_is_not_saved(d):
     enter(d)
     window, path = d.window, opened(d, name="closing")
-    ended: list[str] = []
+    ended = []
     window.saving.end = lambda: ended.append("quit")
     scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.25)
     window.change(with_scene(window.state, scene))
-    d.press(CTRL | int(Key.q))
+    d.press(CTRL | Key.q)
     assert window.files.question is not None
     assert not ended
     d.picture()
-    d.ctx.item_click("//##message/Cancel")
-    d.ctx.yield_(3)
+    d.click("//##message/Cancel")
     assert window.files.question is None
     assert not ended
-    d.press(CTRL | int(Key.q))
-    d.ctx.item_click("//##message/Quit without saving")
-    d.ctx.yield_(3)
+    d.press(CTRL | Key.q)
+    d.click("//##message/Quit without saving")
     assert ended == ["quit"]
     assert "radius" not in path.read_text()
     scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.3)
     window.change(with_scene(window.state, scene))
-    d.press(CTRL | int(Key.q))
-    d.ctx.item_click("//##message/Save")
+    d.press(CTRL | Key.q)
+    d.click("//##message/Save")
     d.until(lambda: len(ended) == 2)
     assert "radius = 0.3" in path.read_text()
     window.shell.toasts.clear()
     assert load_scene(path).objects
 
 
-def drive_saving_as_begins_beside_the_scene_s_file(d: Driver) -> None:
+def drive_saving_as_begins_beside_the_scene_s_file(d):
     enter(d)
     window, path = d.window, opened(d, name="begun")
     (d.folder / "elsewhere").mkdir()
     window.files.dialog.folder = d.folder / "elsewhere"
-    d.press(CTRL | SHIFT | int(Key.s))
+    d.press(CTRL | SHIFT | Key.s)
     assert window.files.dialog.folder == path.parent
     d.picture()
     d.ctx.key_chars("copy")  # in the place of its own name
-    d.press(int(Key.enter))
+    d.press(Key.enter)
     d.until(lambda: (d.folder / "copy.toml").exists())
     assert "# A ball" in (d.folder / "copy.toml").read_text()
     d.settle()
     window.shell.toasts.clear()
 
 
-def drive_opening_another_scene_asks_about_what_is_not_saved(d: Driver) -> None:
+def drive_opening_another_scene_asks_about_what_is_not_saved(d):
     enter(d)
     window, path = d.window, opened(d, name="leaving")
     for answer, there in (("Cancel", False), ("Open without saving", True), ("Save", True)):
@@ -128,9 +123,8 @@ def drive_opening_another_scene_asks_about_what_is_not_saved(d: Driver) -> None:
         window.open("spheres")
         d.until(lambda: window.files.question is not None)
         assert window.state.scene is scene
-        d.ctx.yield_(3)
-        d.ctx.item_click(f"//##message/{answer}")
-        d.ctx.yield_(3)
+        d.frames(3)
+        d.click(f"//##message/{answer}")
         if there:
             d.until(lambda: window.state.scene.name == "spheres")
             window.undo()
@@ -142,15 +136,15 @@ def drive_opening_another_scene_asks_about_what_is_not_saved(d: Driver) -> None:
     window.shell.toasts.clear()
 
 
-def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
+def drive_a_dropped_model_is_added_once_the_user_has_said_so(d):
     window = d.window
     path = d.folder / "wedge.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n", "utf-8")
     before = len(window.state.scene.objects)
     d.drop([str(path)])
     d.until(lambda: window.files.question is not None)
-    d.ctx.yield_(2)
-    d.ctx.item_click(f"//##message/{taking.ADD}")
+    d.frames(2)
+    d.click(f"//##message/{taking.ADD}")
     d.until(lambda: len(window.state.scene.objects) == before + 1)
     assert chosen(window.state)
     d.drop([str(path)])  # not asked again
@@ -160,6 +154,6 @@ def drive_a_dropped_model_is_added_once_the_user_has_said_so(d: Driver) -> None:
     window.undo()
     window.undo()
     assert len(window.state.scene.objects) == before
-    d.ctx.menu_click("//##MainMenuBar/Scene/Add dropped models to the scene")
+    d.menu("Scene/Add dropped models to the scene")
     d.drop([str(path)])
     d.until(lambda: window.state.scene.name == "wedge")

@@ -1,16 +1,11 @@
 """The outside view: its handles, its switches, and the pixels that it shares."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import numpy as np
 from imgui_bundle.imguizmo import im_guizmo
-from option_changes import with_options
 from outside_window import enter, place, press, scope, strokes, view
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.instruments.outside import gizmo as outside_gizmo
 from lucida.app.instruments.outside import tint as outside_tint
@@ -24,7 +19,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import Sphere
 
 
-def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
+def drive_a_pixel_is_the_same_in_all_views(d):
     enter(d)
     window = d.window
     camera, size = window.renderers.camera(window.state), window.renderers.size
@@ -32,22 +27,20 @@ def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
     target = (2 * size[1] // 3, size[0] // 4)
     part = (target[1] + 0.5) / size[0], (target[0] + 0.5) / size[1]
     point = corners[0] + part[0] * (corners[1] - corners[0]) + part[1] * (corners[3] - corners[0])
-    d.ctx.mouse_teleport_to_pos(place(d, point))
-    d.ctx.yield_(3)
+    d.move_to(place(d, point))
     name, pixel = window.hovered
     assert name == OUTSIDE
     near = 3 + size[0] / 60  # ImGui's mouse has whole numbers, and the plane is small on the screen
     assert max(abs(pixel[0] - target[0]), abs(pixel[1] - target[1])) < near
-    steps = len(window.history.past)
+    steps = d.steps
     d.ctx.mouse_click(0)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert window.state.marked == pixel
-    assert len(window.history.past) == steps + 1
+    assert d.steps == steps + 1
     d.settle()
     # Its ray goes from the eye through the pixel's centre to what the ray image has seen there.
     (ray,) = strokes(d, "ray")
     t = window.renderers.depth_at(window.state, pixel)
-    assert t is not None
     drawn = camera.ray(*pixel, size)
     x, y = place(d, drawn.origin + t * drawn.direction)
     at = scope(d)
@@ -57,7 +50,7 @@ def drive_a_pixel_is_the_same_in_all_views(d: Driver) -> None:
     assert np.allclose(ray.points[0, 0] + (at.origin.x, at.origin.y), start, atol=1.0)
 
 
-def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) -> None:
+def drive_what_stands_before_the_image_plane_is_not_looked_through(d):
     enter(d)
     window = d.window
     camera = window.renderers.camera(window.state)
@@ -67,24 +60,23 @@ def drive_what_stands_before_the_image_plane_is_not_looked_through(d: Driver) ->
     from_behind = center + 1.4 * ball.radius * way
     for eye, hidden in ((from_behind, True), (spot - 0.5 * way, False)):
         looking = Camera.look_at(eye, spot, fov_y_deg=40.0)
-        window.change(with_options(window.state, outside={"camera": looking}, marked=None))
-        d.ctx.yield_(3)  # its rows and columns are where it was drawn
+        d.change(outside={"camera": looking}, marked=None)
+        d.frames(3)  # its rows and columns are where it was drawn
         d.settle()
-        d.ctx.mouse_teleport_to_pos(place(d, spot))
-        d.ctx.yield_(3)
+        d.move_to(place(d, spot))
         assert (window.hovered is None) == hidden
         d.ctx.mouse_click(0)
-        d.ctx.yield_(2)
+        d.frames(2)
         assert (window.state.marked is None) == hidden
 
 
-def drive_the_legend_switches(d: Driver) -> None:
+def drive_the_legend_switches(d):
     enter(d)
     window = d.window
     for name in ("basis", "image", "grid", "volume", "ray"):
         press(d, f"Show {name}")
         assert not getattr(window.state.options.outside, name)
-        d.ctx.yield_(2)
+        d.frames(2)
         assert not strokes(d, {"basis": "u", "image": "none", "volume": "edges"}.get(name, name))
         press(d, f"Show {name}")
         assert getattr(window.state.options.outside, name)
@@ -93,30 +85,30 @@ def drive_the_legend_switches(d: Driver) -> None:
     d.settle()
     assert len(strokes(d, "bundle")) == rows * columns
     assert view(d).settled
-    d.window.undo()
+    d.undo()
     assert window.state.options.outside.bundle == (0, 0)
 
 
-def drive_nothing_is_drawn_anew_while_nothing_changes(d: Driver) -> None:
+def drive_nothing_is_drawn_anew_while_nothing_changes(d):
     enter(d)
     d.until(lambda: view(d).settled)
-    d.ctx.yield_(3)
+    d.frames(3)
     before = view(d).primitives
     assert before
-    d.ctx.yield_(20)
+    d.frames(20)
     assert view(d).primitives is before
     d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.4, 0.6))
     d.until(lambda: view(d).primitives is not before)  # its ray
     assert strokes(d, "ray")
 
 
-def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
+def drive_it_is_drawn_anew_in_another_look(d):
     """The look follows the preferences a frame later: what was drawn between is of the old one."""
     enter(d)
-    drawn: list[palettes.Palette] = []
+    drawn = []
     layers = outside.layers
 
-    def watched(primitives: Any, ground: theme.Rgb) -> Any:
+    def watched(primitives, ground):
         drawn.append(theme.used().palette)
         return layers(primitives, ground)
 
@@ -130,32 +122,31 @@ def drive_it_is_drawn_anew_in_another_look(d: Driver) -> None:
                 "presentation": palette in (palettes.PRESENTED_LIGHT, palettes.PRESENTED_DARK),
             }
             drawn.clear()
-            d.window.change(with_options(d.window.state, preferences=look))
+            d.change(preferences=look)
             if look["presentation"]:
-                d.ctx.yield_(3)
-                d.window.shell.stage.show(OUTSIDE)
+                d.frames(3)
+                d.stage.show(OUTSIDE)
             d.until(lambda it=palette: bool(drawn) and drawn[-1] is it)
     finally:
         outside.layers = layers
 
 
-def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
+def drive_handles_move_the_eye_and_turn_the_basis(d):
     """While a handle is dragged, only our own colours are shown, none of ImGuizmo's."""
     enter(d)
     window = d.window
     start = window.state.camera
     press(d, "Handles: move eye")
     assert window.state.options.outside.gizmo == "move"
-    d.ctx.yield_(2)
+    d.frames(2)
     at = scope(d)
     x, y = place(d, np.asarray(start.eye))
     up = place(d, np.add(start.eye, 0.1 * at.reach * np.asarray(start.v)))  # along v's handle
     way = np.array([up[0] - x, up[1] - y])
     way = way / np.linalg.norm(way)
     grip = np.array([x, y]) + 0.4 * LENGTH * at.extent.x * way
-    steps = len(window.history.past)
-    d.ctx.mouse_teleport_to_pos(tuple(grip))
-    d.ctx.yield_(3)
+    steps = d.steps
+    d.move_to(tuple(grip))
     with _watched() as (hidden, colors):
         d.drag(tuple(grip), tuple(grip + 60 * way))
         d.picture()
@@ -171,26 +162,24 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
     expected |= {0, 0xFFFFFF, packed(170, 170, 170)}  # hidden, held, the way from the beginning
     assert colors <= expected, f"ImGuizmo's own colours: {[hex(c) for c in colors - expected]}"
     assert window.state.options.outside.camera is None  # the view was not turned by it
-    assert len(window.history.past) == steps + 1
+    assert d.steps == steps + 1
     d.settle()
     window.undo()
     assert window.state.camera == start
-    d.ctx.mouse_teleport_to_pos(tuple(grip))
-    d.ctx.yield_(3)
+    d.move_to(tuple(grip))
     d.ctx.mouse_down(0)
     for length in (10, 30):
-        d.ctx.mouse_teleport_to_pos(tuple(grip + length * way))
-        d.ctx.yield_(2)
+        d.move_to(tuple(grip + length * way))
     assert window.state.camera != start
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     d.ctx.mouse_teleport_to_pos(tuple(grip + 60 * way))  # the mouse is still down
-    d.ctx.yield_(2)
+    d.frames(2)
     d.ctx.mouse_up(0)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert window.state.camera == start
-    assert len(window.history.past) == steps
+    assert d.steps == steps
     press(d, "Handles: turn basis")
-    d.ctx.yield_(2)
+    d.frames(2)
     x, y = place(d, np.asarray(start.eye))
     for angle in np.linspace(0.0, 2 * np.pi, 16, endpoint=False):
         turned = _turn_by(d, np.array([x, y]), angle)
@@ -205,13 +194,13 @@ def drive_handles_move_the_eye_and_turn_the_basis(d: Driver) -> None:
 
 
 @contextmanager
-def _watched() -> Iterator[tuple[list[int], set[int]]]:
+def _watched():
     """Watch a dragged handle: the numbers of hidden vertices, and the colours."""
-    hidden: list[int] = []
-    colors: set[int] = set()
+    hidden = []
+    colors = set()
     hide_text = outside_gizmo.hide_text
 
-    def counted(draw: Any, first: int) -> None:
+    def counted(draw, first):
         shadows = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
         hide_text(draw, first)
         after = outside_tint.vertex_colors(draw)[first:]
@@ -227,22 +216,21 @@ def _watched() -> Iterator[tuple[list[int], set[int]]]:
         outside_gizmo.hide_text = hide_text
 
 
-def packed(red: int, green: int, blue: int) -> int:
+def packed(red, green, blue):
     return red | green << 8 | blue << 16
 
 
-def _turn_by(d: Driver, middle: np.ndarray, angle: float) -> bool:
+def _turn_by(d, middle, angle):
     """Drags the ring of handles at an angle; whether there was one."""
-    before = d.window.state.camera
+    before = d.state.camera
     radius = 0.5 * LENGTH * scope(d).extent.x
     for part in (0.7, 0.85, 1.0, 1.1):
         grip = middle + part * radius * np.array([np.cos(angle), np.sin(angle)])
-        d.ctx.mouse_teleport_to_pos(tuple(grip))
-        d.ctx.yield_(2)
+        d.move_to(tuple(grip))
         if not im_guizmo.is_over():
             continue
         d.drag(tuple(grip), tuple(grip + 30 * np.array([-np.sin(angle), np.cos(angle)])))
-        if np.abs(np.subtract(d.window.state.camera.w, before.w)).max() > 1e-3:
+        if np.abs(np.subtract(d.state.camera.w, before.w)).max() > 1e-3:
             return True
-        d.window.history = type(d.window.history)(d.window.state)
+        d.window.history = type(d.window.history)(d.state)
     return False

@@ -1,38 +1,31 @@
 """The outside view in motion: by mouse and keys, in smooth transitions, each one undo step."""
 
-from __future__ import annotations
-
 import numpy as np
 from held_clock import Clock
-from option_changes import with_options
 from outside_window import empty_place, enter, press, scope, view
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.cameras.travel import DURATION_S
-from lucida.app.instruments.outside.ground import Ground
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE
 
 
-def ground(d: Driver) -> Ground:
+def ground(d):
     tools = view(d).tools
-    assert tools is not None
     return tools.ground
 
 
-def looks_from(d: Driver) -> np.ndarray:
+def looks_from(d):
     """The unit vector from what is looked at to the camera that looks."""
     at = view(d).scope
-    assert at is not None
     back = np.asarray(at.camera.w)
     return back / np.linalg.norm(back)
 
 
-def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
+def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d):
     enter(d)
     at = view(d).scope
-    assert at is not None  # else it would follow, to see all
-    d.window.change(with_options(d.window.state, outside={"camera": at.camera}))
+    d.change(outside={"camera": at.camera})
     d.settle()
     shown = ground(d).shown
     for name in ("eye.x", "distance"):
@@ -44,21 +37,20 @@ def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d: Driver) -> None:
     d.settle()
 
 
-def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> None:
+def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
     enter(d)
     window, clock = d.window, Clock(d)
     start = looks_from(d)
     assert window.state.options.outside.camera is None
-    d.ctx.item_click(f"//###{OUTSIDE}/axis x##outside")
+    d.click(f"//###{OUTSIDE}/axis x##outside")
     d.until(lambda: window.motions.transition.under_way)
     inner, turned = window.state.view, []
     for part in (0.25, 0.5, 0.75):
         clock.s = 10.0 + part * DURATION_S
-        d.ctx.yield_(2)
+        d.frames(2)
         way = looks_from(d)
         turned.append(float(np.arccos(np.clip(way @ start, -1, 1))))
         at = view(d).scope
-        assert at is not None  # all of it stays in front
         ahead = np.asarray(at.center) - at.camera.eye
         assert ahead @ way < 0
     whole = float(np.arccos(np.clip(start @ (1, 0, 0), -1, 1)))
@@ -66,20 +58,20 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     assert abs(turned[1] - whole / 2) < 0.02  # half of the way after half of the time
     clock.s += DURATION_S
     d.until(lambda: not window.motions.transition.under_way)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert np.allclose(looks_from(d), (1, 0, 0))
-    assert len(window.history.past) == 1
+    assert d.steps == 1
     assert window.state.view == inner
     # Back to the view of all, which the state leaves to the view: at the end, without a step.
     press(d, "Fit all")
     clock.s += 0.999 * DURATION_S
     moving = window.motions.transition
     d.until(lambda: window.state.options.outside.camera is not None and moving.under_way)
-    d.ctx.yield_(2)
+    d.frames(2)
     near_end = looks_from(d)
     clock.s += DURATION_S
     d.until(lambda: window.state.options.outside.camera is None)
-    d.ctx.yield_(2)
+    d.frames(2)
     assert np.allclose(looks_from(d), start, atol=1e-9)
     assert np.allclose(near_end, start, atol=1e-3)
     window.undo()
@@ -89,15 +81,13 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d: Driver) -> N
     d.settle()
 
 
-def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
+def drive_an_object_is_aimed_at_smoothly(d):
     enter(d)
     window, clock = d.window, Clock(d)
     at = view(d).scope
-    assert at is not None
     row, column, _ = at.shown.project(window.focus.center, (round(at.extent.x), round(at.extent.y)))
-    d.ctx.mouse_teleport_to_pos((at.origin.x + float(column), at.origin.y + float(row)))
-    d.ctx.yield_(3)
-    d.ctx.key_press(int(Key.f))
+    d.move_to((at.origin.x + float(column), at.origin.y + float(row)))
+    d.press(Key.f)
     d.until(lambda: window.motions.transition.under_way)
     clock.s += 0.5 * DURATION_S
     d.until(lambda: window.state.options.outside.camera not in (None, at.camera))
@@ -107,24 +97,23 @@ def drive_an_object_is_aimed_at_smoothly(d: Driver) -> None:
     end = window.state.options.outside.camera
     way = np.subtract(end.eye, at.camera.eye)
     assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way
-    assert len(window.history.past) == 1
+    assert d.steps == 1
     d.settle()
 
 
-def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
+def drive_the_mouse_moves_the_camera_that_looks(d):
     enter(d)
-    window, inner = d.window, d.window.state.camera
+    window, inner = d.window, d.state.camera
     assert window.state.options.outside.camera is None
     x, y = empty_place(d)
     before = scope(d).camera
-    steps = len(window.history.past)
+    steps = d.steps
     d.drag((x, y), (x + 80, y + 30))
     turned = window.state.options.outside.camera
-    assert turned is not None
     assert turned.w != before.w
     assert abs(turned.u[1]) < 1e-9  # no roll
-    assert len(window.history.past) == steps + 1
-    for button, key in ((1, 0), (2, 0), (0, int(Key.mod_shift))):
+    assert d.steps == steps + 1
+    for button, key in ((1, 0), (2, 0), (0, Key.mod_shift)):
         was = window.state.options.outside.camera
         if key:
             d.ctx.key_down(key)
@@ -136,38 +125,37 @@ def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
         assert moved.eye != was.eye
     was = window.state.options.outside.camera
     d.ctx.mouse_teleport_to_pos((x, y))
-    d.ctx.yield_()
+    d.frames()
     d.ctx.mouse_wheel_y(2)
-    d.ctx.yield_(2)
+    d.frames(2)
     closer = window.state.options.outside.camera
     middle = np.asarray(scope(d).center)
     assert np.linalg.norm(closer.eye - middle) < np.linalg.norm(was.eye - middle)
     assert window.state.camera == inner  # the other camera stays
     press(d, "Fit all")
     assert window.state.options.outside.camera is None
-    d.window.undo()
+    d.undo()
     assert window.state.options.outside.camera == closer
 
 
-def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
+def drive_keys_fly_it_and_switch_it(d):
     enter(d)
-    window, inner = d.window, d.window.state.camera
-    d.ctx.mouse_teleport_to_pos(empty_place(d))
-    d.ctx.yield_(2)
-    d.ctx.key_down(int(Key.w))
+    window, inner = d.window, d.state.camera
+    d.move_to(empty_place(d))
+    d.ctx.key_down(Key.w)
     d.until(lambda: window.state.options.outside.camera is not None)
     before = window.state.options.outside.camera
     d.until(lambda: window.state.options.outside.camera != before)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.yield_(2)
+    d.ctx.key_up(Key.w)
+    d.frames(2)
     assert window.state.camera == inner
-    d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
+    d.press(Key.mod_shift | Key.h)
     assert window.state.options.outside.camera is None
-    d.ctx.key_press(int(Key.b))
+    d.press(Key.b)
     assert min(window.state.options.outside.bundle) > 0
-    d.ctx.key_press(int(Key.g))
+    d.press(Key.g)
     assert window.state.options.outside.gizmo == "move"
-    d.ctx.key_press(int(Key.t))
+    d.press(Key.t)
     assert window.state.options.outside.gizmo == "turn"
-    d.ctx.key_press(int(Key.t))
+    d.press(Key.t)
     assert window.state.options.outside.gizmo == "none"

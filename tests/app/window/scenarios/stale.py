@@ -1,11 +1,8 @@
 """Nothing stale is shown: no ray image of another scene or size, no name, no time, no mark."""
 
-from __future__ import annotations
-
 import numpy as np
-from imgui_bundle import hello_imgui
 from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.state.app_state import History
@@ -15,9 +12,9 @@ from lucida.renderer.camera.navigation import orbited
 COMPARE = "Compare"
 
 
-def middle(d: Driver, name: str) -> np.ndarray:
+def middle(d, name):
     """The pixels in the middle of a view, away from what is written at its edges."""
-    left, top, right, bottom = d.window.shell.stage.rects[name]
+    left, top, right, bottom = d.stage.rects[name]
     wide, high = right - left, bottom - top
     picture = d.picture()
     return picture[
@@ -30,29 +27,28 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
     window = d.window
     live = window.renderers.live
     for view, mode in ((RAY, ""), (COMPARE, "wipe")):
-        hello_imgui.switch_layout(COMPARE if mode else "Side by side")
-        d.ctx.yield_(5)
+        d.layout(COMPARE if mode else "Side by side")
         window.change(with_options(d.start, images={"channel": "depth"}))
         if mode:
             options = {"mode": mode, "divider": 0.1}
-            window.change(with_options(window.state, compare=options))
+            d.change(compare=options)
         d.settle()
         assert len(np.unique(middle(d, view), axis=0)) > 20
-        live.request = lambda *_: None  # type: ignore[method-assign]
+        live.request = lambda *_: None
         try:
             camera = window.state.camera
             window.change(window.state.with_camera(orbited(camera, (0, 0, 0), 0.1, 0.0)))
-            d.ctx.yield_(5)
+            d.frames(5)
             assert len(np.unique(middle(d, view), axis=0)) > 20, "an image of a camera on its way"
             window.undo()
             shown = window.state
             window.change(with_options(shown, images={"resolution": (300, 100)}))
-            d.ctx.yield_(5)
+            d.frames(5)
             assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another size"
             window.undo()
             window.open("columns")
             d.until(lambda: window.state.scene.name == "columns")
-            d.ctx.yield_(5)
+            d.frames(5)
             assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another scene"
         finally:
             del live.request
@@ -60,17 +56,15 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
         assert len(np.unique(middle(d, view), axis=0)) > 20
         window.undo()
         d.settle()
-    hello_imgui.switch_layout("Side by side")
-    d.ctx.yield_(5)
 
 
-def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
+def seen_at(d, pixel):
     """Return the status line's words for a pixel, from the window's thread, which has OpenGL."""
     callbacks, said = d.run.params.callbacks, []
 
-    def once() -> None:
+    def once():
         callbacks.post_new_frame = lambda: None
-        said.append(d.window.renderers.seen_at(d.window.state, pixel))
+        said.append(d.renderers.seen_at(d.state, pixel))
 
     callbacks.post_new_frame = once
     d.until(lambda: bool(said))
@@ -78,12 +72,13 @@ def seen_at(d: Driver, pixel: tuple[int, int]) -> str:
 
 
 def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
-    window, both = d.window, d.window.renderers
+    d.layout("Side by side")
+    window, both = d.window, d.renderers
     pixel = both.size[1] // 2, both.size[0] // 2
     of_rays = seen_at(d, pixel)
     assert ", t = " in of_rays and both.raster_s > 0
     window.shell.stage.show(RAY, False)
-    d.ctx.yield_(5)
+    d.frames(5)
     window.open("spheres")
     d.until(lambda: window.state.scene.name == "spheres")
     d.settle()
@@ -93,33 +88,31 @@ def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
     name = "background" if found is None else window.state.scene.objects[found].name
     assert seen_at(d, pixel).startswith(name)
     window.shell.stage.show(RASTER, False)
-    d.ctx.yield_(5)
+    d.frames(5)
     assert seen_at(d, pixel) == "" and both.raster_s == 0
     window.shell.stage.show(RASTER, True)
     window.shell.stage.show(RAY, True)
-    d.ctx.yield_(5)
+    d.frames(5)
 
 
 def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
-    window, both = d.window, d.window.renderers
+    window, both = d.window, d.renderers
     pixel = both.size[1] // 3, both.size[0] // 4
-    window.change(with_options(window.state, marked=pixel))
+    d.change(marked=pixel)
     d.settle()
 
-    def direction() -> np.ndarray:
+    def direction():
         ray = both.camera(window.state).ray(*window.state.marked, both.size)
         return ray.direction / np.linalg.norm(ray.direction)
 
-    def is_kept() -> bool:
+    def is_kept():
         pixel_size = 2.0 / min(both.size)
         return float(np.linalg.norm(direction() - first)) < pixel_size
 
     first, size = direction(), both.size
-    window.change(with_options(window.state, shadows=True))
+    d.change(shadows=True)
     kept = to_bytes(session_of(window.state, window.shell.stage.arrangement()))
-    hello_imgui.switch_layout(COMPARE)
-    d.ctx.yield_(8)
-    d.settle()
+    d.layout(COMPARE)
     assert both.size != size and is_kept()
     window.undo()
     d.settle()
@@ -127,12 +120,10 @@ def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
     window.history = History(from_bytes(kept).state(window.state.scene))  # the window begins anew
     for view in window.views.values():
         view.begin_anew()
-    d.ctx.yield_(3)
+    d.frames(3)
     d.settle()
     assert is_kept(), "after a restart in another layout"
-    hello_imgui.switch_layout("Side by side")
-    d.ctx.yield_(8)
-    d.settle()
+    d.layout("Side by side")
     assert window.state.marked == pixel
-    d.press(int(Key.escape))
+    d.press(Key.escape)
     assert window.state.marked is None

@@ -1,61 +1,46 @@
 """The loop stepper in the window: its buttons, keys and sliders; the image it ends in."""
 
-from __future__ import annotations
-
 import numpy as np
-from imgui_bundle import hello_imgui
-from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
-from lucida.app.instruments.stepper.model import Moment
-from lucida.app.instruments.stepper.view import STEPPER, StepperView
-from lucida.app.ui import layout
+from lucida.app.instruments.stepper.view import STEPPER
 from lucida.app.window.palette_entries import entries
 from lucida.app.window.shortcut_sheet import sections
 
 WINDOW = f"//###{STEPPER}"
 
 
-def view(d: Driver) -> StepperView:
-    found = d.window.views[STEPPER]
-    assert isinstance(found, StepperView)
-    return found
+def view(d):
+    return d.window.views[STEPPER]
 
 
-def enter(d: Driver, **options: object) -> None:
-    layout.switch("Loops")
-    d.ctx.yield_(5)
-    d.window.change(with_options(d.window.state, stepper=options))
+def enter(d, **options):
+    d.layout("Loops")
+    d.change(stepper=options)
     d.settle()
     d.until(lambda: len(view(d).moments) > 0)
 
 
-def leave(d: Driver) -> None:
-    hello_imgui.switch_layout("Side by side")
-    d.ctx.yield_(5)
+def press(d, name):
+    d.click(f"{WINDOW}/###{name}")
 
 
-def press(d: Driver, name: str) -> None:
-    d.ctx.item_click(f"{WINDOW}/###{name}")
-    d.ctx.yield_(2)
-
-
-def moments(d: Driver) -> tuple[Moment, ...]:
+def moments(d):
     return view(d).moments
 
 
-def strokes(d: Driver, name: str) -> int:
+def strokes(d, name):
     outside = d.window.views[OUTSIDE]
     assert isinstance(outside, OutsideView)
     found = [p for p in outside.primitives if isinstance(p, Strokes) and p.name == name]
     return sum(len(part.points) for part in found)
 
 
-def drive_buttons_go_through_both_runs(d: Driver) -> None:
+def drive_buttons_go_through_both_runs(d):
     enter(d, steps=(0, 0), canvas=(16, 12))
-    steps = len(d.window.history.past)
+    steps = d.steps
     assert [moment.step for moment in moments(d)] == [0, 0]
     for count in (1, 2, 3):
         press(d, "step")
@@ -74,10 +59,10 @@ def drive_buttons_go_through_both_runs(d: Driver) -> None:
     assert np.allclose(by_object.canvas, by_image.canvas, atol=1e-9)
     press(d, "first")
     assert [moment.step for moment in moments(d)] == [0, 0]
-    assert len(d.window.history.past) == steps  # steps are nothing to undo
+    assert d.steps == steps  # steps are nothing to undo
 
 
-def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
+def drive_it_plays_and_stops_at_the_end(d):
     enter(d, steps=(0, 0), canvas=(4, 3), speed=20000.0)
     press(d, "play")
     assert view(d).playing
@@ -86,15 +71,14 @@ def drive_it_plays_and_stops_at_the_end(d: Driver) -> None:
     press(d, "play")  # from the beginning again
     d.until(lambda: moments(d)[1].step > 0)
     d.ctx.window_focus(WINDOW)
-    d.ctx.key_press(int(Key.space))
-    d.ctx.yield_(2)
+    d.press(Key.space)
     assert not view(d).playing
     stopped = [moment.step for moment in moments(d)]
-    d.ctx.yield_(10)
+    d.frames(10)
     assert [moment.step for moment in moments(d)] == stopped
 
 
-def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
+def drive_the_outside_view_shows_the_ray_and_the_triangle(d):
     enter(d, steps=(0, 0), canvas=(16, 12))
     assert strokes(d, "ray") == strokes(d, "triangle") == 0
     for name in ("object", "pixel", "step", "step", "step", "step"):
@@ -102,17 +86,17 @@ def drive_the_outside_view_shows_the_ray_and_the_triangle(d: Driver) -> None:
     d.settle()
     assert strokes(d, "ray") > 0
     assert strokes(d, "triangle") > 0 and strokes(d, "bounding box") > 0
-    d.window.shell.stage.show(STEPPER, False)
-    d.ctx.yield_(4)
+    d.stage.show(STEPPER, False)
+    d.frames(4)
     assert strokes(d, "ray") == strokes(d, "triangle") == 0
-    d.window.shell.stage.show(STEPPER)
-    d.ctx.yield_(4)
+    d.stage.show(STEPPER)
+    d.frames(4)
 
 
-def drive_the_palette_and_the_keys_step(d: Driver) -> None:
+def drive_the_palette_and_the_keys_step(d):
     enter(d, steps=(5, 5), canvas=(16, 12))
-    assert not d.window.renderers.is_tracing  # so that no verdict on both images is announced
-    offered = {entry.name: entry for entry in entries(d.window, d.window.shell.stage)}
+    assert not d.renderers.is_tracing  # so that no verdict on both images is announced
+    offered = {entry.name: entry for entry in entries(d.window, d.stage)}
     rows = dict(sections())["Loop stepper, once it is clicked"]
     for name, keys, key, steps in (
         ("Stepper: one line on", "Right", "right_arrow", (6, 6)),
@@ -122,37 +106,30 @@ def drive_the_palette_and_the_keys_step(d: Driver) -> None:
         entry = offered[name]
         assert entry.enabled and entry.keys == keys
         assert (keys, name.removeprefix("Stepper: ")) in rows
-        before = d.window.state.options.stepper.steps
+        before = d.options.stepper.steps
         entry.run()
-        d.ctx.yield_(3)
-        assert d.window.state.options.stepper.steps == steps
-        d.window.change(with_options(d.window.state, stepper={"steps": before}))
+        d.frames(3)
+        assert d.options.stepper.steps == steps
+        d.change(stepper={"steps": before})
         d.ctx.window_focus(WINDOW)
-        d.ctx.yield_(2)
-        d.ctx.key_press(int(getattr(Key, key)))
-        d.ctx.yield_(2)
-        assert d.window.state.options.stepper.steps == steps
-    d.ctx.key_press(int(Key.down_arrow))
-    d.ctx.yield_(2)
+        d.frames(2)
+        d.press(int(getattr(Key, key)))
+        assert d.options.stepper.steps == steps
+    d.press(Key.down_arrow)
     assert moments(d)[1].pixel == (0, 0)
-    d.ctx.key_press(int(Key.end))
-    d.ctx.yield_(2)
+    d.press(Key.end)
     assert all(np.isfinite(moment.canvas).all() for moment in moments(d))
-    leave(d)
 
 
-def drive_the_same_lines_in_julia_and_the_depth_buffer(d: Driver) -> None:
+def drive_the_same_lines_in_julia_and_the_depth_buffer(d):
     enter(d, steps=(0, 0), canvas=(16, 12))
-    d.ctx.item_click(f"{WINDOW}/Julia")
-    d.ctx.item_click(f"{WINDOW}/depth")
-    d.ctx.yield_(2)
-    options = d.window.state.options
+    d.click(f"{WINDOW}/Julia")
+    d.click(f"{WINDOW}/depth")
+    options = d.state.options
     assert options.language == "julia" and options.stepper.depth
     for _ in range(3):
         press(d, "step")
     assert moments(d)[1].step == 3
-    d.ctx.item_click(f"{WINDOW}/Julia")
-    d.ctx.item_click(f"{WINDOW}/depth")
-    d.ctx.yield_(2)
-    assert d.window.state.options.language == "python"
-    leave(d)
+    d.click(f"{WINDOW}/Julia")
+    d.click(f"{WINDOW}/depth")
+    assert d.options.language == "python"

@@ -1,63 +1,60 @@
 """No text is cut off: in every layout, view and box, in small windows with large type."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import chain
 
 from cut_texts import cut_texts
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 from option_changes import with_options
 from views_in_turn import views_in_turn, with_content
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.ui import layout
 
 SIZES, LARGEST = ((1080, 1920), (1024, 768)), 2.0
 MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
-CTRL, SHIFT, ESCAPE = (int(key) for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
+CTRL, SHIFT, ESCAPE = (key for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
 
 
-def boxes(d: Driver) -> Iterator[str]:
+def boxes(d):
     """Open every box and menu in turn."""
-    files, shell = d.window.files, d.window.shell
+    files, shell = d.files, d.window.shell
     answers = {"Add it to the scene": lambda: None, "Open it instead": lambda: None}
-    opened: dict[str, Callable[[], object]] = {
+    opened = {
         "palette": shell.toggle_palette,
         "shortcut sheet": shell.toggle_help,
-        "go to pixel": lambda: d.press(CTRL | int(Key.g)),
+        "go to pixel": lambda: d.press(CTRL | Key.g),
         "resolution": lambda: ask_resolution(d.window),
-        "open": lambda: d.press(CTRL | int(Key.o)),
-        "save": lambda: d.press(CTRL | SHIFT | int(Key.s)),
+        "open": lambda: d.press(CTRL | Key.o),
+        "save": lambda: d.press(CTRL | SHIFT | Key.s),
         "question": lambda: files.ask("house.obj: add the model to the scene?", answers),
     }
     for menu in MENUS:
-        opened[menu] = lambda menu=menu: d.ctx.item_click(f"//##MainMenuBar/##MenuBar/{menu}")
+        opened[menu] = lambda menu=menu: d.click(f"//##MainMenuBar/##MenuBar/{menu}")
     for name, open_it in opened.items():
         open_it()
-        d.ctx.yield_(4)
+        d.frames(4)
         yield name
         d.press(ESCAPE)
     files.message = "lecture.toml:34: steps[3].options.images.channel: 'depht' is unknown; " * 2
-    d.ctx.yield_(4)
+    d.frames(4)
     yield "message"
     files.message = ""
 
 
 @contextmanager
-def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str], None]]:
+def looking(d, cut):
     """Provide a function that notes what a frame cuts, and tooltips that would be cut."""
     set_item_tooltip, wide = imgui.set_item_tooltip, dict[str, str]()
 
-    def with_tooltip(text: str) -> None:
+    def with_tooltip(text):
         set_item_tooltip(text)
         room = imgui.get_io().display_size.x - 2 * imgui.get_style().window_padding.x
         if imgui.calc_text_size(text).x > room:
             wide["tooltip"] = text
 
-    def look(name: str) -> None:
+    def look(name):
         wide.clear()
         if seen := d.in_draw_lists(lambda: cut_texts() | wide):
             cut[name] = seen
@@ -69,28 +66,26 @@ def looking(d: Driver, cut: dict[str, dict[str, str]]) -> Iterator[Callable[[str
         imgui.set_item_tooltip = set_item_tooltip
 
 
-def layouts(d: Driver) -> Iterator[str]:
+def layouts(d):
     """Show every layout of views in turn."""
     for one in layout.LAYOUTS:
         if one.name != layout.LECTURE:
-            layout.switch(one.name)
-            d.ctx.yield_(6)
-            d.until(lambda: all(view.settled for view in d.window.shell.stage.shown))
-            d.ctx.yield_(2)
+            d.layout(one.name)
+            d.until(lambda: all(view.settled for view in d.stage.shown))
+            d.frames(2)
             yield one.name
 
 
-def drive_nothing_is_cut_off(d: Driver) -> None:
-    cut: dict[str, dict[str, str]] = {}
+def drive_nothing_is_cut_off(d):
+    cut = {}
     d.window.change(with_options(with_content(d), preferences={"font_scale": LARGEST}))
     d.settle()
     with looking(d, cut) as look:
         for size in SIZES:  # boxes and single views in the last one alone, which is the lowest
-            hello_imgui.change_window_size(size)
+            d.resize(size)
             for name in layouts(d):
                 look(f"{size}: layout {name}")
-        layout.switch(layout.LAYOUTS[0].name)
-        d.ctx.yield_(8)
+        d.layout(layout.LAYOUTS[0].name)
         for name in chain(boxes(d), views_in_turn(d)):
             look(name)
     assert not cut, cut

@@ -1,17 +1,11 @@
 """The view "Your code": a student's file is run, shown, told, run again, stopped."""
 
-from __future__ import annotations
-
 import os
-import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-import pytest
 from imgui_bundle import hello_imgui, imgui
-from option_changes import with_options
-from window_driver import Driver, Key
+from window_driver import Key
 
 from lucida.app.checking.tasks import Limits
 from lucida.app.checking.your_code import model, panel
@@ -44,13 +38,13 @@ projection = "both"
 """
 
 
-def view(d: Driver) -> YourCodeView:
+def view(d):
     found = d.window.views[YOUR_CODE]
     assert isinstance(found, YourCodeView) and found.runs is not None
     return found
 
 
-def write(d: Driver, text: str, name: str = "rays.py") -> Path:
+def write(d, text, name="rays.py"):
     """As an editor does that puts a new file in the old one's place: its time is always another."""
     path, new = d.folder / name, d.folder / f"{name}.new"
     new.write_text(text)
@@ -58,90 +52,76 @@ def write(d: Driver, text: str, name: str = "rays.py") -> Path:
     return path
 
 
-def told(d: Driver) -> list[str]:
+def told(d):
     """Return what the view reports now."""
     return [line.text for line in view(d).told]
 
 
-def until_told(d: Driver, *parts: str) -> None:
+def until_told(d, *parts):
     d.until(lambda: all(part in "\n".join(told(d)) for part in parts))
 
 
-def opened(d: Driver, text: str, name: str = "rays.py") -> Path:
+def opened(d, text, name="rays.py"):
     path = write(d, text, name)
     d.drop([str(path)])
-    d.until(lambda: d.window.state.options.your_code.file == stored(str(path)))
-    d.until(lambda: YOUR_CODE in d.window.shell.stage.rects)
+    d.until(lambda: d.options.your_code.file == stored(str(path)))
+    d.until(lambda: YOUR_CODE in d.stage.rects)
     return path
 
 
-def leave(d: Driver) -> None:
-    """No file, and the layout that the other tests begin with."""
-    d.window.change(with_options(d.window.state, your_code={"file": ""}))
-    d.ctx.yield_(3)
-    hello_imgui.switch_layout(layout.LAYOUTS[0].name)
-    d.ctx.yield_(5)
-
-
-def drive_without_a_file_it_helps_to_begin(d: Driver) -> None:
-    d.window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+def drive_without_a_file_it_helps_to_begin(d):
+    d.stage.show_in(YOUR_CODE, layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
-    d.ctx.yield_(8)
+    d.frames(8)
     d.picture()
-    d.ctx.item_click(f"{WINDOW}/Write a file to begin with...")
-    d.ctx.yield_(3)
-    dialog = d.window.files.dialog
+    d.click(f"{WINDOW}/Write a file to begin with...")
+    dialog = d.files.dialog
     if dialog.is_open:  # the window's own: there is no system's here
         dialog.cancel()
     view(d).write_starter(str(d.folder / "begun.py"))
-    d.until(lambda: d.window.state.options.your_code.file == stored(str(d.folder / "begun.py")))
+    d.until(lambda: d.options.your_code.file == stored(str(d.folder / "begun.py")))
     until_told(d, "viewing_ray returns nothing yet")
     d.picture()
-    leave(d)
 
 
-def drive_a_right_file_is_told_right_and_follows_the_camera(d: Driver) -> None:
+def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     opened(d, RIGHT)
     until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
     d.picture()
     pictures = view(d).pictures
-    assert pictures is not None and pictures.size == (32, 24)
+    assert pictures.size == (32, 24)
     assert (pictures.given == pictures.right).all()
     before = pictures.given
-    d.window.change(with_options(d.window.state, your_code={"canvas": (16, 12)}))
+    d.change(your_code={"canvas": (16, 12)})
     d.until(lambda: view(d).pictures is not None and view(d).pictures.size == (16, 12))
-    state = d.window.state
+    state = d.state
     d.window.change(state.with_view(d.start.scene.view))
     parallel = replace(state.camera, projection="parallel")
-    d.window.change(d.window.state.with_camera(parallel))
+    d.window.change(d.state.with_camera(parallel))
     d.until(lambda: view(d).report is not None and view(d).report.rays.camera.is_parallel)
     until_told(d, "Every ray is correct.")
     d.settle()
     assert view(d).pictures.size == (16, 12)
     assert before.shape == (24, 32, 3)
     d.window.open("spheres")
-    d.until(lambda: d.window.state.scene.name == "spheres")
+    d.until(lambda: d.state.scene.name == "spheres")
     d.settle()
     d.picture()
-    leave(d)
 
 
-def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> None:
+def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     opened(d, CORNER)
     until_told(d, "768 of 768 rays are wrong.", "half a pixel")
     d.settle()
     outside = view_of(d.window.views.values(), OutsideView)
     assert any(item.name == "second edges" for item in outside.extensions.lines)
     pictures = view(d).pictures
-    assert pictures is not None and (pictures.given != pictures.right).any()
+    assert (pictures.given != pictures.right).any()
     d.picture()
-    info = d.ctx.item_info(f"{WINDOW}/right").rect_full
-    d.ctx.mouse_teleport_to_pos((info.min.x + 1.0, info.min.y + 1.0))
-    d.ctx.yield_(2)
-    d.ctx.mouse_click(0)
-    d.ctx.yield_(3)
-    assert d.window.state.marked is not None
+    info = d.box(f"{WINDOW}/right")
+    d.click_at((info.min.x + 1.0, info.min.y + 1.0))
+    assert d.state.marked is not None
     until_told(d, "pixel (0, 0), from 0")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
@@ -157,18 +137,16 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     until_told(d, "does not exist")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
-    leave(d)
     assert not any(item.name.startswith("second") for item in outside.extensions.lines)
 
 
-def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
+def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
-    assert runs is not None
     d.until(lambda: runs.running_s > 0.1)
     frames = 0
     while frames < 30:  # the window goes on meanwhile
-        d.ctx.yield_()
+        d.frames()
         frames += 1
     assert runs.busy
     d.picture()
@@ -180,47 +158,35 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:
     d.until(lambda: not (children() & processes))
     d.picture()
     version = view(d).report.question.content.version
-    camera = d.window.state.camera
-    d.window.change(d.window.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
-    d.ctx.yield_(10)
+    camera = d.state.camera
+    d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
+    d.frames(10)
     assert not runs.busy  # not by itself
     assert view(d).report.question.content.version == version
-    d.window.change(with_options(d.window.state, your_code={"canvas": (4, 3)}))
+    d.change(your_code={"canvas": (4, 3)})
     until_told(d, "Every ray is correct.")  # it has no fourth row
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
     d.until(lambda: view(d).report.question.content.version > version)
-    leave(d)
 
 
-def drive_nothing_runs_that_nobody_sees(d: Driver) -> None:
+def drive_nothing_runs_that_nobody_sees(d):
     usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
     runs = view(d).runs
-    assert runs is not None
     d.until(lambda: runs.running_s > 0.1)
     processes = children()
     assert processes
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
-    d.until(lambda: YOUR_CODE not in d.window.shell.stage.rects)
+    d.until(lambda: YOUR_CODE not in d.stage.rects)
     d.until(lambda: not (children() & processes))
     model.LIMITS = usual
     write(d, RIGHT)
-    d.window.shell.stage.show_in(YOUR_CODE, layout.LOOPS)
+    d.stage.show_in(YOUR_CODE, layout.LOOPS)
     until_told(d, "Every ray is correct.")
-    leave(d)
 
 
-def drive_what_is_written_to_an_ended_process_is_no_crash(d: Driver) -> None:
-    """The test engine's own handler made it one."""
-    reading, writing = os.pipe()
-    os.close(reading)
-    with pytest.raises(BrokenPipeError):
-        os.write(writing, b"nobody reads")
-    os.close(writing)
-
-
-def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
+def drive_images_are_pictures_and_other_functions_words(d):
     opened(
         d,
         "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
@@ -230,56 +196,53 @@ def drive_images_are_pictures_and_other_functions_words(d: Driver) -> None:
     until_told(d, "to_gray is wrong.")
     d.until(lambda: view(d).pictures is not None)
     d.picture()
-    d.window.change(with_options(d.window.state, your_code={"task": "memory-offset"}))
+    d.change(your_code={"task": "memory-offset"})
     until_told(d, "memory_offset is wrong.", "printed", "asked 0")
     assert view(d).pictures is None
     d.picture()
-    leave(d)
 
 
-def drive_a_course_s_tasks_are_asked(d: Driver) -> None:
+def drive_a_course_s_tasks_are_asked(d):
     course = d.folder / "hw2.toml"
     course.write_text(TASKS)
     opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
     until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
     d.drop([str(course)])
-    d.until(lambda: d.window.state.options.your_code.tasks == stored(str(course)))
+    d.until(lambda: d.options.your_code.tasks == stored(str(course)))
     until_told(d, "Every ray is correct.", "counting: correct in all of")
     d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
     until_told(d, "768 of 768 rays are wrong.")
     course.write_text("lucida = 1\n")
     until_told(d, "hw2.toml", "tasks")
-    d.ctx.item_click(f"{WINDOW}/###tasks")
-    d.ctx.yield_(3)
-    d.ctx.item_click("//$FOCUSED/built-in tasks")
-    d.until(lambda: d.window.state.options.your_code.tasks == "")
+    d.click(f"{WINDOW}/###tasks")
+    d.click("//$FOCUSED/built-in tasks")
+    d.until(lambda: d.options.your_code.tasks == "")
     until_told(d, "768 of 768 rays are wrong.")
-    leave(d)
 
 
-def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
+def drive_the_verdict_is_read_from_afar(d):
     """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
     window's height at least, and larger than the other words."""
-    sizes: dict[str, float] = {}
+    sizes = {}
     coded_text = panel.coded_text
 
-    def drawn(text: str, *arguments: Any) -> None:
+    def drawn(text, *arguments):
         sizes[text] = imgui.get_font_size()
         coded_text(text, *arguments)
 
     opened(d, CORNER)
     until_told(d, "768 of 768 rays are wrong.", "half a pixel")
     d.until(lambda: view(d).pictures is not None)
-    stage = d.window.shell.stage
+    stage = d.stage
     stage.show(YOUR_CODE)
     d.until(lambda: stage.focused == YOUR_CODE)
     stage.maximise()
-    panel.coded_text = drawn  # type: ignore[assignment]
+    panel.coded_text = drawn
     try:
         for scale in (1.0, 1.5, 2.0, 3.0):
             wished = {"font_scale": scale, "presentation": True}
-            d.window.change(with_options(d.window.state, preferences=wished))
+            d.change(preferences=wished)
             d.settle()
             sizes.clear()
             d.until(lambda: "768 of 768 rays are wrong." in sizes)
@@ -291,39 +254,36 @@ def drive_the_verdict_is_read_from_afar(d: Driver) -> None:
         panel.coded_text = coded_text
         stage.maximise()
         wished = {"font_scale": 1.0, "presentation": False}
-        d.window.change(with_options(d.window.state, preferences=wished))
-    leave(d)
+        d.change(preferences=wished)
 
 
-def drive_a_file_that_a_lecture_names_is_not_run_unasked(d: Driver) -> None:
+def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     ran = d.folder / "ran"
     ran.unlink(missing_ok=True)
-    d.window.files.recent.clear()  # it was opened where the folder has been used before
+    d.files.recent.clear()  # it was opened where the folder has been used before
     write(d, f"open({str(ran)!r}, 'w').close()\n{RIGHT}", "theirs.py")
     lecture = d.folder / "lecture.toml"
     lecture.write_text(
         'title = "Code"\n[[steps]]\ntitle = "yours"\nviews = ["your-code"]\n'
         'options.your_code.file = "theirs.py"\noptions.your_code.canvas = [16, 12]\n'
     )
-    d.window.files.open_lecture(str(lecture))
-    d.until(lambda: d.window.state.options.your_code.file == stored(str(d.folder / "theirs.py")))
-    d.until(lambda: YOUR_CODE in d.window.shell.stage.rects)
+    d.files.open_lecture(str(lecture))
+    d.until(lambda: d.options.your_code.file == stored(str(d.folder / "theirs.py")))
+    d.until(lambda: YOUR_CODE in d.stage.rects)
     d.settle()
-    time.sleep(0.3)  # nothing is to come of it
-    d.ctx.yield_(5)
-    assert view(d).report is None and not ran.exists()
+    assert not view(d).runs.busy and view(d).report is None and not ran.exists()
     d.picture()
-    d.ctx.item_click(f"{WINDOW}/Run it")
+    d.click(f"{WINDOW}/Run it")
     until_told(d, "Every ray is correct.")
     assert ran.exists()
     d.settle()
     d.picture()
     d.window.lecture.leave(d.window)
-    d.ctx.yield_(5)
+    d.frames(5)
     d.settle()
 
 
-def children() -> set[int]:
+def children():
     """The processes that this one has begun, where that can be known."""
     found = set()
     for entry in Path("/proc").glob("[0-9]*/stat"):
@@ -341,13 +301,13 @@ def children() -> set[int]:
     return found
 
 
-def drive_presentation_leaves_the_code_in_sight(d: Driver) -> None:
+def drive_presentation_leaves_the_code_in_sight(d):
     opened(d, RIGHT)
     layout.switch(layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
     for key, presented in ((Key.f9, True), (Key.escape, False)):
-        d.press(int(key))
-        assert d.window.state.preferences.presentation is presented
-        d.ctx.yield_(4)
+        d.press(key)
+        assert d.state.preferences.presentation is presented
+        d.frames(4)
         assert layout.current().name == layout.LOOPS
-        assert YOUR_CODE in d.window.shell.stage.rects
+        assert YOUR_CODE in d.stage.rects
