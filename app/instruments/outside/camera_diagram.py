@@ -45,8 +45,7 @@ from lucida.renderer.camera.image_plane import Size
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w
 WORLD_UP = np.array([0.0, 1.0, 0.0])
-# Parts of a side of the view volume: its faces, its edges, its curves at near and far.
-FLAT_PARTS, LENS_PARTS = (1, 1, 1), (6, 2, CURVE)
+LENS_PARTS = (6, 2, CURVE)  # of a side of a lens's view volume: faces, edges, curves
 
 
 @dataclass(frozen=True)
@@ -146,7 +145,7 @@ def _volume(camera: Camera, end: float) -> list[Item]:
         items: list[Item] = [Segments(name, "volume", polyline(points, True), 1.75), label]
         return items if camera.lens else [Face(name, "volume", points, 0.08), *items]
 
-    sides, edges, curves = map(rays, LENS_PARTS if camera.lens else FLAT_PARTS)
+    sides, edges, curves = map(rays, LENS_PARTS) if camera.lens else [rays(1)] * 3
     _, first, back = curves.swapaxes(0, 1)
     faces = np.concatenate([sides[:, 1:], np.roll(sides, -1, axis=0)[:, :0:-1]], axis=1)
     items: list[Item] = [Face("side", "volume", corners, 0.055) for corners in faces]

@@ -11,11 +11,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.renderer.camera.checks import Floats
 
 Spot = tuple[float, float]
+Sums = NDArray[np.float32]
 Label = tuple[str, str, int]  # name, role, how many before it have both
 Edges = tuple[float, float, float, float]  # left, top, right, bottom
 
@@ -25,7 +27,7 @@ FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
 # on another label, on a mark, for a height of a line in the text.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED = 1.2, 0.8, 60.0, 40.0, 18.0, 3.0
-CELL_PX = 4.0
+CELL = 0.15  # of the grid, in heights of a text
 DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # of its radius
 # Places along a line, as many as turns: shares of its length, on both sides of it; and what it
 # costs to be on the other side, and away from the middle.
@@ -80,7 +82,8 @@ class LabelPlacer:
         areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
         met = _overlap(around, np.array([(0.0, 0.0, *size), *tools])) / areas[..., None]
         costs = preferences + OUTSIDE * (1 - met[..., 0] + met[..., 1:].sum(axis=2))
-        costs += _covered(around, _sums(primitives, max(box.height for box in boxes), size))
+        height = max(box.height for box in boxes)
+        costs += _covered(around / (CELL * height), _sums(primitives, height, size))
         centers: list[Spot] = [(0.0, 0.0)] * len(texts)
         taken = np.zeros((len(texts), 4))
         order = sorted(range(len(texts)), key=lambda k: (not texts[k].fixed, not texts[k].strong))
@@ -139,7 +142,7 @@ def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
     return places.reshape(-1, 2), np.add.outer(np.multiply(OUT, FARTHER), costs).ravel()
 
 
-def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, float]) -> Floats:
+def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, float]) -> Sums:
     """Return what labels should not cover, summed over all cells of a grid above and left of each
     cell's corner (Crow 1984): lines, by their lengths in heights of a text, dots, and heads.
     """
@@ -149,33 +152,34 @@ def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, flo
     opacity, radius = np.repeat(looks, [len(part.points) for part in strokes], axis=0).T
     ways = ends[:, 1] - ends[:, 0]
     lengths = np.linalg.norm(ways, axis=1)
-    counts = np.maximum(np.ceil(lengths / CELL_PX), 1).astype(int)
+    cell_px = CELL * height
+    counts = np.maximum(np.ceil(lengths / cell_px), 1).astype(int)
     of = np.repeat(np.arange(len(ends)), counts)
     place = np.arange(len(of)) - np.repeat(np.cumsum(counts) - counts, counts)
-    spots = [ends[of, 0] + ((place + 0.5) / counts[of])[:, None] * ways[of]]
-    weights = [(CROSSED * opacity * lengths / counts / height)[of]]
     is_dot = lengths == 0
-    dots = [at + reach * DOT for at, reach in zip(ends[is_dot, 0], radius[is_dot], strict=True)]
+    dots = ends[is_dot, :1] + radius[is_dot, None, None] * DOT
     shapes = [part for part in primitives if isinstance(part, Shape)]
     marks = [part.points for part in shapes if part.opacity >= 0.5]  # heads, and the marked pixel
-    for corners in (*marks, *dots):
-        spots.append(corners)
-        weights.append(np.full(len(corners), MARK / len(corners)))
-    columns, rows = (math.ceil(side / CELL_PX) for side in size)
-    column, row = np.floor(np.concatenate(spots) / CELL_PX).astype(int).T
+    spots = [ends[of, 0] + ((place + 0.5) / counts[of])[:, None] * ways[of], *dots, *marks]
+    weights = [(CROSSED * opacity * lengths / counts / height)[of]]
+    weights += [np.full(len(corners), MARK / len(corners)) for corners in spots[1:]]
+    columns, rows = (math.ceil(side / cell_px) for side in size)
+    column, row = np.floor(np.concatenate(spots) / cell_px).astype(int).T
     inside = (column >= 0) & (row >= 0) & (column < columns) & (row < rows)
     cells, values = (row * columns + column)[inside], np.concatenate(weights)[inside]
-    sums = np.zeros((rows + 1, columns + 1))
+    sums = np.zeros((rows + 1, columns + 1), np.float32)
     sums[1:, 1:] = np.bincount(cells, values, rows * columns).reshape(rows, columns)
-    return sums.cumsum(axis=0).cumsum(axis=1)
+    for axis in (0, 1):
+        sums.cumsum(axis=axis, out=sums)
+    return sums
 
 
-def _covered(boxes: Floats, sums: Floats) -> Floats:
-    """Return the sum of what is in boxes (..., 4)."""
+def _covered(boxes: Floats, sums: Sums) -> Sums:
+    """Return the sum of what is in boxes (..., 4), in cells, and in the cells that they touch."""
     most = np.array(sums.shape[::-1] * 2) - 1
-    cells = np.clip(np.round(boxes / CELL_PX), 0, most).astype(int)
-    left, top, right, bottom = np.moveaxis(cells, -1, 0)
-    found: Floats = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
+    edges = np.concatenate([np.floor(boxes[..., :2]), np.ceil(boxes[..., 2:])], axis=-1)
+    left, top, right, bottom = np.moveaxis(np.clip(edges, 0, most).astype(int), -1, 0)
+    found: Sums = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
     return found
 
 
