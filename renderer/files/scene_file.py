@@ -225,9 +225,13 @@ class _Builder:
                 check_mapped(fields, made)
         else:
             made = self._parts.mesh(fields, material)
-        matrix = shapes.placement(*_place(fields))
-        meshes = (part.shape for part in made if isinstance(part.shape, Mesh))
-        placed = [shapes.transformed(mesh, matrix) for mesh in meshes]
+        was = self._old.get(key)
+        if was is not None and was.made is made and _place(was.fields) == _place(fields):
+            placed = [entry.shape for entry in was.objects]
+        else:
+            matrix = shapes.placement(*_place(fields))
+            meshes = (part.shape for part in made if isinstance(part.shape, Mesh))
+            placed = [shapes.transformed(mesh, matrix) for mesh in meshes]
         objects = []
         for part, shape in zip(made, placed, strict=True):
             name = fields.name

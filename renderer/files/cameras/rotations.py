@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 from numpy.typing import ArrayLike
-from trimesh.transformations import quaternion_from_matrix
 
 from lucida.renderer.camera.checks import Floats, listed
 from lucida.renderer.system.errors import LucidaError
@@ -54,6 +53,8 @@ def quaternion_of(rotation: ArrayLike) -> list[float]:
 
     From trimesh, which takes it from the eigenvector of a symmetric matrix (Bar-Itzhack 2000).
     """
+    from trimesh.transformations import quaternion_from_matrix  # takes long to import
+
     pose = np.eye(4)
     pose[:3, :3] = rotation
     quaternion: list[float] = quaternion_from_matrix(pose).tolist()
