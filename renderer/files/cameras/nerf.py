@@ -100,9 +100,19 @@ def read(given: Given, options: Options) -> CameraSet:
     taken += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         taken.append("transform_matrix is no rotation, and held as it is")
+    if any(map(_disagree, tables)):
+        taken.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     unused = (name for part in (table, *frames) for name in part if name not in _USED)
     notes = (*filter(None, [sizing]), *notes_on(unused))
     return CameraSet("nerf", tuple(cameras), (*taken, *notes), notes=notes)
+
+
+def _disagree(table: Table) -> bool:
+    """Return True if both forms of the focal length are given and differ by more than 1 %."""
+    if not {"fl_x", "w", "camera_angle_x"} <= table.keys():
+        return False
+    fx = table["w"] / 2 / _half_width(table, "camera_angle_x")
+    return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:

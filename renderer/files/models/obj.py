@@ -40,13 +40,15 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
             raise damaged("has no line that begins with v or f")
         return []
     try:
-        vertices, coordinates, normals = (_rows(lines, kind) for kind in ("v", "vt", "vn"))
+        vertices, coordinates, normals = (_rows(lines, kind, images) for kind in ("v", "vt", "vn"))
         columns, counts = _corners(lines)
         # A last face of two corners is cut off.
         if vertices.shape[1] < 3 or counts[-1] < 3 or not _are_within(columns[0], len(vertices)):
             raise ValueError
     except ValueError:
         _blame_line(path, lines)
+    if vertices.shape[1] in (4, 5) and (vertices[:, 3] != 1).any():
+        images.note("not read: the weights of vertices", "OBJ")
     places, owner = triangulated(vertices[:, :3], columns[0], counts)
     corners = [column if column is None else column[places] for column in columns]
     if normals.shape[1] != 3:
@@ -94,12 +96,16 @@ def _by_coordinates(
         yield f"{name}_plain", bare, replace(material, texture=None)
 
 
-def _rows(lines: Lines, kind: str) -> Floats:
-    """Return the numbers of all lines of a kind, as many of each as the shortest line has."""
+def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
+    """Return the numbers of all lines of a kind, as many of each as the shortest line has. Note
+    that there are more, such as colours that only some vertices have.
+    """
     text = lines.of(kind)
     begins, counts = numerals.words(text)
     values = numerals.floats(text, begins)
     width = int(counts.min(initial=9)) if len(counts) else 0
+    if (counts > width).any():
+        images.note(f"not read: numbers that only some lines of the kind {kind} have", "OBJ")
     return values[(np.cumsum(counts) - counts)[:, None] + np.arange(width)]
 
 

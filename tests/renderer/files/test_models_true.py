@@ -213,3 +213,12 @@ def test_only_three_scales_of_0_hide_a_gltf_node(
         assert area(Scene((entry,))) == pytest.approx(wanted)
         assert (entry.shape.transform[:3, 3] == (5, 0, 0)).all()
     assert (whole.shape.transform == np.eye(4)).all()
+
+
+def test_colours_of_some_vertices_cost_a_line(tmp_path: Path) -> None:
+    face, rest = "f 1 2 3\n", "v 1 0 0\nv 0 1 0\n"
+    some = loaded(tmp_path, "t.obj", f"v 0 0 0 1 0 0\n{rest}{face}")
+    assert note(some) == "OBJ: not read: numbers that only some lines of the kind v have"
+    weights = loaded(tmp_path, "t.obj", f"v 0 0 0 0.5\nv 1 0 0 1\nv 0 1 0 1\n{face}")
+    assert note(weights) == "OBJ: not read: the weights of vertices"
+    assert not loaded(tmp_path, "t.obj", f"v 0 0 0\n{rest}{face}").notes

@@ -68,6 +68,16 @@ def drive_shadows_and_mirrors_are_the_ray_images_alone(d):
     d.agreeing_images()
 
 
+def drive_the_history_is_a_list(d):
+    d.drag_field("eye.x", 30)
+    d.drag_field("eye.z", 30)
+    d.drag_field("eye.y", 30)
+    assert d.steps == 3
+    d.menu("Edit/History/###step0")
+    assert d.state == d.start
+    assert len(d.window.history.future) == 3
+
+
 def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d):
     d.type("eye.y", "2.5")
     edited = d.state

@@ -193,3 +193,11 @@ def test_a_frame_s_intrinsics_are_what_their_names_say(table: dict) -> None:
     bends = any(table.get(name) for name in ("k1", "p1"))
     fisheye = model == "OPENCV_FISHEYE" or table.get("is_fisheye") is True
     assert (read.ignored is not None) == (fisheye or bends)
+
+
+def test_an_angle_that_contradicts_the_focal_length_is_told() -> None:
+    for angle, is_told in ((2 * math.atan(1504 / 1072), False), (1.0, True)):
+        taken = pasted(
+            json.dumps(STUDIO | {"camera_angle_x": angle, "frames": STUDIO["frames"][:1]})
+        ).taken
+        assert any(line.startswith("fl_x is taken") for line in taken) == is_told
