@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.words import GROUPS
+from lucida.app.checking.words import GROUPS, PARTS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
@@ -35,12 +35,8 @@ class Conventions:
     base: the number of the first row, column and object.
     rows: the edge from which rows are counted; y01 and y11 start there too.
     axes: 1 if x points right in the image, y up and z back; -1 for the opposite direction.
-    row_vectors: matrices multiply row vectors on their left.
     space: the space of the returned ray.
     unit: directions must be of length 1.
-    any_origin: any point of the ray may be its origin.
-    pixel_origin: where the integers of K are: at the pixels' corners or at their centres, where
-    they are the numbers of columns and rows; "" for what the words of the pixel say.
     """
 
     arguments: Named = ()
@@ -49,11 +45,8 @@ class Conventions:
     base: int = 0
     rows: Literal["top", "bottom"] = "top"
     axes: tuple[int, int, int] = (1, 1, 1)
-    row_vectors: bool = False
     space: Literal["world", "camera"] = "world"
     unit: bool = False
-    any_origin: bool = False
-    pixel_origin: Literal["", "center", "corner"] = ""
 
     @property
     def words(self) -> frozenset[str]:
@@ -83,15 +76,14 @@ class Conventions:
             for name, (a, b, sign) in zip("xyz", signs, strict=True)
         )
         far = "bottom" if self.rows == "top" else "top"
-        space = ", ".join(axes) + ("; for row vectors" if self.row_vectors else "")
-        return meaning.format(first=self.base, near=self.rows, far=far, axes=space)
+        return meaning.format(first=self.base, near=self.rows, far=far, axes=", ".join(axes))
 
     @property
     def first_center(self) -> float:
-        """The first pixel's centre in the coordinates of K."""
-        of_corners = {"x_pixel", "y_pixel", "xy_pixel"} & self.words
-        origin = self.pixel_origin or ("corner" if of_corners else "center")
-        return 0.5 if origin == "corner" else float(self.base)
+        """The first pixel's centre in the coordinates of K: its integers are the numbers of columns
+        and rows, or at the pixels' corners if the words of the pixel count from there.
+        """
+        return 0.5 if {"x_pixel", "y_pixel", "xy_pixel"} & self.words else float(self.base)
 
     @property
     def mirrored(self) -> bool:
@@ -117,13 +109,7 @@ PIXEL_WORDS, VISION_WORDS = GROUPS["pixel"], GROUPS["vision"]
 CAMERA_WORDS = {**GROUPS["camera"], **VISION_WORDS}
 
 # Arguments that hold two numbers.
-PAIRS = {
-    "ij": ("i", "j"),
-    "ji": ("j", "i"),
-    "xy_pixel": ("x_pixel", "y_pixel"),
-    "xy01": ("x01", "y01"),
-    "xy11": ("x11", "y11"),
-}
+PAIRS = {word: tuple(PARTS[word]) for word in GROUPS["pairs"]}
 
 FOCAL_WORDS = frozenset({"K", "fx", "fy"})
 VISION_AXES = (1, -1, -1)
@@ -131,10 +117,6 @@ VISION_AXES = (1, -1, -1)
 # Only an orthonormal camera with a symmetric viewport has these values.
 RIGID_WORDS = {"target", "up", "forward"}
 RIGID_WORDS |= {word for word in CAMERA_WORDS if word.startswith("fov_")}
-
-# Transposed for row vectors.
-MATRICES = {"camera_to_world", "world_to_camera", "rotation", "K", "R"}
-MATRICES |= {"cam_from_world", "world_from_cam"}
 
 CAMERA = "camera"  # the word for an object with the declared fields
 
@@ -192,8 +174,6 @@ def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
     words["top_left"] = words["bottom_left"] + words["vertical"]
     if conventions.vision:
         words |= _vision_words(shot, conventions.first_center, words)
-    if conventions.row_vectors:
-        words |= {name: words[name].T for name in MATRICES & words.keys()}
     words |= {"target": shot.target, "up": shot.up, "viewport": camera.viewport}
     words |= {"projection": camera.projection, "size": shot.size}
     values = {name: np.asarray(value).tolist() for name, value in words.items()}

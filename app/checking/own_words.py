@@ -12,24 +12,16 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
-from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, PAIRS, Conventions
+from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, Conventions
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.programs import programs
-from lucida.app.checking.mistakes.rays import LETTERS
 from lucida.app.checking.mistakes.vectors import FUNCTIONS
 from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.words import PARTS
 from lucida.app.ui.explaining.symbols import arguments, program
 from lucida.renderer.system.errors import visible
 
 AS_IF = "As if it read"
-# The parts of a word's value, by their names in the programs.
-_PARTS: Mapping[str, Mapping[str, str]] = {
-    **{pair: {part: f"[{k}]" for k, part in enumerate(parts)} for pair, parts in PAIRS.items()},
-    "size": {"width": "[0]", "height": "[1]"},
-    "viewport": {"left": "[0]", "right": "[1]", "bottom": "[2]", "top": "[3]"},
-    "rgb": {"red": "[..., 0]", "green": "[..., 1]", "blue": "[..., 2]"},
-    "scene": {"objects": ".objects", "background": ".background"},
-}
 _NAME = re.compile(r"(?<![\w.'])[A-Za-z_]\w*")
 _PIXEL = re.compile(r" ?\b([ij])\b")  # in the words of a hint
 _PYTHON = {*dir(builtins), *keyword.kwlist}
@@ -72,8 +64,8 @@ def _given(task: CheckTask) -> Iterator[tuple[str, str]]:
 
 
 def _parts(word: str, text: str) -> Iterator[tuple[str, str]]:
-    yield LETTERS.get(word, word), text
-    for part, at in _PARTS.get(word, {}).items():
+    yield {"row": "i", "column": "j"}.get(word, word), text
+    for part, at in PARTS.get(word, {}).items():
         yield part, text + at
 
 

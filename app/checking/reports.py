@@ -4,11 +4,10 @@ Gradescope's autograder.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 from lucida.app.checking.checked import Status, TaskResult
 from lucida.app.checking.own_words import signature
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 
 VERDICTS = {"right": "correct"}  # a status in words, where it is not its own
 MOST = 8  # printed lines to show on the terminal
-COLORS = {"right": "32", "wrong": "31", "failed": "33", "dim": "2"}
 OUTPUT_LETTERS = 4000  # characters of the student's output for Gradescope
 
 
@@ -116,29 +114,18 @@ def failure_lines(failure: Failure) -> list[str]:
     return lines if len(lines) > 1 else []
 
 
-def is_colored(stream: TextIO) -> bool:
-    """Return True if a stream is a terminal and may be coloured: https://no-color.org."""
-    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-
-
-def terminal_lines(result: TaskResult, colored: bool = False) -> list[str]:
+def terminal_lines(result: TaskResult) -> list[str]:
     """Return a task's verdict in a line for the terminal, and help if it is not correct."""
     say = told(result)
-
-    def painted(text: str, color: str) -> str:
-        return f"\x1b[{COLORS[color]}m{text}\x1b[0m" if colored else text
-
     name = one_line(result.task.name)
     if say.verdict is None:
-        return [f"{painted('tried  ', 'dim')} {name}"]
-    points = painted(f"  {of_points(result.points, result.task.points)}", "dim")
-    head = f"{painted(f'{VERDICTS.get(say.verdict, say.verdict):7}', say.verdict)} {name}{points}"
+        return [f"tried   {name}"]
+    points = of_points(result.points, result.task.points)
+    head = f"{VERDICTS.get(say.verdict, say.verdict):7} {name}  {points}"
     printed = say.output.split("\n") if say.output else []
     if len(printed) > MOST:
         printed[MOST:] = [f"... and {len(printed) - MOST} lines more"]
-    if printed:
-        printed = ["printed:", *(f"  {line}" for line in printed)]
-    lines = [*map(visible, say.lines), *(painted(line, "dim") for line in printed)]
+    lines = [*map(visible, say.lines), *["printed:"][: len(printed)], *(f"  {p}" for p in printed)]
     return [head, *(f"        {line}" for line in lines)]
 
 

@@ -1,14 +1,20 @@
-"""Reading a lecturer's task file. Every mistake is reported with its file, line and field."""
+"""The built-in tasks, and those of a lecturer's task file.
+
+builtin.toml has one task for each part of the lecture. A lecturer's task begins as the built-in one
+of its kind. Every mistake is reported with its file, line and field.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from lucida.app.checking.builtin import builtin_tasks
+import msgspec
+
 from lucida.app.checking.cases import camera_kinds, check_size, check_views
 from lucida.app.checking.conventions import (
     CAMERA_WORDS,
@@ -24,6 +30,7 @@ from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.task_schema import PROJECTIONS, ConventionsTable, TaskFile, TaskTable
 from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask, Limits
 from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import spoken
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
 from lucida.renderer.files.tables import parse_toml, to_struct
@@ -33,7 +40,13 @@ from lucida.renderer.system.errors import LucidaError, under
 from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
-REMOVED = ("vectorised",)  # fields of older files; a function is called for each pixel
+# Fields of older files, and their values that may be ignored because they still hold.
+REMOVED: dict[str, tuple[Any, ...]] = {
+    "vectorised": (True, False),
+    "vectors": ("column",),
+    "origin": ("exact",),
+    "at_threshold": (1,),
+}
 # Words that give the size of a parallel view.
 SIZED = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
 SIZED |= {"pixel00", "top_left", "bottom_left"}
@@ -49,6 +62,20 @@ class TaskSet:
     limits: Limits
     notation: Notation = "book"
     removed: tuple[str, ...] = ()
+
+
+@lru_cache
+def builtin_tasks(notation: Notation) -> tuple[CheckTask, ...]:
+    """Return the built-in tasks in a notation."""
+    data = Path(__file__).with_name("builtin.toml").read_bytes()
+    found = []
+    for table in msgspec.toml.decode(data, type=TaskFile).tasks:
+        entry = to_struct(table, TaskTable)
+        kind = KINDS[entry.kind]
+        base = CheckTask(kind.name, kind.name, kind.function, "", "", notation=notation)
+        text = spoken(entry.text, notation)
+        found.append(_task(msgspec.structs.replace(entry, text=text), TaskFile(tasks=[]), base))
+    return tuple(found)
 
 
 def load_tasks(path: str | Path) -> TaskSet:
@@ -67,7 +94,8 @@ def _read(path: Path, source: str) -> TaskSet:
             raise located(error, Places(text), source) from None
         raise error.at_its_line(source) from None
     try:
-        return _tasks(to_struct(tables, TaskFile), path.parent)
+        removed = _without_removed(tables)
+        return replace(_tasks(to_struct(tables, TaskFile), path.parent), removed=removed)
     except LucidaError as error:
         if error.source:  # the error is in a view's file
             raise
@@ -81,24 +109,34 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
     tasks: list[CheckTask] = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"
-        kept = {name: value for name, value in table.items() if name not in REMOVED}
-        entry: TaskTable = to_struct(kept, TaskTable, field)
+        entry: TaskTable = to_struct(table, TaskTable, field)
         with under(field):
-            task = _task(entry, file, folder)
+            check_known("kind", entry.kind, KINDS)
+            base = next(t for t in builtin_tasks(file.notation) if t.kind == entry.kind)
+            task = _task(entry, file, base, folder)
             if any(task.name == other.name for other in tasks):
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
             tasks.append(task)
     limits = Limits()
     limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
-    removed = tuple(name for name in REMOVED if any(name in table for table in file.tasks))
-    return TaskSet(file.title, tuple(tasks), limits, file.notation, removed)
+    return TaskSet(file.title, tuple(tasks), limits, file.notation)
 
 
-def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
-    check_known("kind", entry.kind, KINDS)
+def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
+    """Delete the fields that may be ignored. Return their names."""
+    names = []
+    for table in (tables.get("conventions"), *tables.get("tasks", ())):
+        for name, values in REMOVED.items():
+            if isinstance(table, dict) and table.get(name) in values:
+                del table[name]
+                names.append(name)
+    return tuple(dict.fromkeys(names))
+
+
+def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path()) -> CheckTask:
+    """Return the task of a table. base: its values for what the table leaves out."""
     kind = KINDS[entry.kind]
-    base = next(task for task in builtin_tasks(file.notation) if task.kind == kind.name)
     own: dict[str, Any] = {
         "name": entry.name or kind.name,
         "function": entry.function or kind.function,
@@ -118,7 +156,6 @@ def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
         points=entry.points,
         conventions=_conventions(entry, file.conventions, kind),
         views=tuple(_views(entry.views, folder)),
-        inclusive=entry.at_threshold != 0,
         column_major=entry.order == "column-major",
         **{name: value for name, value in own.items() if value is not None},
     )
@@ -133,7 +170,7 @@ def _task(entry: TaskTable, file: TaskFile, folder: Path) -> CheckTask:
 def _text(entry: TaskTable, kind: CheckKind) -> str | None:
     """Return a description where the built-in one would be wrong."""
     others = (entry.arguments, entry.returns, entry.stride, entry.order, entry.weights)
-    if all(other is None for other in (*others, entry.at_threshold)):
+    if all(other is None for other in others):
         return None
     answer = kind.answer if entry.returns is None else ", ".join(entry.returns)
     return f"See the course's own text. Give {answer}."
@@ -151,11 +188,8 @@ def _conventions(entry: TaskTable, shared: ConventionsTable, kind: CheckKind) ->
         returns=_returns(entry.returns, kind),
         base=said.get("pixels_from", 0),
         rows=said.get("rows", "top"),
-        row_vectors=said.get("vectors") == "row",
         space=said.get("space", "world"),
         unit=said.get("unit", False),
-        any_origin=said.get("origin") == "on-ray",
-        pixel_origin=said.get("pixel_origin", ""),
     )
     if "camera" in said:
         _check_words("camera", entry.camera or {}, CAMERA_WORDS)
@@ -263,3 +297,6 @@ def check_known(field: str, name: str, names: Iterable[str]) -> None:
     """Raise LucidaError if a name is not among the known ones."""
     if name not in names:
         raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))
+
+
+BUILTIN = builtin_tasks("book")

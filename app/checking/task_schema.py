@@ -49,11 +49,8 @@ class ConventionsTable(StrictTable):
     pixels_from: Literal[0, 1] | None = None
     rows: Literal["top", "bottom"] | None = None
     axes: AxesTable | None = None
-    vectors: Literal["column", "row"] | None = None
     space: Literal["world", "camera"] | None = None
     unit: bool | None = None
-    origin: Literal["exact", "on-ray"] | None = None
-    pixel_origin: Literal["center", "corner"] | None = None
     camera: dict[str, str] | None = None
 
 
@@ -65,7 +62,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     cases: the number of generated cases.
     views: cameras as tables, files, or names of built-in scenes.
     weights: of to-gray.
-    at_threshold: of to-bitmap: the result for a gray equal to the threshold.
     order, stride: of memory-offset; stride is in bytes per pixel, or 1 to count pixels.
     """
 
@@ -85,7 +81,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     seed: Seed | None = None
     feedback: FeedbackName | None = None
     weights: Numbers3 | None = None
-    at_threshold: Literal[0, 1] | None = None
     order: Literal["row-major", "column-major"] | None = None
     stride: int | None = None
 

@@ -21,7 +21,7 @@ from lucida.renderer.images.shared_numbers import LUMINANCE
 if TYPE_CHECKING:
     from lucida.renderer.scene.model import View
 
-Kind = Literal["missing", "syntax", "exception", "time", "memory", "ended", "answer"]
+Kind = Literal["missing", "exception", "time", "memory", "ended", "answer"]
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,6 @@ class CheckTask:
     views: further cameras, given by the task.
     size: of the image; None for a small one for each camera.
     weights: of to_gray.
-    inclusive: whether the threshold itself is white.
     column_major, stride: of memory_offset.
     notation: that of the function's arguments, of the text and of the diagnosis.
     """
@@ -126,7 +125,6 @@ class CheckTask:
     seed: int = SEED
     feedback: Feedback = "diagnosis"
     weights: Vector = LUMINANCE
-    inclusive: bool = True
     column_major: bool = False
     stride: int = 1
     notation: Notation = "book"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
     """Return the tasks and limits of a task file or a course; without one, the built-in tasks."""
-    from lucida.app.checking.builtin import BUILTIN
+    from lucida.app.checking.task_file import BUILTIN
     from lucida.app.checking.tasks import Limits
 
     if source is None:

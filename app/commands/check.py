@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 from lucida.app.commands import arguments as common
 from lucida.app.commands.asked_tasks import all_tasks, named
-from lucida.renderer.system.errors import LucidaError, not_together, one_line, visible
+from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
     from lucida.app.checking.checked import TaskResult
@@ -52,13 +52,14 @@ examples:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
-    parser.add_argument(
+    which = parser.add_mutually_exclusive_group(required=True)
+    which.add_argument(
         "file",
         nargs="?",
         metavar="FILE",
         help="a Python file",
     )
-    parser.add_argument(
+    which.add_argument(
         "--command", metavar="COMMAND", help="a program: one JSON object a line in, one a line out"
     )
     parser.add_argument(
@@ -93,7 +94,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--python", metavar="PATH", help="run a Python file by this interpreter (default: Lucida's)"
     )
-    parser.add_argument("--starter", metavar="TASK", help="write a file to begin with; or `all`")
+    which.add_argument("--starter", metavar="TASK", help="write a file to begin with; or `all`")
     parser.add_argument("-o", dest="output", metavar="FILE", help="the file of --starter")
 
 
@@ -213,16 +214,10 @@ def _write_json(
 def _check_arguments(arguments: argparse.Namespace) -> None:
     from lucida.renderer.system.atomic import check_writable
 
-    if (arguments.file is None) == (arguments.command is None):
-        if arguments.file is not None:
-            raise not_together("FILE", "--command")
-        raise LucidaError("FILE", "is missing", "give a Python file, or --command")
     if arguments.file is not None:
         _check_link(Path(arguments.file))
     if arguments.json not in (None, "-"):
         check_writable(arguments.json)
-    if arguments.python is not None and arguments.command is not None:
-        raise LucidaError("--python", "is for Python files", "name it in --command")
     if arguments.output is not None:
         raise LucidaError("-o", "is for --starter", "results are written with --json OUT")
     if arguments.command is not None and arguments.task is None and arguments.tasks is None:
@@ -270,11 +265,11 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
 
 def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from lucida.app.checking.reports import is_colored, terminal_lines
+    from lucida.app.checking.reports import terminal_lines
 
     if arguments.json == "-":
         return
-    print("\n".join(terminal_lines(result, is_colored(sys.stdout))), flush=True)
+    print("\n".join(terminal_lines(result)), flush=True)
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 NAME = "lecture"
 EXPORT_SIZE = (1920, 1080)
 STILLS_SIZE = (1600, 900)
+PRINT_SIZE = (1600, 1040)  # the pictures fill a landscape page
 PAGES = (".html", ".htm", ".pdf")
 
 DESCRIPTION = """\
@@ -102,7 +103,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=window_size,
         metavar="WxH",
         help="the window's size in pixels (--export: "
-        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]})",
+        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]}; "
+        f"a print: {PRINT_SIZE[0]}x{PRINT_SIZE[1]})",
     )
 
 
@@ -182,7 +184,8 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
     from lucida.app.window.lecturing import lecture_stills
 
     with common.progress_bar("export") as progress:
-        stills = lecture_stills(lecture, path, arguments.size or STILLS_SIZE, progress)
+        size = arguments.size or (PRINT_SIZE if is_pdf else STILLS_SIZE)
+        stills = lecture_stills(lecture, path, size, progress)
     html = page(lecture, stills, not arguments.no_answers, for_print=is_pdf)
     content = pdf.pdf(html, program) if is_pdf else html.encode()
     with atomic_write(target) as file:

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import json
 import textwrap
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lucida.app.commands.arguments import say
 
@@ -25,7 +23,7 @@ examples:
   lucida tasks
   lucida tasks viewing-ray
   lucida tasks --tasks cornell-cs4620
-  lucida tasks --tasks hw2.toml --json"""
+  lucida tasks --tasks hw2.toml"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,7 +32,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tasks", metavar="FILE.toml", help="a lecturer's own tasks; or a course's name"
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -43,37 +40,13 @@ def run(arguments: argparse.Namespace) -> int:
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.task is not None:
-        tasks = [named(tasks, arguments.task, "NAME")]
-    if arguments.json:
-        data = {"tasks": [as_data(task) for task in tasks], "courses": course_names()}
-        print(json.dumps(data, indent=2))
-    elif arguments.task is not None:
-        say(*described(tasks[0]))
+        say(*described(named(tasks, arguments.task, "NAME")))
     else:
         say(*listed(tasks))
         if arguments.tasks is None:
             courses = textwrap.fill(", ".join(course_names()), WIDTH, break_on_hyphens=False)
             print(f"\nIn the words of courses and books, for --tasks:\n{courses}")
     return 0
-
-
-def as_data(task: CheckTask) -> dict[str, Any]:
-    """Return a task as JSON values."""
-    from lucida.app.checking.kinds import KINDS
-    from lucida.app.checking.own_words import returned, signature
-
-    words, said = KINDS[task.kind].words, task.conventions.explained
-    return {
-        "name": task.name,
-        "kind": task.kind,
-        "function": task.function,
-        "signature": signature(replace(task, notation="code")),
-        "returns": returned(task),
-        "arguments": {name: said(words[word]) for name, word in task.conventions.arguments},
-        "points": task.points,
-        "part": task.part,
-        "text": task.text,
-    }
 
 
 def listed(tasks: list[CheckTask]) -> list[str]:

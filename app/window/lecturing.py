@@ -148,7 +148,9 @@ def lecture_stills(
         places = {view: rects.get(view.capitalize()) for view in lecture.builds[place].views}
         pictures = {view: cut(pixels, rect) for view, rect in places.items() if rect is not None}
         if window.state.preferences.theme == "dark":
-            stills[place] = [replace(one, dark=pictures[one.view]) for one in stills[place]]
+            for number, one in enumerate(stills[place]):
+                if one.view in THEMED:
+                    stills[place][number] = replace(one, dark=pictures[one.view])
             return
         for view, picture in pictures.items():
             drawn = laboratory.in_both_themes() if view == "laboratory" else None

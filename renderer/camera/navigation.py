@@ -190,6 +190,20 @@ def _distance_through_lens(camera: Camera, fov_y_deg: float) -> float:
     return 2.0**low
 
 
+def with_shift(camera: Camera, axis: int, value: float) -> Camera:
+    """Return the camera with the middle of its viewport at `value` along u (axis 0) or v (1), and
+    its size unchanged.
+    """
+    left, right, bottom, top = camera.viewport
+    low, high = ((left, right), (bottom, top))[axis]
+    half = (high - low) / 2
+    moved_edges = (value - half, value + half)
+    return replace(
+        camera,
+        viewport=(*moved_edges, bottom, top) if axis == 0 else (left, right, *moved_edges),
+    )
+
+
 def may_zoom(
     before: Camera, after: Camera, target: ArrayLike, center: ArrayLike, reach: float
 ) -> bool:

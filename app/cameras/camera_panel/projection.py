@@ -14,11 +14,11 @@ from lucida.app.cameras.presets import clip_around
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
-from lucida.app.ui.explaining.symbols import spoken
+from lucida.app.ui.explaining.symbols import program, spoken
 from lucida.app.ui.fields import Scale, number_field
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.navigation import depth_of, distance_for, dollied
+from lucida.renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.system.errors import LucidaError
 
@@ -29,6 +29,10 @@ VIEWPORT = (
     ("top", "The viewport's upper edge, in units of v."),
 )
 RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
+SHIFTS = (
+    ("x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
+    ("y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
+)
 DISTANCE = "`distance`: how far the image plane lies from the eye along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
@@ -87,6 +91,7 @@ def projection_numbers(
     state = _dolly(state, around)
     rows.line()
     state, draft = _viewport(state, draft.following(state.camera), around)
+    state, draft = _shift(state, draft, around)
     return _clip(state, draft, around)
 
 
@@ -210,6 +215,25 @@ def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
         place, scale = ("viewport", index), _scale(state, around)
         state, draft = component(state, draft, around, place, name, width, scale, color, tooltip)
     return state, draft.following(state.camera)
+
+
+def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
+    halves = rows.Halves()
+    for axis, (place, vector, tooltip) in enumerate(SHIFTS):
+        name = f"shift {program(place, state.options.notation)}"
+        width = halves.label(axis, name, tooltip)
+        low, high = state.camera.viewport[2 * axis : 2 * axis + 2]
+        scale, color = _scale(state, around), theme.BASIS[vector]
+        changed, value = around.field(
+            name, (low + high) / 2, width, scale, tooltip, color, reset=0.0
+        )
+        if changed:
+            try:
+                state = state.with_camera(with_shift(state.camera, axis, value))
+                draft = draft.following(state.camera)
+            except LucidaError as error:
+                draft = replace(draft, error=error)
+    return state, draft
 
 
 def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:

@@ -16,7 +16,7 @@ import numpy as np
 from lucida.app.checking.cases import generator, look
 from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, named, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
-from lucida.app.checking.words import described
+from lucida.app.checking.words import FIRST_CASES, described
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 
@@ -26,18 +26,12 @@ PARTS = {
     "right": (0, 1), "up": (1, 1), "back": (2, 1),
     "left": (0, -1), "down": (1, -1), "forward": (2, -1),
 }  # fmt: skip
-SIMPLE: tuple[tuple[Vector, Vector, Vector], ...] = (
-    ((0.0, 0.0, 4.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-    ((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-    ((1.0, 2.0, 3.0), (1.0, 2.0, -2.0), (0.0, 1.0, 0.0)),
-    ((3.0, 3.0, 3.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-)
 
 
 class BasisKind(CheckKind):
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
-        made = [*SIMPLE, *(look(random) for _ in range(task.count))]
+        made = [*FIRST_CASES["basis"]["looks"], *(look(random) for _ in range(task.count))]
         return [case_of(task, *one) for one in made]
 
     def wanted(self, task: CheckTask, case: CheckCase) -> str:

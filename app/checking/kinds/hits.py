@@ -34,8 +34,7 @@ from lucida.app.checking.kinds.kind import (
 )
 from lucida.app.checking.kinds.shapes import hits, tolerance
 from lucida.app.checking.tasks import CheckCase, CheckTask
-from lucida.app.checking.words import described
-from lucida.renderer.camera.checks import Vector
+from lucida.app.checking.words import FIRST_CASES, described
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
@@ -43,7 +42,6 @@ if TYPE_CHECKING:
 MARGIN = 0.05
 MISS = (-1.0, np.inf)
 Place = Literal["ahead", "beside", "behind", "around"]
-PLACES: tuple[Place, ...] = ("ahead", "ahead", "beside", "behind")
 Values = dict[str, Any]
 
 
@@ -56,15 +54,15 @@ class HitKind(CheckKind):
     places: of the generated objects, in turn; see _sphere and _triangle.
     """
 
-    rays: tuple[tuple[Vector, Vector], ...]
-    objects: tuple[list[Values], ...]
+    rays: list[tuple[list[float], list[float]]]
+    objects: list[list[Values]]
+    places: list[Place]
     shape: str = ""
-    places: tuple[Place, ...] = PLACES
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         random = generator(task)
         made = [
-            ({"origin": list(origin), "direction": list(direction)}, objects)
+            ({"origin": origin, "direction": direction}, objects)
             for (origin, direction), objects in product(self.rays, self.objects)
         ]
         make = self._one_object if self.shape else _several_objects
@@ -114,56 +112,9 @@ class HitKind(CheckKind):
         return {"object": answer[0] + task.conventions.base, "t": float(answer[1])}
 
 
-def _at(z: float, x: float = 0.0) -> Values:
-    return {"type": "sphere", "center": [x, 0.0, z], "radius": 1.0}
-
-
-def _flat(z: float) -> Values:
-    corners = {"a": [-1.0, -1.0, z], "b": [2.0, -1.0, z], "c": [-1.0, 2.0, z]}
-    return {"type": "triangle", **corners}
-
-
-_AT_5, _AHEAD = (0.0, 0.0, 5.0), (0.0, 0.0, -1.0)
-SPHERE = HitKind(
-    **described("hit-sphere"),
-    shape="sphere",
-    places=("ahead", "beside", "ahead", "behind", "around"),
-    rays=(
-        (_AT_5, _AHEAD),
-        (_AT_5, (0.0, 0.0, -2.0)),
-        (_AT_5, (0.0, 0.0, 1.0)),
-        (_AT_5, (0.0, 1.0, 0.0)),
-        ((0.0, 0.0, 0.0), (0.0, 0.5, 0.0)),
-    ),
-    objects=([_at(0.0)],),
-)
-TRIANGLE = HitKind(
-    **described("hit-triangle"),
-    shape="triangle",
-    places=("ahead", "beside", "ahead", "beside", "beside", "behind"),
-    rays=(
-        (_AT_5, _AHEAD),
-        (_AT_5, (0.0, 0.0, -2.0)),
-        ((0.0, 0.0, -4.0), (0.0, 0.0, 1.0)),
-        (_AT_5, (0.0, 0.0, 1.0)),
-        ((1.5, 1.5, 4.0), _AHEAD),
-        (_AT_5, (0.0, 1.0, 0.0)),
-    ),
-    objects=([_flat(0.0)],),
-)
-CLOSEST = HitKind(
-    **described("closest-hit"),
-    rays=((_AT_5, _AHEAD),),
-    objects=(
-        [_at(0.0)],
-        [_at(0.0), _at(-4.0)],
-        [_at(-4.0), _at(0.0)],
-        [_at(0.0), _flat(2.0), _at(-4.0)],
-        [_at(9.0), _at(-4.0), _at(0.0)],
-        [_at(0.0, 5.0), _at(9.0)],
-        [],
-    ),
-)
+SPHERE = HitKind(**described("hit-sphere"), shape="sphere", **FIRST_CASES["hit-sphere"])
+TRIANGLE = HitKind(**described("hit-triangle"), shape="triangle", **FIRST_CASES["hit-triangle"])
+CLOSEST = HitKind(**described("closest-hit"), **FIRST_CASES["closest-hit"])
 
 
 def parameter(value: Any) -> float | None:
@@ -185,7 +136,7 @@ def _several_objects(random: Random, number: int) -> tuple[Values, list[Values]]
         ray, objects = _ray(random), []
         for _ in range(int(random.integers(2, 7))):
             shape = "sphere" if random.random() < 0.6 else "triangle"
-            objects.append(_object(random, ray, shape, random.choice(PLACES)))
+            objects.append(_object(random, ray, shape, random.choice(CLOSEST.places)))
         met = np.sort(_all_hits(ray, objects))
         met = met[np.isfinite(met)]
         if met.size >= number % 3 and np.all(np.diff(met) > 0.02 * met[1:]):

@@ -116,7 +116,7 @@ def _bitmap_cases(task: CheckTask) -> list[CheckCase]:
     for image, threshold in made:
         height, width = image.shape
         values = {"gray": image.tolist(), "threshold": threshold, "width": width, "height": height}
-        white = image >= threshold if task.inclusive else image > threshold
+        white = image >= threshold
         cases.append(CheckCase(named(task, values), white.astype(float), 0.0, values))
     return cases
 

@@ -142,13 +142,7 @@ def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance:
         turned = np.linalg.norm(np.cross(directions, wanted), axis=1)
         ahead = np.sum(directions * wanted, axis=1) > 0
         fine = ahead & (turned <= tolerance[:, 1])
-        apart = given[:, 0] - right[:, 0]
-        along = np.zeros(len(right))
-        if conventions.any_origin:
-            along = np.sum(apart * wanted, axis=1)
-            apart = apart - along[:, None] * wanted
-        fine &= np.linalg.norm(apart, axis=1) <= tolerance[:, 0] + along * tolerance[:, 1]
-        fine &= along >= -tolerance[:, 0]
+        fine &= np.linalg.norm(given[:, 0] - right[:, 0], axis=1) <= tolerance[:, 0]
         if conventions.unit:
             fine &= np.abs(lengths - 1) <= FLOAT32
     return fine

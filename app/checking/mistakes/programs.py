@@ -48,11 +48,6 @@ def _value_program(task: CheckTask) -> Program:
         case "to-gray":
             weights = (f"{weight:g}" for weight in task.weights)
             values = dict(zip(("red", "green", "blue"), weights, strict=True))
-        case "to-bitmap":
-            signs = (">=", ">", "<", "<=") if task.inclusive else (">", ">=", "<=", "<")
-            values = dict(zip(("sign", "other", "inverse", "darker"), signs, strict=True))
-            at = "is white as well: at least" if task.inclusive else "is black: more than"
-            values["at_threshold"] = at
         case "memory-offset":
             values, facts = _offset_values(task)
     lines, mistakes = part(task.kind, values, facts)

@@ -12,17 +12,20 @@ contract:
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Set
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.app.checking.conventions import PAIRS, camera_words, pixel_words
+from lucida.app.checking.conventions import camera_words, pixel_words
 from lucida.app.checking.mistakes.catalogue import Part, part
 from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.words import PARTS, SAME
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
@@ -39,33 +42,14 @@ PIXEL_NAMES = ("i", "j", "x_pixel", "y_pixel", "x01", "y01", "x11", "y11")
 GRID = frozenset({"eye", "pixel00", "delta_u", "delta_v"})
 EDGES = frozenset({"eye", "bottom_left", "horizontal", "vertical"})
 SIZES = ("viewport_width", "viewport_height")
-UNITS = {
-    "_pixel": ("x_pixel / width", "y_pixel / height"),
-    "01": ("x01", "y01"),
-    "11": ("(x11 + 1) / 2", "(y11 + 1) / 2"),
-}
-SIDES = ("long", "short")
-# The values of the parts that use an angle of view, by the angle's side or axis.
-ANGLES: dict[str, dict[str, str]] = {
-    "long": {"side": "long", "other_side": "short", "limit": "minimum", "other_limit": "maximum"},
-    "short": {"side": "short", "other_side": "long", "limit": "maximum", "other_limit": "minimum"},
-    "y": {"axis": "vertical", "first": "top", "second": "right", "times": "*", "over": "/"},
-    "x": {"axis": "horizontal", "first": "right", "second": "top", "times": "/", "over": "*"},
-}
+# The values of names in braces in the catalogue; see ray_values.toml.
+VALUES = msgspec.toml.decode(Path(__file__).with_name("ray_values.toml").read_bytes())
+UNITS, ANGLES = VALUES["units"], VALUES["angles"]
 
-# The translation of a task's words into those of the lines.
-LETTERS = {"row": "i", "column": "j"}
 _VIEWPORT = {"left", "right", "bottom", "top"}
 _MATRICES = {"camera_to_world", "world_to_camera"}
-_SAME: dict[str, set[str]] = {
-    **{word: {letter} for word, letter in LETTERS.items()},
-    "size": {"width", "height"},
-    "viewport": _VIEWPORT,
-    **{name: set(pair) for name, pair in PAIRS.items()},
-    **{word: {"distance", *_VIEWPORT} for word in ("K", "fx", "fy", "cx", "cy")},
-    **{word: {"world_to_camera"} for word in ("R", "t", "cam_from_world")},
-    "world_from_cam": {"camera_to_world"},
-}
+# The translation of a task's words into those of the lines.
+_SAME: Mapping[str, Iterable[str]] = {**PARTS, **SAME}
 _PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
 _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
 _KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
@@ -97,7 +81,7 @@ def ray_task(task: CheckTask, projection: str = "perspective") -> RayTask:
     its = task.conventions
     words = {same for word in its.words for same in _SAME.get(word, {word})}
     pixel = next((pair for pair in _PIXELS if pair <= words), {"i", "j"})
-    if {"rotation", "eye"} <= words or (words & _MATRICES and its.row_vectors):
+    if {"rotation", "eye"} <= words:
         words = words - _MATRICES | {"eye", "u", "v", "w"}
     seen = words >= _VIEWPORT or words >= set(SIZES) or any(w.startswith("fov") for w in words)
     placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
@@ -161,17 +145,8 @@ def _pixel_values(task: RayTask, unit: str) -> dict[str, str]:
     i0, j0 = ("(i - 1)", "(j - 1)") if is_from_one else ("i", "j")
     across, down = UNITS.get(unit) or (f"(j {half}) / width", f"(i {half}) / height")
     values = {"half": half, "i0": i0, "j0": j0, "across": across, "down": down}
-    if task.from_top:
-        return values | {
-            "edge": "top", "far": "bottom", "sense": "-", "minus": "-", "plus": "",
-            "rows_from_middle": f"height / 2 - (i {half})",
-            "down_from_middle": f"(1 - 2 * {down})", "up": f"(1 - {down})", "turned": down,
-        }  # fmt: skip
-    return values | {
-        "edge": "bottom", "far": "top", "sense": "+", "minus": "", "plus": "-",
-        "rows_from_middle": f"(i {half}) - height / 2",
-        "down_from_middle": f"(2 * {down} - 1)", "up": down, "turned": f"(1 - {down})",
-    }  # fmt: skip
+    rows = VALUES["rows"]["top" if task.from_top else "bottom"]
+    return values | {name: text.format_map(values) for name, text in rows.items()}
 
 
 def _matrix(words: Set[str]) -> str:
@@ -225,13 +200,13 @@ def _viewport_part(words: frozenset[str]) -> list[Part]:
         edges = {f"edge_{axis}": given[axis] for axis in "xy"}
         return [part("two_angles", values, angles=edges)]
     axis = next(iter(given), "")
-    if words.issuperset(SIZES) and axis not in SIDES:
+    if words.issuperset(SIZES) and "side" not in ANGLES.get(axis, {}):
         return [part("sizes")]
     if not axis:
         return []
     word = given[axis]
     values |= ANGLES[axis] | {"angle": word if word.endswith("_rad") else f"radians({word})"}
-    return [part("side" if axis in SIDES else "fov", values, angles={"edge": word})]
+    return [part("side" if "side" in values else "fov", values, angles={"edge": word})]
 
 
 def ray_values(

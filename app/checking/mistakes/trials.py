@@ -77,25 +77,15 @@ def trial_of(
 ) -> Trial:
     """Return the trial of given answers. projection: of all of the cases' cameras, if any."""
     if task.kind == "viewing-ray":
-        rays = ray_task(task, projection)
-        return RayTrial(cases, np.asarray(given, float), rays, task.conventions.any_origin)
+        return RayTrial(cases, np.asarray(given, float), ray_task(task, projection))
     return ValueTrial(task, cases, given)
 
 
 class RayTrial:
-    """Rays, given and correct, (N, 2, 3) each: the lines run for all cases at once.
+    """Rays, given and correct, (N, 2, 3) each: the lines run for all cases at once."""
 
-    any_origin: any point of the ray may be its origin.
-    """
-
-    def __init__(
-        self,
-        cases: Sequence[CheckCase],
-        given: Floats,
-        task: RayTask,
-        any_origin: bool = False,
-    ) -> None:
-        self.count, self.given, self.any_origin = len(cases), given, any_origin
+    def __init__(self, cases: Sequence[CheckCase], given: Floats, task: RayTask) -> None:
+        self.count, self.given = len(cases), given
         self.right = np.array([case.right for case in cases], float)
         made, scale = [], []
         for case in cases:
@@ -138,8 +128,6 @@ class RayTrial:
             scale = self.scale[cases] + np.linalg.norm(origins, axis=-1) + length
             along = directions / length[..., None]
             moved = rays[..., 0, :] - origins
-            if self.any_origin:
-                moved = moved - np.sum(moved * along, axis=-1)[..., None] * along
             turned = np.linalg.norm(rays[..., 1, :] / own[..., None] - along, axis=-1) * length
             no_way = (own == 0) | (length == 0)
             turned = np.where(no_way, np.maximum(own, length), turned)

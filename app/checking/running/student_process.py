@@ -18,10 +18,8 @@ import queue
 import sys
 import traceback
 import types
-from collections.abc import Mapping
 
 _LONGEST_LINE = 300
-_FULL_TRACEBACKS = 3  # failures of a request that are reported with all their lines
 _LAST_FRAMES = 12  # of a long traceback
 _MOST_FILES = 32
 _MEMORY_STATUS = 86  # exit status: no memory left to report that
@@ -38,10 +36,8 @@ def main():
             student.load()
             channel.send("i", {"functions": student.functions(), "files": student.files()})
         except BaseException as error:
-            failed = student.failure(error, loading=True)
-            channel.send("f", {**failed, "files": student.files(all_of=True)})
+            channel.send("f", {**student.failure(error), "files": student.files(all_of=True)})
         while True:
-            student.failures = 0
             for name, arguments, as_arrays in channel.next():
                 given = [made(value, word, as_arrays) for word, value in arguments]
                 channel.send(*student.called(name, given))
@@ -94,7 +90,6 @@ class StudentFile:
     def __init__(self, opening):
         self._path, self._source = opening["path"], opening["source"].encode("latin-1")
         self._folder = os.path.dirname(self._path)
-        self.failures = 0
         self._module = types.ModuleType("student")
         self._module.__file__ = self._path
 
@@ -149,22 +144,15 @@ class StudentFile:
         except BaseException as error:
             return "f", self.failure(error)
 
-    def failure(self, error, loading=False):
+    def failure(self, error):
         """Return kind and text of an error, its line in the student's files, and its traceback."""
-        self.failures += 1
-        where = self._where(error)
-        kind = "exception"
-        if isinstance(error, SystemExit):
-            kind = "ended"
-        elif isinstance(error, MemoryError):
-            kind = "memory"
-        elif loading and (isinstance(error, SyntaxError) or not where):
-            kind = "syntax"  # null bytes are a ValueError
+        kinds = {SystemExit: "ended", MemoryError: "memory"}
+        kind = next((kinds[one] for one in kinds if isinstance(error, one)), "exception")
         text = type(error).__name__
         with contextlib.suppress(BaseException):  # the student's __str__ may fail
             told = str(error.msg if isinstance(error, SyntaxError) else error)[:_LONGEST_LINE]
             text += f": {told}" if told not in ("", "None") else ""
-        lines = self._lines(error) if self.failures <= _FULL_TRACEBACKS else []
+        where, lines = self._where(error), self._lines(error)
         return {"kind": kind, "text": text, "where": where, "lines": lines}
 
     def _where(self, error):
@@ -193,26 +181,18 @@ class StudentFile:
         return text.replace(f"{before}{self._folder}{os.sep}", before)
 
 
-class Values(types.SimpleNamespace, Mapping):
+class Values(dict):
     """A camera, or an object of a scene: camera.eye, camera["eye"], and camera.e."""
 
     __hash__ = object.__hash__  # type: ignore[assignment]
+    __setattr__ = dict.__setitem__
 
     def __getattr__(self, name):
-        if _LETTERS.get(name) in self.__dict__:
-            return self.__dict__[_LETTERS[name]]
+        if (field := _LETTERS.get(name, name)) in self:
+            return self[field]
         letters = {word: letter for letter, word in _LETTERS.items()}
         has = ", ".join(f"{letters[one]} or {one}" if one in letters else one for one in self)
         raise AttributeError(f"{type(self).__name__} has no {name!r}; it has: {has}")
-
-    def __getitem__(self, name):
-        return self.__dict__[name]
-
-    def __iter__(self):
-        return iter(self.__dict__)
-
-    def __len__(self):
-        return len(self.__dict__)
 
 
 def _with(operation):

@@ -12,13 +12,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.builtin import BUILTIN, builtin_tasks
 from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import cases_of
-from lucida.app.checking.mistakes.diagnosis import Diagnosis, diagnosis
-from lucida.app.checking.task_file import TaskSet, load_tasks
+from lucida.app.checking.task_file import BUILTIN, TaskSet, builtin_tasks, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Limits, Run
 from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
@@ -47,7 +45,6 @@ class CodeRays:
     task: CheckTask
     camera: Camera
     size: Size
-    cases: Sequence[CheckCase]
     given: Floats
     right: Floats
     wrong: NDArray[np.bool_]
@@ -141,12 +138,7 @@ def rays_of(task: CheckTask, size: Size, cases: Sequence[CheckCase], run: Run) -
     shape = size[1], size[0]
     given, right = given.reshape(*shape, 2, 3), right.reshape(*shape, 2, 3)
     result = judged(replace(task, feedback="first-wrong"), cases, run)
-    return CodeRays(task, camera, size, cases, given, right, wrong.reshape(shape), result)
-
-
-def diagnosis_of(rays: CodeRays) -> Diagnosis:
-    """Return the diagnosis of the rays. Takes a while."""
-    return diagnosis(rays.task, rays.cases, rays.given.reshape(-1, 2, 3), rays.wrong.ravel())
+    return CodeRays(task, camera, size, given, right, wrong.reshape(shape), result)
 
 
 def canvas_pixel(
@@ -212,10 +204,9 @@ class CodeReport:
     chosen: the selected one.
     rays: for the window's camera, None if the selected task makes none.
     results: of the tasks that have been tried, by name.
-    diagnosis: the reason why the rays are wrong; None while unknown.
     failure: the reason why the file answers nothing at all.
     output: the text that it printed.
-    seconds, at: the duration of the newest run, and its end in seconds since 1970.
+    seconds: the duration of the newest run.
     asked: all tasks.
     not_asked: the reason why there are no rays, if it is the camera.
     """
@@ -225,11 +216,9 @@ class CodeReport:
     chosen: CheckTask | None = None
     rays: CodeRays | None = None
     results: Mapping[str, TaskResult] = field(default_factory=dict)
-    diagnosis: Diagnosis | None = None
     failure: Failure | None = None
     output: str = ""
     seconds: float = 0.0
-    at: float = 0.0
     asked: tuple[CheckTask, ...] = BUILTIN
     not_asked: str = ""
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from lucida.app.checking.your_code.model import CodeRays
 from lucida.app.instruments.outside import answers
-from lucida.app.instruments.outside.diagram import Item, Segments, in_notation
+from lucida.app.instruments.outside.diagram import Item, in_notation
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
     SecondCamera,
@@ -22,23 +22,16 @@ from lucida.app.state.options.shared import Notation, Pixel
 def outside_items(
     rays: CodeRays, marked: Pixel | None, end: float, first: str, notation: Notation
 ) -> list[Item]:
-    """Return an answer's drawing for the outside view. Without a mark, the rays are those of the
-    first wrong pixel.
+    """Return a wrong answer's drawing for the outside view. Without a mark, the rays are those of
+    the first wrong pixel.
 
     end: the ray parameter at which the scene ends. first: the name of the first pixel.
     """
     camera = rays.camera
     middle = (rays.size[1] - 1) / 2, (rays.size[0] - 1) / 2
     reach = end * float(np.linalg.norm(camera.ray(*middle, rays.size).direction))
-    items: list[Item] = []
-    if not rays.wrong.any():
-        if marked is not None:
-            start, way = rays.right[marked]
-            line = np.array([[start, start + end * way]])
-            items.append(Segments("right ray", "ray", line, 2.5, layer=3))
-        return in_notation(items, notation)
     corners = corner_rays(rays.given[..., 0, :], rays.given[..., 1, :])
-    items += second_camera(SecondCamera(*corners, None, "yours", first), reach)
+    items = [*second_camera(SecondCamera(*corners, None, "yours", first), reach)]
     pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
     if rays.came[pixel]:
         items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)

@@ -5,15 +5,14 @@ Functions take values and return wishes.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.own_words import returned, signature
+from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
@@ -71,7 +70,6 @@ def head(
     file: Path,
     options: YourCodeOptions,
     runs: CodeRuns | None,
-    report: CodeReport | None,
     fonts: Fonts,
 ) -> tuple[CodeWish, Size]:
     """Draw the file and its buttons. Return the wish and the selected canvas size.
@@ -99,15 +97,11 @@ def head(
         tip(tooltip)
     wish = _tasks(Path(options.tasks).name) or wish
     canvas = options.canvas if runs is None else _canvas(options.canvas)
-    text = ""
     if running_s > RUNNING_S:
         text = f"running for {running_s:.0f} s"
-    elif report is not None and report.at:
-        at = time.strftime("%H:%M:%S", time.localtime(report.at))
-        text = f"ran at {at}, {report.seconds:.2g} s"
-    follow(imgui.calc_text_size(text).x)
-    imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.DIM, text)
+        follow(imgui.calc_text_size(text).x)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(theme.DIM, text)
     return wish, canvas
 
 

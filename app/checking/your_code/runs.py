@@ -1,7 +1,7 @@
 """Runs a student's file in the background: for the window's camera, then for all of its tasks.
 
 The newest question wins. An overtaken one is given up, and its process ended if it takes long. The
-slow work, tasks and diagnosis, waits until the camera rests.
+slow work, the tasks, waits until the camera rests.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ from lucida.app.checking.your_code.model import (
     asked_of,
     cases_for,
     chosen_of,
-    diagnosis_of,
     for_camera,
     is_of_camera,
     rays_of,
@@ -184,7 +183,7 @@ class CodeRuns:
         try:
             with self._running(question):
                 report = self._report(question, before)
-            self._publish(replace(report, seconds=time.monotonic() - begin, at=time.time()))
+            self._publish(replace(report, seconds=time.monotonic() - begin))
             self._check(question)
         except NotRunnableError as error:
             self._publish(CodeReport(question, failure=error.failure, output=error.output))
@@ -216,7 +215,7 @@ class CodeRuns:
         return replace(report, rays=rays, output=rays.result.output)
 
     def _check(self, question: CodeQuestion) -> None:
-        """Check the tasks that have not been tried, then find out why the picture is wrong."""
+        """Check the tasks that have not been tried."""
         opened, report = self._opened, self.report
         if opened is None or report is None or not self._rests(question):
             return
@@ -229,9 +228,6 @@ class CodeRuns:
                     results[task.name] = _tried(opened.student, task, report)
                 report = replace(report, results=dict(results))
                 self._publish(report)  # unless it was ended on purpose: nobody wants it then
-        rays = report.rays
-        if rays and rays.result.status == "wrong" and rays.task.feedback == "diagnosis":
-            self._publish(replace(report, diagnosis=diagnosis_of(rays)))
 
 
 def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:

@@ -170,7 +170,7 @@ class YourCodeView(Instrument):
         report = runs.report
         if report is not None and not report.question.content.is_of_files(content):
             report = None
-        wish, canvas = panel.head(Path(path), options, runs, report, host.fonts)
+        wish, canvas = panel.head(Path(path), options, runs, host.fonts)
         if canvas != options.canvas:
             host.edit(replace(host.options.your_code, canvas=canvas))
         if report is None:
@@ -198,27 +198,24 @@ class YourCodeView(Instrument):
     def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
         """Show the student's camera if it is wrong, and the marked pixel's rays."""
         rays = report.rays
-        if rays is None:
+        if rays is None or not rays.wrong.any():
             self._outside.show(YOUR_CODE, ())
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
         items = self._items(rays, marked, end, first, host.state.options.notation)
-        if not rays.wrong.any():
-            self._outside.show(YOUR_CODE, items)
-            return
+        self._outside.show(YOUR_CODE, items)
         place = report.question.content.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
-        self._outside.show(YOUR_CODE, items)
 
     # Requests of the user.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """Draw a file that a lecture has named, which the user may read and run."""
         options = host.state.options.your_code
-        wish, _ = panel.head(Path(path), options, None, None, host.fonts)
+        wish, _ = panel.head(Path(path), options, None, host.fonts)
         wrapped(panel.TRUST)
         if imgui.button("Run it"):
             self._agree(host, path)

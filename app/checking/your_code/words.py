@@ -109,15 +109,11 @@ def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
     else:
         wrong = int(rays.wrong.sum())
         yield ToldLine("bad", f"{wrong} of {rays.wrong.size} rays are wrong.")
-        assert report.chosen is not None
-        tried = report.results.get(report.chosen.name)
-        found, others = report.diagnosis, tried.diagnosis if tried else None
-        if found is None or (others is not None and not found.candidates):
-            found = others  # of the task's many cameras
-        if found is None and tried is None:
+        tried = report.results.get(rays.task.name)
+        if tried is None:
             yield ToldLine("dim", "looking for the reason ...")
-        for sentence in found.sentences if found else ():
-            yield ToldLine("text", sentence)
+        elif tried.diagnosis is not None:
+            yield from (ToldLine("text", sentence) for sentence in tried.diagnosis.sentences)
 
 
 def _of_failure(result: TaskResult) -> Iterator[ToldLine]:

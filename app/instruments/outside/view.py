@@ -320,7 +320,7 @@ class OutsideView(Instrument):
         content = self.content(host, screen)
         if options.half_line and self._over:
             content = replace(content, pointed=_pointed(content, scope))
-        moves = self._scopes.moves or ground.factor > 1
+        moves = self._scopes.moves or ground.factor > 1 or both.unfinished(state)
         key = (
             content, ground, screen.near, units_px(scope.extent),
             live and live.number, state.images, theme.used(), extensions.items,

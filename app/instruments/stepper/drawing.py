@@ -156,9 +156,10 @@ def _arranged(
     larger = max(theme.whole_px(largest * em - 0.5) / em, least)
     a = ImVec2(min(larger * needed.x, most.x), min(larger * needed.y, most.y))
     gap, margin = GAP_EM * em, _margin(drawn.size, em)
+    beyond = ImVec2(0.25 * em * len(str(drawn.size[0])), 0.5 * em)  # halves of the last numbers
     taken = ImVec2(a.x + gap, 0) if beside else ImVec2(0, a.y + gap)
-    unit = canvas_unit(drawn.size, room - taken - margin)
-    b = margin + ImVec2(*drawn.size) * unit
+    unit = canvas_unit(drawn.size, room - taken - margin - beyond)
+    b = margin + ImVec2(*drawn.size) * unit + beyond
     total = ImVec2(taken.x + b.x, max(a.y, b.y)) if beside else ImVec2(max(a.x, b.x), taken.y + b.y)
     return Arranged(beside, largest >= least, larger, unit, a, b, total)
 

@@ -8,8 +8,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckCase
 
 borders = st.sampled_from([0.0, -0.0, 1.0, -1.0, 1e300, math.inf, -math.inf, math.nan])

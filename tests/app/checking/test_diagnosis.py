@@ -12,13 +12,13 @@ from asked_rays import TASKS as RAY_TASKS
 from asked_rays import asked_cases, made_camera, made_case, made_cases, whole_image
 from numpy.typing import NDArray
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import MOST, diagnosis
 from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import known_values, program_of, programs
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
 from lucida.app.checking.mistakes.trials import LOOSE, RayTrial, candidates
+from lucida.app.checking.task_file import BUILTIN
 from lucida.renderer.camera.camera import Camera
 
 TASKS = {task.name: task for task in BUILTIN}
@@ -231,17 +231,6 @@ def test_each_projection_has_its_own_mistake():
     assert names(found) == [{"rows count upwards"}, {"all rays start at the eye"}]
     places = [sentence for sentence in found.sentences if sentence.startswith("In ")]
     assert places == ["In perspective:", "In parallel projection:"]
-
-
-def test_any_point_of_the_ray():
-    """An origin further on is no mistake where any is allowed; another mistake is reported."""
-
-    def moved(o, d, case):
-        origin, direction = transposed(o, d, case)
-        return origin + 0.7 * direction, direction
-
-    found = diagnosed(moved, any_origin=True)
-    assert names(found)[0] == {"row and column exchanged"}
 
 
 def test_of_a_large_image_some_rays_are_looked_at():

@@ -8,12 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.own_words import signature
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.app.checking.task_schema import TaskFile, TaskTable
 from lucida.app.checking.tasks import CAMERA_KINDS, FEEDBACK
 

@@ -10,7 +10,6 @@ import pytest
 from asked_rays import made_cases
 
 import lucida.app.lecture.lectures
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.mistakes.programs import programs
 from lucida.app.checking.mistakes.rays import (
@@ -21,6 +20,7 @@ from lucida.app.checking.mistakes.rays import (
     ray_values,
     run_rays,
 )
+from lucida.app.checking.task_file import BUILTIN
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
 

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult, check
 from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
+from lucida.app.checking.task_file import BUILTIN
 
 Edits = Sequence[tuple[str, str]]
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.cases import shots
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.renderer.system.errors import LucidaError
 
 RAYS = '[[tasks]]\nkind = "viewing-ray"\n'
@@ -40,9 +39,9 @@ def test_all_that_a_file_can_say(tmp_path):
         pixels_from = 1
         rows = "bottom"
         axes = { x = "left", z = "forward" }
-        vectors = "row"
+        vectors = "column"
         unit = true
-        origin = "on-ray"
+        origin = "exact"
         camera = { pos = "eye", c2w = "camera_to_world", wide = "viewport_width" }
         [[tasks]]
         kind = "viewing-ray"
@@ -66,16 +65,13 @@ def test_all_that_a_file_can_say(tmp_path):
         stride = 4
         pixels_from = 0
         [[tasks]]
-        kind = "to-bitmap"
-        at_threshold = 0
-        [[tasks]]
         kind = "to-gray"
         weights = [0.299, 0.587, 0.114]
         """,
     )
-    assert found.title == "Homework 2" and found.removed == ("vectorised",)
+    assert found.title == "Homework 2" and found.removed == ("vectors", "origin", "vectorised")
     assert (found.limits.seconds, found.limits.memory_mb) == (3.0, 256)
-    rays, offset, bits, gray = found.tasks
+    rays, offset, gray = found.tasks
     says = rays.conventions
     assert (rays.name, rays.function, rays.points, rays.text) == (
         "rays", "generate_ray", 2.5, "Write it.",
@@ -83,7 +79,7 @@ def test_all_that_a_file_can_say(tmp_path):
     assert says.arguments == (("x", "x01"), ("y", "y01"), ("camera", "camera"))
     assert says.camera[:2] == (("pos", "eye"), ("c2w", "camera_to_world"))
     assert (says.base, says.rows, says.axes) == (1, "bottom", (-1, 1, -1))
-    assert says.row_vectors and says.unit and says.any_origin and says.space == "world"
+    assert says.unit and says.space == "world"
     assert says.returns == ("direction", "origin")
     assert rays.projections == ("perspective", "parallel") and rays.cameras == ("moved", "turned")
     assert (rays.size, rays.count, rays.seed) == ((12, 8), 7, 6)
@@ -91,7 +87,7 @@ def test_all_that_a_file_can_say(tmp_path):
     assert [view.camera.eye[2] for view in rays.views[1:]] == [3.0, 9.0]
     assert len(list(shots(rays))) == 10
     assert offset.conventions.base == 0 and offset.column_major and offset.stride == 4
-    assert not bits.inclusive and gray.weights == (0.299, 0.587, 0.114)
+    assert gray.weights == (0.299, 0.587, 0.114)
 
 
 def test_the_built_in_text_is_not_told_where_it_is_not_true(tmp_path):
@@ -186,8 +182,8 @@ def test_the_words_of_computer_vision_bring_their_axes(tmp_path):
     (task,) = load(tmp_path, VISION).tasks
     assert task.conventions.axes == (1, -1, -1) and "skewed" not in task.cameras
     assert task.conventions.first_center == 0.0
-    (task,) = load(tmp_path, VISION + 'pixel_origin = "corner"').tasks
-    assert task.conventions.first_center == 0.5
+    with pytest.raises(LucidaError, match="vectors"):  # it would be another task without it
+        load(tmp_path, VISION + 'vectors = "row"')
 
 
 @pytest.mark.parametrize(

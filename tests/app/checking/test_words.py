@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.cases import shots
 from lucida.app.checking.checked import judged
 from lucida.app.checking.conventions import (
@@ -19,7 +18,7 @@ from lucida.app.checking.conventions import (
 )
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.app.checking.tasks import Run
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import View
@@ -61,21 +60,14 @@ def from_the_top(xy01, camera):
     return camera["origin"], point - a(camera["origin"])
 
 
-def row_vectors(i, j, width, height, camera):
-    x = (2 * (j + 0.5) / width - 1) * math.tan(camera["fov"] / 2)
-    y = (1 - 2 * (i + 0.5) / height) * math.tan(camera["fov"] / 2) * height / width
-    matrix = a(camera["matrix"])
-    return matrix[3, :3], a([x, y, -1]) @ matrix[:3, :3]
-
-
-def target_and_up(i, j, size, eye, target, up, fov_y):
+def target_and_up(i, j, size, eye, target, up, fov_x_rad):
     w = unit(a(eye) - a(target))
     u = unit(np.cross(up, w))
     v = np.cross(w, u)
-    half = math.tan(math.radians(fov_y) / 2)
+    half = math.tan(fov_x_rad / 2)
     width, height = size
-    x = (2 * (j + 0.5) / width - 1) * half * width / height
-    return (eye, x * u + (1 - 2 * (i + 0.5) / height) * half * v - w)
+    y = (1 - 2 * (i + 0.5) / height) * half * height / width
+    return (eye, (2 * (j + 0.5) / width - 1) * half * u + y * v - w)
 
 
 def upside_down(x_pixel, y_pixel, size, viewport, distance, rotation, eye):
@@ -125,16 +117,8 @@ COURSES = {
         ),
         from_the_top,
     ),
-    "row vectors": (
-        course(
-            ["i", "j", "width", "height", "camera"],
-            {"fov": "fov_x_rad", "matrix": "camera_to_world"},
-            row_vectors=True,
-        ),
-        row_vectors,
-    ),
     "target and up": (
-        course(["i", "j", "size", "eye", "target", "up", "fov_y"]),
+        course(["i", "j", "size", "eye", "target", "up", "fov_x_rad"]),
         target_and_up,
     ),
     "y downwards": (

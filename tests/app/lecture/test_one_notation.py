@@ -15,9 +15,9 @@ import pytest
 from both_lectures import both_lectures
 
 from lucida.app.cameras.camera_panel import panel, projection
-from lucida.app.checking.builtin import builtin_tasks
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
 from lucida.app.checking.own_words import starter
+from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.ruler import ruler
 from lucida.app.instruments.laboratory.sheet import Look

@@ -274,3 +274,14 @@ def test_a_turn_is_right_handed_about_an_axis_of_any_length() -> None:
         after = navigation.turned(Camera(eye=(1, 2, 3)), (0, 0, 3), axis, math.pi / 2)
         assert after.eye == pytest.approx((0, 2, 2))
         assert after.u == pytest.approx((0, 0, -1))
+
+
+@given(cameras(), st.sampled_from((0, 1)), st.floats(-3, 3))
+def test_a_shift_keeps_the_viewport_s_size(camera: Camera, axis: int, value: float) -> None:
+    after = navigation.with_shift(camera, axis, value)
+    low, high = after.viewport[2 * axis : 2 * axis + 2]
+    was_low, was_high = camera.viewport[2 * axis : 2 * axis + 2]
+    assert (low + high) / 2 == pytest.approx(value)
+    assert high - low == pytest.approx(was_high - was_low)
+    other = 2 - 2 * axis
+    assert after.viewport[other : other + 2] == camera.viewport[other : other + 2]

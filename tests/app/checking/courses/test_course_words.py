@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import check
 from lucida.app.checking.conventions import Conventions
 from lucida.app.checking.courses import course_names, task_path
@@ -17,7 +16,7 @@ from lucida.app.checking.mistakes.rays import WORDS, ray_program, ray_task
 from lucida.app.checking.mistakes.trials import RayTrial, candidates
 from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
-from lucida.app.checking.task_file import load_tasks
+from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask
 
 TASKS = [

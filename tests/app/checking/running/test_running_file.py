@@ -106,14 +106,6 @@ def test_an_endless_recursion_is_short(student):
     assert len(failure.traceback) < 50
 
 
-def test_of_many_exceptions_the_first_are_told_in_full(student):
-    one = student("def f(i): raise ValueError(i)\n")
-    for _ in range(2):
-        values = one.call([called("f", i=i) for i in range(5)]).values
-        assert [bool(failure.traceback) for failure in values] == [True] * 3 + [False] * 2
-        assert all(f"f(i={i})" in failure.text for i, failure in enumerate(values))
-
-
 @pytest.mark.parametrize(
     ("source", "told"),
     [

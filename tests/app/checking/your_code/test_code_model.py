@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from right_code import right_ray
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import Call, Run
 from lucida.app.checking.your_code.model import (
     RAY,

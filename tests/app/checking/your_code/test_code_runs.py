@@ -118,7 +118,6 @@ def test_the_camera_s_rays_come_first_then_the_tasks(desk):
     assert [task.name for task in report.tasks] == ["viewing-ray", "viewing-ray-parallel"]
     assert report.output == "printed"
     assert report.results.keys() == {"viewing-ray", "viewing-ray-parallel"}
-    assert report.at > 0
     (student,) = desk.made
     assert student.path == Path("rays.py")
     assert desk.runs.files == ("vectors.py",)
@@ -207,7 +206,7 @@ def test_tasks_of_a_function_that_runs_endlessly_are_not_tried(desk):
     ("error", "text", "output"),
     [
         (
-            NotRunnableError(Failure("syntax", "rays.py, line 3: SyntaxError"), "said"),
+            NotRunnableError(Failure("exception", "rays.py, line 3: SyntaxError"), "said"),
             "line 3",
             "said",
         ),
@@ -270,8 +269,6 @@ def test_wrong_rays_are_told_first_then_why(desk):
     desk.prepare = mirrored
     report = desk.told(QUESTION)
     assert seen[0].rays.result.status == "wrong"
-    assert seen[0].diagnosis is None
-    assert report.diagnosis is not None
-    assert report.diagnosis.sentences
+    assert not seen[0].results
     assert report.results["viewing-ray"].diagnosis is not None
     assert report.rays is seen[0].rays  # the pictures stay

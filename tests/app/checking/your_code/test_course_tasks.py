@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.courses import course_names, task_path
 from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask, Run
 from lucida.app.checking.your_code.model import (
     RAY,

@@ -7,10 +7,10 @@ from typing import Any
 
 from right_code import right_ray
 
-from lucida.app.checking.builtin import BUILTIN
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import Diagnosis
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import Failure, Run
 from lucida.app.checking.your_code.model import (
     RAY,
@@ -60,17 +60,11 @@ def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
     assert "being tried" in texts(report(results={}))[-1]
 
 
-def test_wrong_rays_are_told_with_the_reason_of_the_camera_that_names_it():
+def test_wrong_rays_are_told_with_the_reason_of_the_task():
     found = texts(report(mirrored, results={}))
     assert found[:2] == ["12 of 12 rays are wrong.", "looking for the reason ..."]
-    own = Diagnosis(("u points left.",))
-    others = Diagnosis(("of many cameras",))
-    wrong = replace(RIGHT, status="wrong", diagnosis=others)
-    assert texts(report(mirrored, diagnosis=own, results={}))[1] == "u points left."
-    both = report(mirrored, diagnosis=own, results={TASK.name: wrong})
-    assert texts(both)[1] == "of many cameras"
-    named = replace(own, candidates=((),))
-    assert texts(replace(both, diagnosis=named))[1] == "u points left."
+    wrong = replace(RIGHT, status="wrong", diagnosis=Diagnosis(("u points left.",)))
+    assert texts(report(mirrored, results={TASK.name: wrong}))[1] == "u points left."
 
 
 def test_the_marked_pixel_in_numbers():
@@ -97,7 +91,7 @@ def test_an_exception_is_told_with_its_own_lines():
 
 
 def test_a_file_that_answers_nothing():
-    failure = Failure("syntax", "rays.py, line 2: SyntaxError", ("    x = (",))
+    failure = Failure("exception", "rays.py, line 2: SyntaxError", ("    x = (",))
     found = CodeReport(QUESTION, failure=failure, output="before")
     assert texts(found) == ["rays.py, line 2: SyntaxError", "    x = (", "printed:", "before"]
     assert "none of the functions" in texts(CodeReport(QUESTION))[0]
