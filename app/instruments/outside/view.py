@@ -141,10 +141,10 @@ class OutsideView(Instrument):
         if self.tools is not None:
             self.tools.ground.forget()
 
-    def flown(self, host: Host) -> Camera | None:
+    def own_camera(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
 
-    def with_flown(self, state: AppState, camera: Camera | None) -> AppState:
+    def with_own_camera(self, state: AppState, camera: Camera | None) -> AppState:
         return state.with_options(replace(state.options.outside, camera=camera))
 
     def ends(self, host: Host, target: AppState) -> Ends | None:
@@ -157,11 +157,13 @@ class OutsideView(Instrument):
             return None
         options = target.options.outside
         end = options.camera or camera_for_all(host, size, scope.extent, self.extensions.points)
-        return Ends(scope.camera, end, size, lambda s: s.options.outside.camera, self.with_flown)
+        return Ends(
+            scope.camera, end, size, lambda s: s.options.outside.camera, self.with_own_camera
+        )
 
     def look(self, host: Host, camera: Camera | None) -> None:
         """Look through a camera; None: through one that sees everything."""
-        host.travel(self.with_flown(host.state, camera))
+        host.travel(self.with_own_camera(host.state, camera))
 
     def look_along(self, host: Host, axis: str) -> None:
         """Look along an axis of the world, "x", "-x", ... "-z", at everything."""

@@ -89,35 +89,6 @@ def drive_the_wheel_goes_through_nothing(d: Driver) -> None:
     assert window.state == d.start
 
 
-def drive_keys_fly_over_an_image(d: Driver) -> None:
-    window = d.window
-    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
-    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
-        d.ctx.mouse_teleport_to_pos(d.point(name, 0.5, 0.5))
-        d.ctx.yield_(2)
-        d.ctx.key_down(int(key))
-        d.until(
-            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
-        )
-        d.ctx.key_up(int(key))
-        d.ctx.yield_(2)
-        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
-        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
-        assert window.state.camera.w == d.start.camera.w
-        assert len(window.history.past) == 1
-        resting = window.state
-        d.ctx.yield_(4)
-        assert window.state == resting
-        d.reset()
-    d.ctx.item_double_click(d.field("eye.y"))
-    d.ctx.key_chars_replace("w")
-    d.ctx.key_down(int(Key.w))
-    d.ctx.yield_(4)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.key_press(int(Key.escape))
-    assert window.state == d.start
-
-
 def drive_the_object_under_the_mouse_is_framed(d: Driver) -> None:
     d.settle()
     window = d.window

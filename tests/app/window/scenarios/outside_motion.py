@@ -149,20 +149,11 @@ def drive_the_mouse_moves_the_camera_that_looks(d: Driver) -> None:
     assert window.state.options.outside.camera == closer
 
 
-def drive_keys_fly_it_and_switch_it(d: Driver) -> None:
+def drive_keys_switch_it(d: Driver) -> None:
     enter(d)
-    window, inner = d.window, d.window.state.camera
+    window = d.window
     d.ctx.mouse_teleport_to_pos(empty_place(d))
     d.ctx.yield_(2)
-    d.ctx.key_down(int(Key.w))
-    d.until(lambda: window.state.options.outside.camera is not None)
-    before = window.state.options.outside.camera
-    d.until(lambda: window.state.options.outside.camera != before)
-    d.ctx.key_up(int(Key.w))
-    d.ctx.yield_(2)
-    assert window.state.camera == inner
-    d.ctx.key_press(int(Key.mod_shift) | int(Key.h))
-    assert window.state.options.outside.camera is None
     d.ctx.key_press(int(Key.b))
     assert min(window.state.options.outside.bundle) > 0
     d.ctx.key_press(int(Key.g))
