@@ -142,7 +142,7 @@ def check_counts(d):
     assert counts[SHADING] >= 40 * 60 - 100
     assert counts[SHADING] == both.shading == (both.labels == SHADING).sum()
     count = len(d.window.history.past)
-    d.ctx.item_click("//###Compare/##shading")
+    d.ctx.item_click("//###Compare/###shading")
     d.ctx.yield_(2)
     assert d.window.state.marked is not None
     assert both.labels[d.window.state.marked] == SHADING

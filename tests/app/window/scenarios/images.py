@@ -151,7 +151,7 @@ def drive_the_strip_does_the_same(d):
         d.ctx.yield_(2)
         d.ctx.item_click(f"//$FOCUSED/{item}")
         d.settle()
-        assert check(d.window.state.images), name
+        assert check(d.window.state.images), item
     d.ctx.set_ref("")
     assert len(d.window.history.past) == 1  # the resolution
     assert imgui.get_io().display_size.x > 0
