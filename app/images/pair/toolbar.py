@@ -30,6 +30,7 @@ from lucida.app.ui.rows import tip
 
 PADDING = ImVec2(6, 2)
 GAP = 2.0
+ARROW = 0.9  # the room of the triangle, in the font's size
 
 
 def _channel_text(state: AppState) -> str:
@@ -91,7 +92,6 @@ def image_strip(view: str, host: Host) -> None:
     """Draw the strip into the current window. view: its name."""
     imgui.push_style_var(imgui.StyleVar_.frame_padding, PADDING)
     imgui.push_style_color(imgui.Col_.button, theme.UNSEEN)
-    imgui.push_style_color(imgui.Col_.frame_bg, theme.UNSEEN)
     imgui.push_id(f"strip {view}")
     start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     height = imgui.get_frame_height()
@@ -101,25 +101,44 @@ def image_strip(view: str, host: Host) -> None:
         text = label(host.state)
         if not text or (name == "lens" and view != "Raster"):
             continue
-        width = imgui.calc_text_size(text).x + 2 * PADDING.x + height  # with the arrow
+        width = imgui.calc_text_size(text).x + 2 * PADDING.x + ARROW * imgui.get_font_size()
         if width > room:
             break
         room -= width + GAP
         if place:
             imgui.same_line(0, GAP)
-        imgui.set_next_item_width(width)
-        if imgui.begin_combo(f"##{name}", text, int(imgui.ComboFlags_.height_largest)):
+        if _drop_down(name, text, width):
+            imgui.open_popup(name)
+        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+        tip(tooltip)
+        imgui.set_next_window_pos(ImVec2(low.x, high.y + 2), imgui.Cond_.appearing)
+        if imgui.begin_popup(name):
             for action in actions:
                 draw_entry(action, host, first=action is actions[0])
             if name == "photograph":
                 entries(host)
-            imgui.end_combo()
-        else:
-            tip(tooltip)
+            imgui.end_popup()
     if room > 0:
         imgui.same_line(0, 0)
         imgui.dummy(ImVec2(0, height))
     imgui.pop_id()
-    imgui.pop_style_color(2)
+    imgui.pop_style_color()
     imgui.pop_style_var()
     imgui.set_cursor_screen_pos(ImVec2(start.x, far.y))
+
+
+def _drop_down(name: str, text: str, width: float) -> bool:
+    """Draw a flat button with a small triangle after its text."""
+    at = imgui.get_cursor_screen_pos()
+    pressed = imgui.button(f"##{name}", ImVec2(width, 0))
+    size, draw = imgui.get_font_size(), imgui.get_window_draw_list()
+    draw.add_text(at + PADDING, imgui.get_color_u32(imgui.Col_.text), text)
+    middle = at + ImVec2(width - PADDING.x - 0.25 * size, PADDING.y + 0.56 * size)
+    side = 0.22 * size
+    draw.add_triangle_filled(
+        middle + ImVec2(-side, -0.6 * side),
+        middle + ImVec2(side, -0.6 * side),
+        middle + ImVec2(0, 0.8 * side),
+        theme.u32(theme.DIM),
+    )
+    return bool(pressed)
