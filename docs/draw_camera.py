@@ -1,4 +1,4 @@
-"""Draws docs/camera.svg, the README's drawing of the camera, with the camera that it explains.
+"""Draws docs/camera.svg, the drawing in docs/camera.md, with the camera that it explains.
 
 Run from the project's root: python docs/draw_camera.py
 """

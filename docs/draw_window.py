@@ -1,4 +1,4 @@
-"""Draws the README's pictures of the window, docs/*.png, from the real window: `make pictures`.
+"""Draws the pictures of the window in docs/ from the real window: `make pictures`.
 
     python docs/draw_window.py [NAME ...]
 
@@ -8,6 +8,7 @@ Owns what each picture shows. No display is needed.
 from __future__ import annotations
 
 import itertools
+import math
 import subprocess
 import sys
 import tempfile
@@ -16,17 +17,24 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from PIL import Image
+
 from lucida.app.instruments.objects.choosing import choose, rows_of
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import layout
+from lucida.app.ui.surface import Target
 from lucida.app.window.platform import start_platform
 from lucida.app.window.start import first_state
 from lucida.app.window.viewer import WindowRun, save_png
 from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.camera.navigation import orbited
 from lucida.renderer.files import load_scene
 
 FOLDER = Path(__file__).parent
+MOVING = "moving"  # the picture in which the eye moves, moving.webp
+MOVING_SIZE = (1120, 630)
+MOVING_FRAMES, MOVING_FRAME_MS, MOVING_RAD = 36, 100, 0.35  # there and back, this far around
 LAYOUT_AT = 3  # the frame in which the layout is chosen; the first ones are HelloImGui's own
 
 
@@ -65,13 +73,7 @@ PICTURES = (
     Picture("your-code", layout.LOOPS, size=(1600, 900), code=WRONG),
     Picture("scene", "Four views", size=(1600, 900), chosen="box", views=("Objects", "Inspector")),
     Picture("lecture", step="Any camera", size=(1600, 900)),
-    Picture(
-        "presentation",
-        scene="columns",
-        options={"preferences": {"presentation": True}},
-    ),
     Picture("lenses", scene="columns", lens=Lens("brown", {"k1": -0.25, "k2": 0.06})),
-    Picture("light", options={"preferences": {"theme": "light"}}),
 )
 
 
@@ -103,6 +105,31 @@ def draw(picture: Picture, folder: Path = FOLDER) -> Path:
     return path
 
 
+def draw_moving(folder: Path = FOLDER) -> Path:
+    """Draws the window while the eye moves around the scene and back; gives its file."""
+    state = AppState.for_scene(load_scene("still-life"))
+    run = WindowRun(start_platform(want_display=False), state, MOVING_SIZE, take_picture=True)
+    run.take_picture = False
+    pictures: list[Image.Image] = []
+
+    def take(target: Target) -> None:
+        if not run.window.settled:
+            return
+        pictures.append(Image.fromarray(target.read()))
+        angle = MOVING_RAD * math.sin(2 * math.pi * len(pictures) / MOVING_FRAMES)
+        camera = orbited(state.camera, run.window.focus.center, angle, 0.0)
+        run.window.amend(state.with_camera(camera))
+        run.params.app_shall_exit = len(pictures) == MOVING_FRAMES
+
+    run.on_drawn = take
+    run.run()
+    path = folder / f"{MOVING}.webp"
+    first, *others = pictures
+    how = {"duration": MOVING_FRAME_MS, "loop": 0, "quality": 45, "method": 6}
+    first.save(path, save_all=True, append_images=others, **how)
+    return path
+
+
 def _chooser(run: WindowRun, picture: Picture) -> Callable[[], None]:
     frames = itertools.count(1)
 
@@ -118,13 +145,13 @@ def _chooser(run: WindowRun, picture: Picture) -> Callable[[], None]:
 
 
 def main(names: list[str]) -> int:
-    if len(names) == 1:
+    if names == [MOVING]:
+        print(draw_moving())
+    elif len(names) == 1:
         print(draw(next(picture for picture in PICTURES if picture.name == names[0])))
-        return 0
-    # A process has one window.
-    for picture in PICTURES:
-        if not names or picture.name in names:
-            subprocess.run([sys.executable, __file__, picture.name], check=True)
+    else:  # a process has one window
+        for name in names or [*(picture.name for picture in PICTURES), MOVING]:
+            subprocess.run([sys.executable, __file__, name], check=True)
     return 0
 
 

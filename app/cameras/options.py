@@ -20,30 +20,21 @@ CAMERA_FIELDS = ("eye", "u", "v", "w", "distance", "viewport", "projection", "ne
 CAMERA_OPTIONS = (*CAMERA_FIELDS, "fit", "target", "up", "fov")
 
 
-def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
-    """Return a function that reads `count` numbers with commas between them."""
+def numbers(count: int) -> Callable[[str], Any]:
+    """Return a function that reads `count` numbers with commas between them; one is no tuple."""
 
-    def read(text: str) -> tuple[float, ...]:
+    def read(text: str) -> Any:
         try:
             values = tuple(float(part) for part in text.replace(",", " ").split())
         except ValueError:
             values = ()
         if len(values) != count:
-            example = "0,0,5" if count == 3 else "-0.5,0.5,-0.5,0.5"
-            raise argparse.ArgumentTypeError(
-                f"{text!r} is not {count} numbers; give e.g. {example}"
-            )
-        return values
+            what = f"{count} numbers" if count > 1 else "a number"
+            example = {1: "1.5", 3: "0,0,5"}.get(count, "-0.5,0.5,-0.5,0.5")
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}; give e.g. {example}")
+        return values if count > 1 else values[0]
 
     return read
-
-
-def number(text: str) -> float:
-    """Parse one number."""
-    try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number; give e.g. 1.5") from None
 
 
 NO_LENS = "none"
@@ -61,9 +52,9 @@ def lens_word(text: str) -> Lens | str:
 
     if text == NO_LENS:
         return text
-    model, _, numbers = text.partition(":")
-    pairs = [part.partition("=") for part in numbers.split(",") if part]
-    given = {name.strip(): number(value) for name, _, value in pairs}
+    model, _, coefficients = text.partition(":")
+    pairs = [part.partition("=") for part in coefficients.split(",") if part]
+    given = {name.strip(): numbers(1)(value) for name, _, value in pairs}
     if len(given) < len(pairs):
         raise argparse.ArgumentTypeError("a coefficient is given twice; give it once")
     try:
@@ -75,7 +66,7 @@ def lens_word(text: str) -> Lens | str:
 def add_camera_options(parser: argparse.ArgumentParser) -> None:
     """Add the camera's fields as options: each replaces the view's own."""
     group = parser.add_argument_group("camera", "each number replaces the scene's or view's own")
-    three, one = {"type": numbers(3), "metavar": "X,Y,Z"}, {"type": number}
+    three, one = {"type": numbers(3), "metavar": "X,Y,Z"}, {"type": numbers(1)}
     projections = ("perspective", "parallel")
     options: list[tuple[str, dict[str, Any], str]] = [
         ("eye", three, "the position: --eye 0,0,5"),

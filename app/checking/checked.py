@@ -10,17 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.kind import CheckKind, text_of
+from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.running.program import ProgramStudent, told_call
-from lucida.app.checking.tasks import Call, CheckCase, CheckTask, Failure, Run
-from lucida.app.ui.explaining.symbols import arguments
+from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Run
 from lucida.renderer.files.reading import close_matches
 
 if TYPE_CHECKING:
     from lucida.app.checking.mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
-ARGUMENT_LETTERS = 400
+LONGEST_VALUE = 400  # characters of an argument, enough to try the case by hand
 CHANGES = (
     "Asked again, the first wrong case has another answer: is there a random number in it, or does "
     "it keep something from one call to the next?"
@@ -31,14 +30,14 @@ CHANGES = (
 class WrongCase:
     """A case with a wrong answer, in words and in numbers.
 
-    arguments: the arguments as the student's function received them.
+    call: the call, with its arguments.
     right, given: the answers as the function would write them.
     where: the pixel.
     answer: the given answer in the kind's own form, like case.right.
     """
 
     case: CheckCase
-    arguments: str
+    call: str
     right: str
     given: str
     where: str
@@ -124,8 +123,8 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
     given, problems = kind.given(task, cases, run.values)
     if problems:
         number = min(problems)
-        call = told_call(Call(task.function, cases[number].arguments, notation=task.notation))
-        failure = Failure("answer", f"{call} {problems[number]}", call=number)
+        (call,) = kind.calls(task, [cases[number]])
+        failure = Failure("answer", f"{told_call(call)} {problems[number]}", call=number)
         return failed(task, failure, len(cases), run.output)
     wrong = kind.wrong(task, cases, given)
     if not wrong.any():
@@ -164,13 +163,6 @@ def status_of(results: Sequence[TaskResult]) -> int:
     return 2 if "failed" in statuses else int("wrong" in statuses)
 
 
-def arguments_text(task: CheckTask, case: CheckCase) -> str:
-    """Return the call's arguments as text: `i=2, j=5, camera=...`."""
-    text = ", ".join(f"{name}={text_of(value)}" for name, value in case.arguments)
-    text = arguments(text, task.notation)
-    return text if len(text) <= ARGUMENT_LETTERS else f"{text[: ARGUMENT_LETTERS - 3]}..."
-
-
 def _missing(task: CheckTask, functions: frozenset[str]) -> Failure:
     close = close_matches(task.function, functions)
     remedy = f"did you mean {close[0]}?" if close else "define it"
@@ -187,4 +179,5 @@ def _first_wrong(
     number = int(np.argmax(wrong))
     case = cases[number]
     where, right, answer = kind.first_wrong(task, case, given[number])
-    return WrongCase(case, arguments_text(task, case), right, answer, where, given[number])
+    (call,) = kind.calls(task, [case])
+    return WrongCase(case, told_call(call, LONGEST_VALUE), right, answer, where, given[number])

@@ -119,7 +119,7 @@ def starter(tasks: Sequence[CheckTask]) -> str:
     """Return the text of a Python file with the tasks' functions. Tasks with the same function
     share it.
     """
-    parts = ['"""What is to be written; `lucida check` with this file\'s name tries it."""']
+    parts = ['"""Functions to write. `lucida check` with this file\'s name tries them."""']
     for function in dict.fromkeys(task.function for task in tasks):
         parts.append(_function([task for task in tasks if task.function == function]))
     return "\n\n\n".join(parts) + "\n"
@@ -140,12 +140,10 @@ def returned(task: CheckTask) -> str:
 
 def _function(tasks: Sequence[CheckTask]) -> str:
     first = tasks[0]
-    lines = [f"def {signature(first)}:", '    """' + _wrapped(first.text, 4)[0].lstrip()]
-    lines += _wrapped(first.text, 4)[1:]
-    for task in tasks[1:]:
-        lines += ["", *_wrapped(task.text, 4)]
-    lines += ["", *arguments_text(first), f"    Returns: {returned(first)}", '    """']
-    return "\n".join([*lines, "    return None  # write it here"])
+    text = "\n\n".join("\n".join(_wrapped(task.text, 4)) for task in tasks)
+    lines = [f"def {signature(first)}:", f'    """{text.lstrip()}', "", *arguments_text(first)]
+    lines += [f"    Returns: {returned(first)}", '    """', "    return None  # write it here"]
+    return "\n".join(lines)
 
 
 def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:

@@ -76,7 +76,7 @@ def _first_wrong(result: TaskResult) -> list[str]:
     lines = [
         f"{result.wrong} of {result.cases} cases {are} wrong; the first one:",
         first.where,
-        f"{result.task.function}({first.arguments})",
+        first.call,
         f"correct: {first.right}",
         f"given: {first.given}",
     ]

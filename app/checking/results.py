@@ -30,7 +30,8 @@ HEAD = """\
 <style>
 :root { color-scheme: light dark; }
 body { margin: 0 auto; max-width: 64rem; padding: 1rem; font: 1rem/1.5 system-ui, sans-serif; }
-table { border-collapse: collapse; width: 100%; } p, ul { margin: 0; }
+table { border-collapse: collapse; width: 100%; } ul { margin: 0; padding-left: 1.2rem; }
+li p { display: inline; margin-right: .3rem; } li p:first-of-type, .bold { font-weight: 600; }
 th, td { border-bottom: 1px solid gray; padding: .4rem .6rem; text-align: left;
   vertical-align: top; }
 td.count { text-align: right; font-variant-numeric: tabular-nums; }
@@ -40,8 +41,7 @@ td.count { text-align: right; font-variant-numeric: tabular-nums; }
 COLUMNS = ("step", "correct at once", "correct later", "not correct yet", "mistakes")
 
 
-@dataclass(frozen=True)
-class NamedMistake:
+class NamedMistake(msgspec.Struct, frozen=True, rename={"name": "mistake"}):
     """name: unique. reply: its explanation, as a lecture's text. read: the step to read again."""
 
     name: str
@@ -148,14 +148,9 @@ def _counted(number: int, noun: str) -> str:
     return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
-class _Made(msgspec.Struct):
-    mistake: str
-    reply: str = ""
-    read: str = ""
-
-
 class _Extra(msgspec.Struct):
-    mistakes: list[_Made] = []
+    mistakes: tuple[NamedMistake, ...] = ()
+    time: datetime | None = None
 
 
 class _Test(msgspec.Struct):
@@ -164,15 +159,11 @@ class _Test(msgspec.Struct):
     extra_data: _Extra = msgspec.field(default_factory=_Extra)
 
 
-class _Check(msgspec.Struct):
-    time: datetime | None = None
-
-
 class _Results(msgspec.Struct):
     """The file of a check, as Gradescope reads it."""
 
     tests: list[_Test]
-    extra_data: _Check = msgspec.field(default_factory=_Check)
+    extra_data: _Extra = msgspec.field(default_factory=_Extra)
 
 
 def read_answers(paths: Sequence[str | Path]) -> tuple[list[ClassAnswer], list[str]]:
@@ -202,7 +193,7 @@ def _of_check(path: Path, results: _Results) -> list[ClassAnswer]:
             f"Your code: {test.name.partition(':')[0]}",
             test.status == "passed",
             time.isoformat() if time else "",
-            tuple(NamedMistake(m.mistake, m.reply, m.read) for m in test.extra_data.mistakes),
+            test.extra_data.mistakes,
         )
         for test in results.tests
     ]

@@ -102,9 +102,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=window_size,
         metavar="WxH",
-        help="the window's size in pixels (--export: "
-        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; a page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]}; "
-        f"a print: {PRINT_SIZE[0]}x{PRINT_SIZE[1]})",
+        help="the size in pixels (--export: "
+        f"{EXPORT_SIZE[0]}x{EXPORT_SIZE[1]}; page: {STILLS_SIZE[0]}x{STILLS_SIZE[1]}; "
+        f"print: {PRINT_SIZE[0]}x{PRINT_SIZE[1]})",
     )
 
 

@@ -15,9 +15,9 @@ NAME = "scene"
 
 DESCRIPTION = """\
 List what is in a scene: its objects with their types, triangles, bounds and colours, its lights
-and its camera; properties of its materials that are not shown; models that are open, turned inside
-out or in parts differently; the model files that it reads, marking those outside its folder; and
-its models' cameras."""
+and its camera; properties of its materials that are not shown; models that are open, turned
+inwards or in parts differently; the model files that it reads, marking those outside its folder;
+and its models' cameras."""
 
 EPILOG = """\
 exit status: 0 done (also if something is odd: all of it can be drawn), 2 a mistake or a failure

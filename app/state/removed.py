@@ -42,6 +42,8 @@ QUIZ = "there is no quiz of wrong lines any more; a lecture asks by exercises"
 REMOVED: dict[str, Removed] = {
     "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
     "presets_in_perspective": Removed("presets are parallel; P switches the projection", False),
+    "objects.along": Removed("handles are along the world's axes", "world"),
+    "objects.snaps": Removed("the inspector's fields take exact numbers", False),
     "stepper.order": Removed("both algorithms are always side by side", "both"),
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),
     "costs.pixels": Removed("the cost plot shows recorded images", 76_800),

@@ -223,7 +223,7 @@ class MainWindow(Edits):
     def menus(self) -> None:
         self.menu_keys.frame()
         is_hall = self.state.preferences.presentation
-        menu_bar(self, self.history, self.shell.stage, self.status if is_hall else None)
+        menu_bar(self, self.shell.stage, self.status if is_hall else None)
 
     def _bars(self) -> None:
         """Show the bars that there is room for: none on the stage, one in presentation mode."""
@@ -231,7 +231,7 @@ class MainWindow(Edits):
         shown.show_menu_bar = not self.on_stage
         shown.show_status_bar = not self.state.preferences.presentation
         if self.on_stage and self.lecture.shows_controls:
-            menu_button(self, self.history, self.shell.stage)
+            menu_button(self, self.shell.stage)
 
     def frame(self) -> None:
         """Begin a frame: take the threads' results, and handle the keys."""

@@ -1,5 +1,5 @@
 """The menu bar: the table of actions, and what no table holds: scenes, recent files, bookmarks,
-views, the last steps.
+views.
 """
 
 from __future__ import annotations
@@ -10,8 +10,6 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.camera_panel.actions import SCENE_VIEW, go_to_view
 from lucida.app.lecture.view import LECTURE
-from lucida.app.state.app_state import History
-from lucida.app.state.changes import change
 from lucida.app.ui import layout, theme
 from lucida.app.ui.action import draw_entry
 from lucida.app.ui.host import Host
@@ -22,14 +20,11 @@ from lucida.app.window.actions import FORGET
 from lucida.renderer.files import SCENE_NAMES
 from lucida.renderer.system.errors import one_line
 
-HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 
 
-def menu_bar(
-    window: Host, history: History, stage: Stage, status: Callable[[float], None] | None = None
-) -> None:
+def menu_bar(window: Host, stage: Stage, status: Callable[[float], None] | None = None) -> None:
     """Draw all menus. Call in HelloImGui's show_menus. A bar that is too narrow for them has one.
 
     status: draws the status line into a room of this width; None if it has a bar of its own.
@@ -37,9 +32,9 @@ def menu_bar(
     gap = 2 * imgui.get_style().item_spacing.x
     needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
     if needed <= imgui.get_window_width():
-        _menus(window, history, stage)
+        _menus(window, stage)
     elif imgui.begin_menu("Menu"):
-        _menus(window, history, stage)
+        _menus(window, stage)
         imgui.end_menu()
     name, style = layout.current().name, imgui.get_style()
     width = imgui.calc_text_size(name).x + imgui.get_font_size()  # with the arrow
@@ -53,7 +48,7 @@ def menu_bar(
         _layouts(window, name)
 
 
-def menu_button(window: Host, history: History, stage: Stage) -> None:
+def menu_button(window: Host, stage: Stage) -> None:
     """Draw a button with all menus into the lower right corner of a lecture's text, in line with
     the foot, where it covers nothing.
     """
@@ -74,21 +69,21 @@ def menu_button(window: Host, history: History, stage: Stage) -> None:
     if imgui.button("Menu"):
         imgui.open_popup("menus")
     if imgui.begin_popup("menus"):
-        _menus(window, history, stage)
+        _menus(window, stage)
         imgui.end_popup()
     imgui.end()
 
 
-def _menus(window: Host, history: History, stage: Stage) -> None:
+def _menus(window: Host, stage: Stage) -> None:
     for menu in MENUS:
         if imgui.begin_menu(menu):
             if menu == "View":
                 _views(stage)
-            _actions(menu, window, history)
+            _actions(menu, window)
             imgui.end_menu()
 
 
-def _actions(menu: str, window: Host, history: History) -> None:
+def _actions(menu: str, window: Host) -> None:
     """Draw the actions of a menu; those of a submenu where the first of them is."""
     drawn: set[str] = set()
     for action in ACTIONS:
@@ -97,8 +92,6 @@ def _actions(menu: str, window: Host, history: History) -> None:
             if action.name == "Open...":
                 _scenes(window)
                 _recent(window)
-            elif action.name == "Redo":
-                _history(window, history)
             elif action.name == SCENE_VIEW:
                 _file_views(window)
             continue
@@ -156,22 +149,6 @@ def _file_views(window: Host) -> None:
 
 def _short(text: str, most: int = 40) -> str:
     return text if len(text) <= most else "..." + text[3 - most :]
-
-
-def _history(window: Host, history: History) -> None:
-    """Draw the last steps, the newest on top; a click goes back, or forward, to after a step."""
-    if not imgui.begin_menu("History", bool(history.past or history.future)):
-        return
-    states = [*history.past, history.present, *history.future]
-    here = len(history.past)
-    first = max(0, here - HISTORY_STEPS)
-    last = min(len(states) - 1, here + HISTORY_STEPS)
-    for index in range(last, first - 1, -1):
-        text = change(states[index - 1], states[index]) if index else "the beginning"
-        if imgui.menu_item(f"{text}###step{index}", "", index == here)[0]:
-            for _ in range(abs(index - here)):
-                window.undo() if index < here else window.redo()
-    imgui.end_menu()
 
 
 def _bookmarks(window: Host) -> None:

@@ -111,15 +111,6 @@ def arrays_text(named: Any) -> str:
     return f"{type(named).__name__}({', '.join(parts)})"
 
 
-def told_apart(one: float, other: float) -> tuple[str, str]:
-    """Return both numbers with enough digits to distinguish them."""
-    for digits in range(6, 17):
-        texts = f"{one:.{digits}g}", f"{other:.{digits}g}"
-        if texts[0] != texts[1]:
-            break
-    return texts
-
-
 def check_projection(projection: object) -> None:
     if projection not in PROJECTIONS:
         remedy = "give 'perspective' or 'parallel'"

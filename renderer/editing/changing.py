@@ -122,11 +122,6 @@ def listed(scene: Scene, kind: Kind) -> list[Any]:
     return entries
 
 
-def has_default_lights(scene: Scene) -> bool:
-    """Return True if the lights are the defaults for a file without any."""
-    return scene.origin is not None and "lights" not in (scene.origin.tables or {"lights": ()})
-
-
 def fields_of(scene: Scene, item: Item) -> SphereTable | MeshTable | LightTable:
     """Return all fields of an item with their values, including defaults, as a structure of
     renderer/files/schema.py: BoxTable, PointLightTable, ...

@@ -7,7 +7,6 @@ matrix that these cannot hold (a shear; one that makes a sphere an ellipsoid) is
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -159,8 +158,8 @@ def decomposed(
 ) -> tuple[Floats, Floats]:
     """Return (rotate_deg, scale), each (3,), of a matrix (3, 3).
 
-    Of all pairs that result in the matrix, this is the nearest to the given one. Raises LucidaError
-    for a shear or a singular matrix.
+    The factors keep the signs of the given ones; the first changes its sign in a mirror image.
+    Raises LucidaError for a shear or a singular matrix.
     """
     lengths = np.linalg.norm(linear, axis=0)
     if not (lengths > 1e-12).all():
@@ -172,18 +171,10 @@ def decomposed(
             "would shear the object, which a scene file cannot hold",
             "scale along the object's own axes, or by one factor",
         )
-    before = placement((0, 0, 0), rotate_deg)[:3, :3]
-    signs_before = np.sign(np.broadcast_to(np.asarray(scale, float), 3))
-    best: tuple[float, Floats, Floats] | None = None
-    for signs in itertools.product((1.0, -1.0), repeat=3):
-        rotation = unit * signs
-        if np.linalg.det(rotation) < 0:
-            continue
-        kept = float(np.sum(rotation * before)) + 1e-3 * float(signs @ signs_before)
-        if best is None or kept > best[0] + 1e-9:
-            best = kept, rotation, lengths * signs
-    assert best is not None  # of eight patterns of signs, four are rotations
-    return _angles(best[1], np.asarray(rotate_deg, float)), best[2]
+    signs = np.sign(np.broadcast_to(np.asarray(scale, float), 3)).copy()
+    if np.linalg.det(unit * signs) < 0:
+        signs[0] *= -1
+    return _angles(unit * signs, np.asarray(rotate_deg, float)), lengths * signs
 
 
 def _angles(rotation: Floats, near: Floats) -> Floats:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from lucida.renderer.editing.changing import Item, as_tables, fields_of, listed, origin_of
 from lucida.renderer.files.schema import ModelTable
-from lucida.renderer.scene.model import Scene, Sphere, triangles_of
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere, triangles_of
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -27,11 +27,11 @@ class OutlineRow:
     name: str
     shown: str
     kind: str
-    is_light: bool
-    ids: range
-    triangles: int
     hidden: bool
     locked: bool
+    is_light: bool = False
+    ids: range = range(0)
+    triangles: int = 0
     material: str = ""
     file: str = ""
 
@@ -40,63 +40,39 @@ def outline(scene: Scene) -> tuple[OutlineRow, ...]:
     """Return the objects in the order of their ids, then the lights."""
     try:
         scene = as_tables(scene)
-    except LucidaError:
-        return _read_only(scene)
+    except LucidaError:  # meshes made in Python
+        return tuple(_read_only(number, entry) for number, entry in enumerate(scene.objects))
     origin, _ = origin_of(scene)
     rows: list[OutlineRow] = []
-    first = 0
     for number, entry in enumerate(origin.entries):
         fields, kind = entry.fields, entry.table["type"]
-        ids = range(first, first + len(entry.objects))
-        first = ids.stop
         called = fields.name or (entry.objects[0].name if len(entry.objects) == 1 else "")
-        is_model = isinstance(fields, ModelTable)
-        rows.append(
-            OutlineRow(
-                entry.key,
-                fields.name,
-                called or (fields.file if is_model else f"{kind} {number}"),
-                kind,
-                False,
-                ids,
-                triangles_of(entry.objects),
-                fields.hidden,
-                fields.locked,
-                fields.material if isinstance(fields.material, str) else "",
-                fields.file if is_model else "",
-            )
+        file = fields.file if isinstance(fields, ModelTable) else ""
+        row = OutlineRow(
+            entry.key,
+            fields.name,
+            called or file or f"{kind} {number}",
+            kind,
+            fields.hidden,
+            fields.locked,
+            ids=range(*origin.first_ids[number : number + 2]),
+            triangles=triangles_of(entry.objects),
+            material=fields.material if isinstance(fields.material, str) else "",
+            file=file,
         )
-    for number, (key, table) in enumerate(
-        zip(origin.light_keys, listed(scene, "lights"), strict=True)
-    ):
-        light = fields_of(scene, key)
-        shown = light.name or f"{table['type']} light {number}"
-        rows.append(
-            OutlineRow(
-                key,
-                light.name,
-                shown,
-                table["type"],
-                True,
-                range(0),
-                0,
-                light.hidden,
-                light.locked,
-            )
-        )
+        rows.append(row)
+    lights = zip(origin.light_keys, listed(scene, "lights"), strict=True)
+    for number, (key, table) in enumerate(lights):
+        light, kind = fields_of(scene, key), table["type"]
+        shown = light.name or f"{kind} light {number}"
+        row = OutlineRow(key, light.name, shown, kind, light.hidden, light.locked, is_light=True)
+        rows.append(row)
     return tuple(rows)
 
 
-def _read_only(scene: Scene) -> tuple[OutlineRow, ...]:
-    """Return the outline of a scene with meshes made in Python."""
-    rows = []
-    for number, entry in enumerate(scene.objects):
-        kind = "sphere" if isinstance(entry.shape, Sphere) else "mesh"
-        shown, ids = entry.name or f"{kind} {number}", range(number, number + 1)
-        triangles = triangles_of([entry])
-        rows.append(
-            OutlineRow(
-                None, entry.name, shown, kind, False, ids, triangles, entry.hidden, locked=True
-            )
-        )
-    return tuple(rows)
+def _read_only(number: int, entry: SceneObject) -> OutlineRow:
+    kind = "sphere" if isinstance(entry.shape, Sphere) else "mesh"
+    shown, ids = entry.name or f"{kind} {number}", range(number, number + 1)
+    return OutlineRow(
+        None, entry.name, shown, kind, entry.hidden, True, ids=ids, triangles=triangles_of([entry])
+    )

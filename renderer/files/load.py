@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +10,6 @@ from lucida.renderer.files.models.models import model_scene
 from lucida.renderer.files.reading import (
     MODEL_ENDINGS,
     absence,
-    close_matches,
     full_path,
     path_of,
     suggestion,
@@ -53,21 +53,15 @@ def load_scene(source: str | Path) -> Scene:
         noted = {full_path(file): found for file, found in noted.items()}
         return _from(str(full_path(path)), scene, noted)
     endings = f"files ending in {' '.join(SCENE_ENDINGS)}"
-    if _exists(path):
-        raise LucidaError(
-            "", f"ends in {ending!r}" if ending else "has no ending", f"give {endings}", str(path)
-        )
+    if os.path.exists(path):
+        problem = f"ends in {ending!r}" if ending else "has no ending"
+        raise LucidaError("", problem, f"give {endings}", str(path))
     if ending or path.parent != Path():
         problem, remedy = absence(path)
         raise LucidaError("", problem, f"{remedy}; scenes are {endings}", str(path))
-    close = close_matches(str(source)[:100], BUILTIN_SCENES)
-    guess = f"did you mean {close[0]!r}? " if close else ""
-    raise LucidaError(
-        "scene",
-        f"{str(source)[:80]!r} is neither a built-in scene nor a file",
-        f"{guess}built-in scenes are {', '.join(BUILTIN_SCENES)}; files end in "
-        + " ".join(SCENE_ENDINGS),
-    )
+    problem = f"{str(source)[:80]!r} is neither a built-in scene nor a file"
+    remedy = f"{suggestion(str(source), BUILTIN_SCENES)} or {endings}"
+    raise LucidaError("scene", problem, remedy)
 
 
 def _from(source: str, scene: Scene, files: Noted) -> Scene:
@@ -76,10 +70,3 @@ def _from(source: str, scene: Scene, files: Noted) -> Scene:
         origin.saved.path = Path(source)
         origin = replace(origin, folder=origin.saved.path.parent)
     return replace(scene, origin=origin)
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):
-        return False

@@ -7,105 +7,70 @@ from __future__ import annotations
 
 import re
 import tomllib
-from bisect import bisect_left
+from collections.abc import Iterator
 
 from lucida.renderer.system.errors import LucidaError
 
 Path = tuple[str | int, ...]
 
-_TOKEN = re.compile(
-    r'"""(?:[^"\\]++|\\.|"(?!""))*+"{3,5}'  # up to two quotes may stand before the closing three
-    r"|'''.*?'{3,5}"
-    r'|"(?:[^"\\\n]++|\\.)*+"'
-    r"|'[^'\n]*'"
-    r"|#[^\n]*"
-    r"|[\[\]{}=,\n]"
-    r"|[^\s\[\]{}=,#\"']+",
-    re.DOTALL,
-)
-_KEY = re.compile(r"""[\w-]+|"(?:[^"\\\n]++|\\.)*+"|'[^'\n]*'""")
+_NEXT = '"\ue000"'  # in place of a text that begins in the next line
+_LONG_TEXT = re.compile(r'"""(?:[^\\]|\\.)*?"{3,5}|' + r"'''.*?'{3,5}", re.DOTALL)
+_HEADER = re.compile(r"\s*(\[\[?)(.*?)\]\]?\s*(?:#.*)?")
+_KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*'|[ \t.])+?)\s*=(.*)""")
+_PART = re.compile(r"""[\w-]+|"(?:[^"\\]|\\.)*"|'[^']*'""")
 
 
 class Places:
-    """The lines of a TOML text's fields. headers: the line and the path of each table's header."""
+    """The lines of a TOML text's fields: of each key and each table. A value's parts are at its
+    key.
+    """
 
     def __init__(self, text: str) -> None:
-        self._breaks = [match.start() for match in re.finditer("\n", text)]
         self._lines: dict[Path, int] = {(): 1}
-        self._counts: dict[Path, int] = {}  # of arrays of tables
-        self.headers: list[tuple[int, Path]] = []
-        self._scan(text)
+        for path, line in _fields(text):
+            for length in range(1, len(path) + 1):
+                self._lines.setdefault(path[:length], line)
 
     def line(self, field: str) -> int:
-        """Return the line, from 1, of a field such as `steps[3].camera.w`: the first line of its
-        value, or the line of what it is in if it is missing.
+        """Return the line, from 1, of a field such as `steps[3].camera.w`, or the line of what it
+        is in if it is missing.
         """
         path = parsed_path(field)
         while path not in self._lines:
             path = path[:-1]
         return self._lines[path]
 
-    def _scan(self, text: str) -> None:
-        table: Path = ()
-        opened: list[tuple[Path, int | None]] = []  # lists, with the number of the entry; tables
-        value: Path | None = None  # of the value that comes next
-        words: list[str] = []  # of a key or a header, which begins at `start`
-        start = 0
-        for match in _TOKEN.finditer(text + "\n"):
-            at, token = match.start(), match[0]
-            within, number = opened[-1] if opened else (table, None)
-            if token[0] == "#" or (token == "\n" and value is not None):
-                continue
-            if token in ("]", "}") and opened:
-                opened.pop()
-                value, words = None, []
-            elif value is not None:
-                if token[:3] in ('"""', "'''") and token[3] in "\r\n":
-                    start = text.index("\n", at) + 1
-                elif number is not None:
-                    start = at
-                self._place(value, start)
-                if token in ("[", "{"):
-                    opened.append((value, 0 if token == "[" else None))
-                value = (*value, 0) if token == "[" else None
-            elif number is not None:
-                if token == ",":
-                    opened[-1] = within, number + 1
-                    value = (*within, number + 1)
-            elif token == "=":
-                value, words = (*within, *_keys(words)), []
-            elif token in (",", "\n"):
-                if words[:1] == ["["]:
-                    table = self._resolved(_keys(words), element=words[1] == "[")
-                    self.headers.append((self._place(table, start), table))
-                words = []
-            else:
-                start = start if words else at
-                words.append(token)
 
-    def _resolved(self, keys: list[str], element: bool) -> Path:
-        """Return a header's path: below an array of tables, it means the last element."""
-        path: Path = ()
-        for key in keys[:-1]:
-            path = (*path, key)
-            if path in self._counts:
-                path = (*path, self._counts[path] - 1)
-        path = (*path, *keys[-1:])
-        if element:
-            number = self._counts.get(path, 0)
-            self._counts[path] = number + 1
-            path = (*path, number)
-        return path
+def _fields(text: str) -> Iterator[tuple[Path, int]]:
+    """Yield the path and the line of each header and each key."""
+    text = _LONG_TEXT.sub(_shortened, text)
+    table: Path = ()
+    counts: dict[Path, int] = {}  # of arrays of tables
+    depth = 0  # of open brackets
+    for number, line in enumerate(text.split("\n"), 1):
+        if depth <= 0 and (header := _HEADER.fullmatch(line)):
+            table = ()
+            *parents, last = _keys(header[2])
+            for key in parents:  # below an array of tables, its last element
+                table = (*table, key)
+                if table in counts:
+                    table = (*table, counts[table] - 1)
+            table = (*table, last)
+            if header[1] == "[[":
+                counts[table] = counts.get(table, 0) + 1
+                table = (*table, counts[table] - 1)
+            yield table, number
+            continue
+        if depth <= 0 and (assigned := _KEY.match(line)):
+            yield (*table, *_keys(assigned[1])), number + (_NEXT in line)
+        plain = re.sub(r'"(?:[^"\\]|\\.)*"' + r"|'[^']*'|#.*", "", line)
+        depth += sum(map(plain.count, "[{")) - sum(map(plain.count, "]}"))
 
-    def _place(self, path: Path, at: int) -> int:
-        """Record where a path begins, and the paths that it is in, unless they have begun. Return
-        the line.
-        """
-        line = bisect_left(self._breaks, at) + 1
-        while path not in self._lines:
-            self._lines[path] = line
-            path = path[:-1]
-        return line
+
+def _shortened(found: re.Match[str]) -> str:
+    """Return a short text in as many lines as a long one."""
+    short = _NEXT if found[0][3] in "\r\n" else '""'
+    return short + "\n" * found[0].count("\n")
 
 
 def located(error: LucidaError, places: Places, source: str) -> LucidaError:
@@ -120,11 +85,5 @@ def parsed_path(field: str) -> Path:
     return tuple(int(number) if number else name for number, name in parts)
 
 
-def _keys(words: list[str]) -> list[str]:
-    return [_unquoted(key) for key in _KEY.findall("".join(words))]
-
-
-def _unquoted(key: str) -> str:
-    if key[:1] == '"' and "\\" in key:
-        return next(iter(tomllib.loads(f"{key} = 0")))
-    return key[1:-1] if key[:1] in ('"', "'") else key
+def _keys(text: str) -> list[str]:
+    return [next(iter(tomllib.loads(f"{key} = 0"))) for key in _PART.findall(text)]

@@ -147,13 +147,10 @@ def close_matches(given: str, known: Iterable[str], least: float = 0.6) -> list[
 
 
 def absence(path: Path) -> tuple[str, str]:
-    """Return the problem and the remedy of a missing file: the link that leads nowhere, or where
-    it was looked for and a file of a similar name."""
+    """Return the problem and the remedy of a missing file: where it was looked for, and a file of a
+    similar name."""
     problem = "does not exist"
     with contextlib.suppress(OSError, ValueError):
-        if path.is_symlink():
-            problem = f"is a link to {str(path.readlink())!r}, which does not exist"
-            return problem, "mend the link"
         if not path.is_absolute():
             problem += f" in {os.path.abspath(path.parent)}"
     return problem, _neighbours(path)

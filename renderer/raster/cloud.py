@@ -13,6 +13,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from lucida.renderer.raster.lines import CASING
 from lucida.renderer.raster.programs import set_uniform
 from lucida.renderer.raster.resources import Owner, check, new_texture
 from lucida.renderer.raster.sources import link
@@ -31,7 +32,7 @@ class CloudLook:
 
     screen_from_cloud: (3, 4), as Camera.image_from_world(), from the cloud's origin. near:
     the least t that is drawn. far: the end of the depth range in parallel projection. ink: the
-    lines' colour. casing: the colour of their edges. Both colours are display values.
+    lines' colour, a display value.
     """
 
     screen_from_cloud: NDArray[np.float64]
@@ -39,7 +40,6 @@ class CloudLook:
     near: float
     far: float
     ink: Rgba
-    casing: Rgba
     line_px: float
     casing_px: float
     point_px: float
@@ -122,7 +122,7 @@ class CloudRenderer:
             "dot_px": look.point_px,
             "width": look.line_px,
             "edge": look.casing_px,
-            "edge_color": look.casing,
+            "edge_color": CASING,
         }
         for name, value in shared.items():
             set_uniform(self._dots, name, value)

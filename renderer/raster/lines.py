@@ -52,6 +52,9 @@ CORNER = np.dtype(
     ]
 )
 
+# The display colour of lines' edges, dark in every theme: what is behind them is the scene, and the
+# lines themselves are pale.
+CASING = (0.03, 0.035, 0.04, 0.6)
 BLENDING = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)  # the usual one
 
 # Shapes and lines that are drawn together, shapes first.
@@ -87,7 +90,6 @@ class LineRenderer:
         layers: Sequence[Layer],
         dash_px: float,
         casing_px: float,
-        casing: tuple[float, float, float, float],
     ) -> None:
         """Draw the layers, one over the other.
 
@@ -98,7 +100,7 @@ class LineRenderer:
         gl.enable_only(moderngl.BLEND)
         gl.blend_func = BLENDING
         set_uniform(self._lines, "dash", dash_px)
-        set_uniform(self._lines, "edge_color", casing)
+        set_uniform(self._lines, "edge_color", CASING)
         for corners, segments in layers:
             if len(corners):
                 self._corners.write(corners)

@@ -29,7 +29,6 @@ from lucida.renderer.raster.targets import Textures
 from lucida.renderer.system.memo import Memo
 
 Size = tuple[int, int]
-Rgba = tuple[float, float, float, float]
 FAR_PX = 1e6  # outside every image
 BACK_LIGHT = 0.55  # brightness of a picture seen from behind
 CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
@@ -155,7 +154,6 @@ class Overlay:
         opacity: float = 1.0,
         unit_px: float = 1.0,
         mean: moderngl.Texture | None = None,
-        casing: Rgba = (0.03, 0.035, 0.04, 0.6),
         number: Hashable = None,
         cloud: CloudPicture | None = None,
         moves: bool = False,
@@ -164,10 +162,10 @@ class Overlay:
 
         scene: drawn by `camera`, at `size` or smaller. mean: the scene's colour with smooth edges,
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
-        without a picture hides nothing. unit_px: the unit of dashes and edges. casing: the colour
-        of the lines' edges. number: a value that differs whenever the scene's picture differs; None
-        if unknown. cloud: of this size, by the same camera; below the layers. moves: the placed
-        picture may have jagged edges, so that it is drawn sooner.
+        without a picture hides nothing. unit_px: the unit of dashes and edges. number: a value that
+        differs whenever the scene's picture differs; None if unknown. cloud: of this size, by the
+        same camera; below the layers. moves: the placed picture may have jagged edges, so that it
+        is drawn sooner.
         """
         gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)
@@ -206,7 +204,7 @@ class Overlay:
                     depth = {"cloud_depth": 4, "s_of_depth": cloud.s_of_depth}
                     cover(self._lay_cloud, **shared, cloud=3, **depth, hidden=CLOUD_HIDDEN)
                 self._lines.set(shared)
-                self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px, casing)
+                self._lines.draw(layers, 7.0 * unit_px, 1.25 * unit_px)
             finally:
                 framebuffer.color_mask = True, True, True, True
         return drawn

@@ -1,5 +1,4 @@
-"""Cameras of all kinds, made up from a seed; all pixels of small images of them; tasks that ask for
-their rays."""
+"""Cameras of all kinds, made up from a seed, and all pixels of small images of them."""
 
 from __future__ import annotations
 
@@ -8,28 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from lucida.app.checking.mistakes.rays import WORDS, RayTask
 from lucida.app.checking.tasks import CheckCase
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.pixels import Indexing
 
 KINDS = ("orthonormal", "off-axis", "skewed", "left-handed")
-PIXEL = {"i", "j", "width", "height"}
-TASKS = {
-    "perspective": RayTask(),
-    "parallel": RayTask("parallel"),
-    "from 1": RayTask(indexing=Indexing.LECTURE),
-    "parallel, from 1, rows from the bottom": RayTask("parallel", Indexing.LECTURE, False),
-    "from a target": RayTask(words=WORDS - {"u", "v", "w"} | {"target", "up"}),
-    "matrix": RayTask(words=WORDS - {"u", "v", "w"} | {"camera_to_world"}),
-    "inverse matrix": RayTask("parallel", words=WORDS - {"u", "v", "w"} | {"world_to_camera"}),
-    "field of view": RayTask(words=frozenset(PIXEL | {"eye", "target", "up", "fov_y", "aspect"})),
-    "in [0, 1]": RayTask(words=WORDS - {"i", "j"} | {"x01", "y01"}, from_top=False),
-    "in [-1, 1]": RayTask(words=WORDS - {"i", "j"} | {"x11", "y11"}),
-    "in pixels": RayTask(words=WORDS - {"i", "j"} | {"x_pixel", "y_pixel"}),
-}
 
 
 def made_camera(random: np.random.Generator, kind: str, projection: str = "perspective") -> Camera:
@@ -81,21 +64,3 @@ def made_case(camera: Camera, size: Size, pixel: Pixel) -> CheckCase:
     target, tilted = np.asarray(camera.eye) - 2.5 * back, 1.5 * up + 0.4 * back
     vectors = (tuple(target.tolist()), tuple(tilted.tolist()))
     return CheckCase((), right, (1e-5, 1e-5), {}, camera, size, pixel, *vectors)
-
-
-def asked_cases(task: RayTask, count: int, seed: int = 2) -> list[CheckCase]:
-    """Cameras that can be told in the task's words."""
-    has_angle = "fov_y" in task.words
-    kinds = ("orthonormal",) if has_angle or "target" in task.words else KINDS
-    made = []
-    for case in made_cases(seed, count, task.projection, kinds):
-        camera = case.camera
-        assert camera is not None
-        if has_angle:
-            high = camera.viewport[3]
-            assert case.size is not None
-            wide = high * case.size[0] / case.size[1]
-            camera = replace(camera, viewport=(-wide, wide, -high, high))
-        assert case.size is not None and case.pixel is not None
-        made.append(made_case(camera, case.size, case.pixel))
-    return made

@@ -33,7 +33,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--count", type=int, default=LEAST, help="cameras a check")
     parser.add_argument("--only", help=f"comma-separated: {','.join(FORMAT_NAMES)}")
     parser.add_argument(
-        "--document", action="store_true", help="write the tables into docs/cameras.md and README"
+        "--document", action="store_true", help="write the tables into docs/cameras.md"
     )
     return parser
 
@@ -68,14 +68,12 @@ def _chosen(only: str | None) -> list[str]:
 
 
 def _document(found: list[report.Outcome], count: int) -> None:
-    for path, block in (
-        (ROOT / "docs" / "cameras.md", report.page(found, count)),
-        (ROOT / "README.md", report.readme(found)),
-    ):
-        text = report.between_marks(path.read_text(encoding="utf-8"), block, path.name)
-        with atomic_write(path) as file:
-            file.write(text.encode())
-        print(path)
+    path = ROOT / "docs" / "cameras.md"
+    block = report.page(found, count)
+    text = report.between_marks(path.read_text(encoding="utf-8"), block, path.name)
+    with atomic_write(path) as file:
+        file.write(text.encode())
+    print(path)
 
 
 if __name__ == "__main__":

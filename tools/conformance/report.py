@@ -1,4 +1,4 @@
-"""The findings as tables: for the terminal, for docs/cameras.md and for README.md.
+"""The findings as tables: for the terminal and for docs/cameras.md.
 
 Owns the tables' form and the words for each format. Knows nothing of how anything is checked.
 """
@@ -100,10 +100,6 @@ def page(outcomes: Sequence[Outcome], count: int) -> str:
     ]
     beside = ["", "Compared beside the pixels:", "", *others] if others else []
     return "\n".join([*pipes(header, rows), "", intro, *beside])
-
-
-def readme(outcomes: Sequence[Outcome]) -> str:
-    return "\n".join(pipes(HEADER, [outcome.row for outcome in outcomes]))
 
 
 def pipes(header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:

@@ -6,7 +6,7 @@ sections.py the parts below. Takes a state and a draft and returns new ones.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
@@ -44,7 +44,6 @@ All rays go along -w and start at their pixel, on the plane of the eye:
 ORTHONORMAL = """\
 On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
 Off: any three independent vectors: skewed, scaled or left-handed."""
-EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,6 @@ def _panel(
     state = _orthonormal(state)
     rows.line()
     state, draft = projection_numbers(state, draft, around)
-    state = _exposure(state, around)
     draft = draft.following(state.camera)
     wish = _resets() or wish
     state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
@@ -141,15 +139,6 @@ def _orthonormal(state: AppState) -> AppState:
     changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
     rows.tip(ORTHONORMAL)
     return state.with_keep_orthonormal(keep) if changed else state
-
-
-def _exposure(state: AppState, around: PanelContext) -> AppState:
-    width = rows.row("exposure", "", EXPOSURE, around.fonts)
-    value, scale = state.images.exposure_ev, Scale(-4.0, 4.0)
-    changed, value = around.field("exposure", value, width, scale, EXPOSURE, reset=0.0, unit=" EV")
-    if changed:
-        state = state.with_options(replace(state.options.images, exposure_ev=value))
-    return state
 
 
 def _resets() -> Wish | None:

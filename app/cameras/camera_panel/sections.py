@@ -102,23 +102,17 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
                 entered: dict[str, Any] = {name: (*now[name][:axis], value, *now[name][axis + 1 :])}
                 look = replace(look, error=None, **entered)
     wish = None
-    spacing = imgui.get_style().item_spacing.x
-    width = (imgui.get_content_region_avail().x - spacing) / 2
-    if imgui.button("Look there", (width, 0)):
+    if imgui.button("Look there", (-1, 0)):
         try:
             view = look_at(state.view, now["eye"], now["target"], now["up"])
             wish = Wish(partial(go_to_view, view=view))
-            look = replace(look, error=None)
+            look = replace(look, eye=None, error=None)
         except LucidaError as error:
             look = replace(look, error=error)
     rows.tip(
         "w = from target to eye, of length 1;  u = up x w, of length 1;  v = w x u.\n"
         "Distance, viewport and projection stay."
     )
-    imgui.same_line()
-    if imgui.button("From the camera", (width, 0)):
-        look = LookAt()
-    rows.tip("Back to the camera's own eye, the scene's middle and y upwards.")
     if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
         look = LookAt()
     return look, wish

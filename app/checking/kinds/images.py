@@ -26,7 +26,7 @@ from lucida.app.checking.kinds.kind import (
     text_of,
     wrong_numbers,
 )
-from lucida.app.checking.tasks import Call, CheckCase, CheckTask
+from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import described
 
 if TYPE_CHECKING:
@@ -37,22 +37,12 @@ HALF_A_BYTE = 0.5 / 255
 
 @dataclass(frozen=True, kw_only=True)
 class ImageKind(CheckKind):
-    """A function that makes an image.
-
-    make: makes the cases.
-    takes_arrays: Python code receives NumPy arrays.
-    """
+    """A function that makes an image. make: makes the cases."""
 
     make: Callable[[CheckTask], list[CheckCase]]
-    takes_arrays: bool = True
 
     def cases(self, task: CheckTask) -> list[CheckCase]:
         return self.make(task)
-
-    def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
-        return [
-            Call(task.function, case.arguments, self.takes_arrays, task.notation) for case in cases
-        ]
 
     def wanted(self, task: CheckTask, case: CheckCase) -> str:
         return f"numbers {' x '.join(map(str, np.shape(case.right)))}"
@@ -127,14 +117,8 @@ def _image(random: Random, more: tuple[int, ...] = ()) -> Floats:
     return made
 
 
-GRAY = ImageKind(
-    **described("to-gray"),
-    make=_gray_cases,
-)
-BITMAP = ImageKind(
-    **described("to-bitmap"),
-    make=_bitmap_cases,
-)
+GRAY = ImageKind(**described("to-gray"), make=_gray_cases, as_arrays=True)
+BITMAP = ImageKind(**described("to-bitmap"), make=_bitmap_cases, as_arrays=True)
 
 
 class OffsetKind(CheckKind):

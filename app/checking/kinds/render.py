@@ -57,11 +57,7 @@ def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
     )
 
 
-RENDER = ImageKind(
-    **described("render"),
-    make=_cases,
-    takes_arrays=False,
-)
+RENDER = ImageKind(**described("render"), make=_cases)
 
 
 def rendered(

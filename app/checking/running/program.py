@@ -268,13 +268,13 @@ def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Seque
     return ["/bin/sh", "-c", f'{script}exec "$@"', "sh", *command]
 
 
-_LONGEST_VALUE = 80
+def told_call(call: Call, longest: int = 80) -> str:
+    """Return the call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...}).
 
-
-def told_call(call: Call) -> str:
-    """Return the call in one line: viewing_ray(i=3, j=4, camera={eye: (0, 0, 5), ...})."""
+    longest: the number of characters of a value.
+    """
     given = (
-        f"{name}={shortened(arguments(text_of(value), call.notation), _LONGEST_VALUE)}"
+        f"{name}={shortened(arguments(text_of(value), call.notation), longest)}"
         for name, value in ((arguments(n, call.notation), v) for n, v in call.arguments)
     )
     return one_line(f"{call.function}({', '.join(given)})")

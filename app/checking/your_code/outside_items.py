@@ -12,7 +12,6 @@ from lucida.app.instruments.outside import answers
 from lucida.app.instruments.outside.diagram import Item, in_notation
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
-    SecondCamera,
     corner_rays,
     second_camera,
 )
@@ -31,7 +30,7 @@ def outside_items(
     middle = (rays.size[1] - 1) / 2, (rays.size[0] - 1) / 2
     reach = end * float(np.linalg.norm(camera.ray(*middle, rays.size).direction))
     corners = corner_rays(rays.given[..., 0, :], rays.given[..., 1, :])
-    items = [*second_camera(SecondCamera(*corners, None, "yours", first), reach)]
+    items = second_camera(*corners, reach, "yours", first)
     pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
     if rays.came[pixel]:
         items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)

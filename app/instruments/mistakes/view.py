@@ -15,7 +15,7 @@ from lucida.app.instruments.mistakes import model, panel
 from lucida.app.instruments.mistakes.model import Compared, Situation
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
-from lucida.app.instruments.outside.second_camera import SecondCamera, second_camera
+from lucida.app.instruments.outside.second_camera import second_camera, second_ray
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.options.mistakes import MistakesOptions
 from lucida.app.state.options.shared import Pixel
@@ -215,4 +215,5 @@ def _outside_items(made: Compared, end: float) -> list[Item]:
     middle = (now.size[1] - 1) / 2, (now.size[0] - 1) / 2
     reach = end * float(np.linalg.norm(now.camera.ray(*middle, now.size).direction))
     first = f"pixel {now.indexing.text((0, 0))}"
-    return [*second_camera(SecondCamera(*made.corners, made.ray, STUDENTS, first), reach)]
+    items = second_camera(*made.corners, reach, STUDENTS, first)
+    return items if made.ray is None else items + second_ray(made.ray, reach)

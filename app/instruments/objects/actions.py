@@ -11,7 +11,6 @@ from lucida.app.state.app_state import AppState
 from lucida.app.ui.action import Action, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.editing import objects
-from lucida.renderer.scene.focus import Focus
 from lucida.renderer.system.errors import LucidaError
 
 MENU, HANDLES = "Scene", "Scene/Handles"
@@ -24,16 +23,12 @@ def _toggle(
     return choosing(menu, name, f"objects.{field}", on, keys, off, **more)
 
 
-def _editing(change: Callable[[AppState, Focus], AppState]) -> Callable[[Host], None]:
-    """Return a function that runs an edit as an undo step, or reports why it is impossible."""
-
-    def run(window: Host) -> None:
-        try:
-            window.change(change(window.state, window.focus))
-        except LucidaError as error:
-            window.files.message = str(error)
-
-    return run
+def edit(window: Host, change: Callable[[AppState], AppState]) -> None:
+    """Edit the scene as an undo step, or report why it is impossible."""
+    try:
+        window.change(change(window.state))
+    except LucidaError as error:
+        window.files.message = str(error)
 
 
 def _has_chosen(window: Host) -> bool:
@@ -49,7 +44,7 @@ def _adding(kind: str) -> Action:
     return Action(
         "Scene/Add",
         name,
-        _editing(lambda state, focus: editing.added(state, kind, focus)),
+        lambda w: edit(w, lambda state: editing.added(state, kind, w.focus)),
         separated=kind == objects.LIGHTS[0],
     )
 
@@ -60,7 +55,7 @@ SCENE = (
     Action(
         MENU,
         "Duplicate",
-        _editing(editing.duplicated),
+        lambda w: edit(w, lambda state: editing.duplicated(state, w.focus)),
         "Ctrl+D",
         can=_has_chosen,
         separated=True,
@@ -68,7 +63,7 @@ SCENE = (
     Action(
         MENU,
         "Delete",
-        _editing(lambda state, focus: editing.deleted(state)),
+        lambda w: edit(w, editing.deleted),
         "Delete",
         can=_has_chosen,
     ),
@@ -89,6 +84,4 @@ CHOOSING = (
     _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G"),
     _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T"),
     _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L"),
-    _toggle(HANDLES, "Along the object's own axes", "along", "object", "world", separated=True),
-    _toggle(HANDLES, "In steps", "snaps", True, False),
 )

@@ -15,7 +15,6 @@ from lucida.app.instruments.objects.placing import place_for
 from lucida.app.state.app_state import AppState
 from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import Item
-from lucida.renderer.editing.outline import OutlineRow
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import Scene
 
@@ -59,17 +58,8 @@ def duplicated(state: AppState, focus: Focus) -> AppState:
     return with_scene(state, *objects.duplicate(state.scene, items, by))
 
 
-def found_in(rows: Sequence[OutlineRow], words: str) -> list[OutlineRow]:
-    """Return the rows that contain all of these words: in a name, a kind or a file."""
-    wanted = words.lower().split()
-    texts = (f"{row.shown} {row.kind} {row.file}".lower() for row in rows)
-    return [r for r, text in zip(rows, texts, strict=True) if all(w in text for w in wanted)]
-
-
-def reached(rows: Sequence[OutlineRow], first: Item | None, last: Item) -> tuple[Item, ...]:
-    """Return the items from one row to another, inclusive: Shift and a click in the list."""
-    items = [row.item for row in rows if row.item is not None]
-    if first not in items or last not in items:
-        return (last,)
-    start, end = items.index(first), items.index(last)
-    return tuple(items[start : end + 1] if start <= end else items[end : start + 1][::-1])
+def hidden(state: AppState, item: Item, is_hidden: bool) -> AppState:
+    """Return the state with an item hidden or shown; with the selection, if the item is in it."""
+    items = chosen(state)
+    items = items if item in items else (item,)
+    return with_scene(state, objects.hide(state.scene, items, is_hidden))

@@ -21,7 +21,6 @@ from lucida.app.instruments.outside.gizmo import (
 )
 from lucida.app.instruments.outside.tint import AXES, HELD
 from lucida.app.state.options.objects import Handle as HandleKind
-from lucida.app.state.options.objects import ObjectsOptions
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.guest import ShownIn
 from lucida.renderer.camera.checks import Vector
@@ -47,9 +46,7 @@ COLORS = {
     **dict(zip(AXES.values(), palettes.CHANNELS, strict=True)),
     HELD: theme.rgb("#ffffff"),
 }
-STEPS_PER_REACH = 40.0  # of a snapping move, about: a round number of units
 DIGITS = 6  # of numbers that a handle has changed
-TURN_STEP_DEG, SCALE_STEP = 15.0, 0.1
 
 
 @dataclass(frozen=True)
@@ -106,7 +103,7 @@ class Handles:
         shown: ShownIn,
         scene: Scene,
         items: tuple[Item, ...],
-        options: ObjectsOptions,
+        wanted: HandleKind,
         center: Vector,
         reach: float,
         fonts: theme.Fonts,
@@ -125,15 +122,14 @@ class Handles:
         elif drag is not None and escaped():
             self.forget(shown.name)
             return drag.scene
-        kind, operation, frame = self._placed(scene, items, options.handle, center)
+        kind, operation, frame = self._placed(scene, items, wanted, center)
         frame = drag.matrix if drag is not None else frame
         found = None
         if operation is not None:
             length = length_px(shown.extent, imgui.get_window_size())
-            along = gizmo.MODE.world if options.along == "world" else gizmo.MODE.local
             asked = Handle(
-                shown.name, frame, operation, along, 2 * length / shown.extent.x, COLORS,
-                HEAD_PART * length, _step(options, kind, reach),
+                shown.name, frame, operation, gizmo.MODE.world, 2 * length / shown.extent.x, COLORS,
+                HEAD_PART * length,
             )  # fmt: skip
             found = manipulate(asked, shown.camera, shown.origin, shown.extent, reach)
         if found is None:
@@ -277,22 +273,3 @@ def _turn_of(turn: Floats) -> Floats:
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     found: Floats = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
     return found
-
-
-def snap_step(reach: float) -> float:
-    """Return the step of a snapping move: 1, 2 or 5 times a power of ten, a small part of the
-    scene.
-    """
-    wanted = max(reach, 1e-9) / STEPS_PER_REACH
-    power = 10.0 ** np.floor(np.log10(wanted))
-    return float(next(k * power for k in (1, 2, 5, 10) if k * power >= wanted))
-
-
-def _step(
-    options: ObjectsOptions, kind: HandleKind, reach: float
-) -> imguizmo.im_guizmo.Matrix3 | None:
-    """Return the step, if snapping. Holding Ctrl inverts the option."""
-    if options.snaps == imgui.get_io().key_ctrl:
-        return None
-    steps = {"move": snap_step(reach), "turn": TURN_STEP_DEG, "scale": SCALE_STEP}
-    return gizmo.Matrix3([steps[kind]] * 3)

@@ -87,10 +87,9 @@ class InViews:
         if shown.name == OUTSIDE:
             self._draw_lights(host, shown)
         free = unlocked(state)
-        options = state.options.objects
-        focus = host.focus
+        wanted, focus = state.options.objects.handle, host.focus
         scene = self.handles.draw(
-            shown, state.scene, free, options, focus.center, focus.reach, host.fonts
+            shown, state.scene, free, wanted, focus.center, focus.reach, host.fonts
         )
         if scene is not state.scene:
             host.apply(replace(host.state, scene=scene), self.handles.gesture)

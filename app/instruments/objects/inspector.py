@@ -78,18 +78,12 @@ class Inspector:
     about: tuple[Item, ...] = ()
 
 
-BY_DEFAULT = """\
-The scene's file names no lights, so it has these two.
-As soon as one is changed, both stand in the file."""
-
-
 @dataclass(frozen=True)
 class PanelSetting:
-    """The panel's input besides the state. default_lights: the file has no lights of its own."""
+    """The panel's input besides the state."""
 
     fonts: theme.Fonts
     focus: Focus
-    default_lights: bool = False
 
     @property
     def axes(self) -> list[Scale]:
@@ -133,7 +127,7 @@ def _panel(
         wanted = set(items)
         listed = [row for row in rows_of(state.scene) if row.item in wanted]
         row = next(row for row in listed if row.item == items[-1])
-        _head(edits, row, items, around)
+        _head(edits, row, items)
         fields = fields_of(state.scene, items[-1])
         if len(items) == 1:
             if isinstance(fields, LightTable):
@@ -157,7 +151,7 @@ def _panel(
     return inspector, state
 
 
-def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSetting) -> None:
+def _head(edits: Edits, row: OutlineRow, items: Sequence[Item]) -> None:
     if len(items) > 1:
         imgui.align_text_to_frame_padding()
         told = f"{len(items)} selected; the last: {row.shown}"
@@ -179,10 +173,6 @@ def _head(edits: Edits, row: OutlineRow, items: Sequence[Item], around: PanelSet
     if row.file:
         imgui.same_line()
         imgui.text_disabled(row.file)
-    if row.is_light and around.default_lights:
-        imgui.same_line()
-        imgui.text_disabled("by default")
-        rows.tip(BY_DEFAULT)
 
 
 def _shape_lines(edits: Edits, items: Sequence[Item], fields: Any, around: PanelSetting) -> None:

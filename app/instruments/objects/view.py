@@ -11,13 +11,12 @@ from lucida.app.images.pair.view import RasterView
 from lucida.app.instruments.objects.actions import CHOOSING, SCENE
 from lucida.app.instruments.objects.in_views import InViews
 from lucida.app.instruments.objects.inspector import Inspector, PanelSetting, inspector_panel
-from lucida.app.instruments.objects.listed import Outliner
 from lucida.app.instruments.objects.outliner import outliner_panel
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.ui import layout
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
-from lucida.renderer.editing.changing import has_default_lights
+from lucida.renderer.editing.changing import Item
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"
 
@@ -32,8 +31,6 @@ class ObjectsView(Instrument):
         "Objects: move": "gizmo translate",
         "Objects: turn": "gizmo rotate",
         "Objects: scale": "gizmo size",
-        "Along the object's own axes": "local world space",
-        "In steps": "snap grid",
         "Objects": "outliner tree hierarchy layers",
         "Inspector": "properties material transform light",
         "Delete": "remove",
@@ -45,19 +42,10 @@ class ObjectsView(Instrument):
         guest = InViews()
         view_of(views, RasterView).linked.guest = guest
         view_of(views, OutsideView).hosted.guest = guest
-        self.outliner = Outliner()
+        self._seen: Item | None = None  # the item that the list has scrolled to
 
     def draw(self, host: Host) -> None:
-        listed = outliner_panel(self.outliner, host.state, host.focus)
-        self.outliner = listed.outliner
-        if listed.problem:
-            host.files.message = listed.problem
-        if listed.changed is not None:
-            host.change(listed.changed)
-        if listed.chosen is not None:
-            host.amend(listed.chosen)
-        if listed.model:
-            host.files.add_model_dialog()
+        self._seen = outliner_panel(host, self._seen)
 
 
 class InspectorView(Instrument):
@@ -69,6 +57,6 @@ class InspectorView(Instrument):
         self.inspector = Inspector()
 
     def draw(self, host: Host) -> None:
-        around = PanelSetting(host.fonts, host.focus, has_default_lights(host.state.scene))
+        around = PanelSetting(host.fonts, host.focus)
         self.inspector, state = inspector_panel(self.inspector, host.state, around)
         host.apply(state)

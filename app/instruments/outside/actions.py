@@ -1,4 +1,4 @@
-"""The outside view's actions: its switches, its handles, from where it looks, its figures.
+"""The outside view's actions: switches, handles, directions to look from, and figures.
 
 The view's own menu and the menu View have the same entries.
 """

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Role, Segments
+from lucida.app.instruments.outside.diagram import Dot, Item, Label, Role, Segments, named_arrow
 from lucida.app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
 from lucida.renderer.camera.checks import LARGEST, Floats
 
@@ -21,19 +21,19 @@ def vector(name: str, role: Role, at: ArrayLike, given: Floats, correct: Floats)
     start = np.asarray(at, float)
     text = f"vec({name})" if name.isalnum() else name
     return [
-        *_arrow(f"correct {name}", role, text, start, start + correct, dashed=False),
-        *_arrow(f"your {name}", ROLE, f"your {text}", start, start + given, dashed=True),
+        *_arrow(f"correct {name}", role, text, start, start + correct),
+        *_arrow(f"your {name}", ROLE, f"your {text}", start, start + given),
     ]
 
 
-def _arrow(
-    name: str, role: Role, text: str, start: Floats, end: Floats, dashed: bool
-) -> list[Item]:
-    """Return an arrow with its name behind the tip; nothing for numbers that are too large."""
-    if not is_drawable(start, end):
-        return []
-    arrow = Arrow(name, role, start, end, dashed=dashed, layer=5 if dashed else 4)
-    return [arrow, Label(name, role, text, end, away=start, strong=True)]
+def _arrow(name: str, role: Role, text: str, start: Floats, end: Floats) -> list[Item]:
+    """Return an arrow with its name; nothing for numbers that are too large."""
+    is_given = role == ROLE
+    return (
+        named_arrow(name, role, text, start, end, dashed=is_given, layer=4 + is_given)
+        if is_drawable(start, end)
+        else []
+    )
 
 
 def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
@@ -60,27 +60,22 @@ def ray(given: GivenRay, correct: GivenRay, reach: float) -> list[Item]:
 
     reach: the length of the drawn rays, world units.
     """
-    way = np.array([[correct.origin, correct.origin + _stretched(correct.direction, reach)]])
+    length = float(np.linalg.norm(correct.direction))
+    way = np.array([[correct.origin, correct.origin + reach / length * correct.direction]])
     items: list[Item] = [
         Segments("correct ray", "ray", way, 2.6, hidden=0.6, layer=3),
-        *vector("d", "ray", correct.origin, correct.direction, correct.direction)[:2],
+        *_arrow("correct d", "ray", "vec(d)", correct.origin, correct.origin + correct.direction),
     ]
     if not is_drawable(given.origin, given.direction):
         return items
     items += second_ray(given, reach)
-    lengths = [float(np.linalg.norm(one.direction)) for one in (given, correct)]
-    longest = LONGEST * lengths[1] / max(lengths[0], 1e-300)
+    longest = LONGEST * length / max(float(np.linalg.norm(given.direction)), 1e-300)
     tip = given.origin + min(longest, 1.0) * given.direction
-    items += _arrow("your d", ROLE, "your vec(d)", given.origin, tip, dashed=True)
+    items += _arrow("your d", ROLE, "your vec(d)", given.origin, tip)
     if np.linalg.norm(given.origin - correct.origin) > 1e-3 * reach:
         items.append(Dot("your origin", ROLE, given.origin, 6.0, layer=5))
-        label = Label("your origin", ROLE, "your vec(p)", given.origin, away=tip, strong=True)
-        items.append(label)
+        items.append(Label("your origin", ROLE, "your vec(p)", given.origin, tip, strong=True))
     return items
-
-
-def _stretched(direction: Floats, length: float) -> Floats:
-    return length / float(np.linalg.norm(direction)) * direction
 
 
 def is_drawable(*points: Floats) -> bool:

@@ -45,20 +45,24 @@ from lucida.renderer.camera.image_plane import Size
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w
 WORLD_UP = np.array([0.0, 1.0, 0.0])
-# Parts of a side of the view volume: its faces, its edges, its curves at near and far.
-FLAT_PARTS, LENS_PARTS = (1, 1, 1), (6, 2, CURVE)
+LENS_PARTS = (6, 2, CURVE)  # of a side of a lens's view volume: faces, edges, curves
 
 
 @dataclass(frozen=True)
 class Content:
     """The content of a diagram: a camera and its rays.
 
-    camera: fitted to its image of `size` pixels. end: the parameter at which the scene ends. hits:
-    of the bundle's rays. marked: the marked pixel's ray. grid_parts: the most parts of a side of
-    the grid. notation: of the labels. base: the number of the first row and column. number_step:
-    see pixel_numbers(); None: rows and columns are not numbered. meetings: the t
-    of all meetings of the marked pixel's line with objects. pointed: the t under the mouse.
-    names_t: write the t of the marked pixel's hit.
+    camera: fitted to its image of `size` pixels.
+    end: the ray parameter at which the scene ends.
+    hits: the bundle's rays.
+    marked: the marked pixel's ray.
+    grid_parts: the maximum number of parts of a side of the grid.
+    notation: the labels' notation.
+    base: the number of the first row and column.
+    number_step: see pixel_numbers(); None if rows and columns are not numbered.
+    meetings: the t of all points where the marked pixel's line meets objects.
+    pointed: the t under the mouse.
+    names_t: True to write the t of the marked pixel's hit.
     """
 
     camera: Camera
@@ -141,7 +145,7 @@ def _volume(camera: Camera, end: float) -> list[Item]:
         items: list[Item] = [Segments(name, "volume", polyline(points, True), 1.75), label]
         return items if camera.lens else [Face(name, "volume", points, 0.08), *items]
 
-    sides, edges, curves = map(rays, LENS_PARTS if camera.lens else FLAT_PARTS)
+    sides, edges, curves = map(rays, LENS_PARTS) if camera.lens else [rays(1)] * 3
     _, first, back = curves.swapaxes(0, 1)
     faces = np.concatenate([sides[:, 1:], np.roll(sides, -1, axis=0)[:, :0:-1]], axis=1)
     items: list[Item] = [Face("side", "volume", corners, 0.055) for corners in faces]

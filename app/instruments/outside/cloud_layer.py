@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 
 from lucida.app.instruments.outside.cloud import Cloud
-from lucida.app.instruments.outside.paint import CASING, line_color
+from lucida.app.instruments.outside.paint import line_color
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui.contrast import Rgb
 from lucida.renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
@@ -72,6 +72,6 @@ def _look(cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudLook:
     unit_px = screen.unit_px
     point_px = POINT_PX * unit_px * (1.5 if len(cloud.points) < FEW else 1.0)
     return CloudLook(
-        matrix, screen.camera.is_parallel, near, max(away + 1.1 * reach, 2 * near), ink, CASING,
+        matrix, screen.camera.is_parallel, near, max(away + 1.1 * reach, 2 * near), ink,
         cloud.lines.width * unit_px, CASING_PX * unit_px, point_px,
     )  # fmt: skip

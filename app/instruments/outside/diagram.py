@@ -150,6 +150,8 @@ def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
 
 def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:
     """Return items whose labels are formulas of the book, as plain text, in a notation."""
+    if notation == "book":
+        return list(items)
     return [
         replace(item, text=plain(item.text, notation)) if isinstance(item, Label) else item
         for item in items

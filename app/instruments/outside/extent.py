@@ -95,7 +95,6 @@ def framed(
     projection: str = "perspective",
     up: Iterable[float] = (0.0, 1.0, 0.0),
     margin: tuple[float, float] = MARGIN,
-    fov_y_deg: float = FOV_Y_DEG,
 ) -> Camera:
     """Return the camera in direction `toward` of the points, unit length, that sees them all as
     large as possible.
@@ -107,12 +106,12 @@ def framed(
     upward = np.asarray(tuple(up), float)
     if np.linalg.norm(np.cross(upward, toward)) < 1e-3:
         upward = np.array([0.0, 0.0, -1.0])
-    camera = Camera.look_at(center + toward, center, upward, fov_y_deg=fov_y_deg, aspect=aspect)
+    camera = Camera.look_at(center + toward, center, upward, fov_y_deg=FOV_Y_DEG, aspect=aspect)
     x, y, z = ((points - center) @ np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     # Not so near that the numbers' own steps show.
     least = max(1e-6 * float(np.abs(center).max()), 1e-9)
     radius = max(float(np.linalg.norm(points - center, axis=1).max()), least)
-    tangent_y = math.tan(math.radians(fov_y_deg) / 2)
+    tangent_y = math.tan(math.radians(FOV_Y_DEG) / 2)
     tangents = tangent_y * aspect / margin[0], tangent_y / margin[1]
     offsets, depths = [], [1.02 * float(z.max()) + 0.05 * radius]
     for across, tangent in ((x, tangents[0]), (y, tangents[1])):
@@ -135,7 +134,7 @@ def framed(
             (-half * aspect, half * aspect, -half, half), "parallel",
         )  # fmt: skip
     except LucidaError:  # a scene at the very ends of the numbers
-        return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=fov_y_deg, aspect=aspect)
+        return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=FOV_Y_DEG, aspect=aspect)
 
 
 def _centered(across: Floats, depths: Floats, at: float) -> float:

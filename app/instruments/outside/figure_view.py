@@ -23,6 +23,7 @@ from lucida.app.instruments.outside.figure import (
 from lucida.app.instruments.outside.ground import SHIFTS
 from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.looking import nearest, scope_of, units_px
+from lucida.app.instruments.outside.mouse import Area
 from lucida.app.instruments.outside.paint import figure_color, ground_of
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
@@ -30,7 +31,6 @@ from lucida.app.instruments.outside.svg import svg
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
-from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes, to_srgb8
 from lucida.renderer.system.atomic import atomic_write
@@ -51,11 +51,9 @@ def _figure(view: OutsideView, host: Host, size: Size, page: Rgb) -> Figure:
     both, state = host.renderers, host.state
     exposure_ev, options = state.images.exposure_ev, state.options.outside
     both.need_size(state.images)
-    scale = framebuffer_scale()
-    extent = ImVec2(size[0] / scale, size[1] / scale)
-    scope = scope_of(host, size, ImVec2(0, 0), extent, view.extensions.points)
+    scope = scope_of(host, Area.of(size, ImVec2(0, 0)), view.extensions.points)
     camera, request = scope.shown, both.request(state)
-    screen = OutsideScreen(camera, size, nearest(camera, scope), *units_px(extent))
+    screen = OutsideScreen(camera, size, nearest(camera, scope), *units_px(scope.extent))
     content = replace(view.content(host, screen), grid_parts=GRID_PARTS)
     assert both.textures is not None
     assert request is not None

@@ -1,7 +1,7 @@
 """A camera as a solid thing in the world: its image plane, its view volume, its pixels.
 
-Pure; knows nothing of drawing. In the image, (x, y) are coordinates on the image plane in units of
-u and v; t is the ray parameter. Shapes of points end in 3.
+Pure. In the image, (x, y) are coordinates on the image plane in units of u and v; t is the ray
+parameter. Shapes of points end in 3.
 
 A camera with a lens has its image on the plane as long as all of its rays meet that plane; another
 one has it on a sphere around the eye, whose radius is `distance`.
@@ -9,6 +9,7 @@ one has it on a sphere around the eye, whose radius is `distance`.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from functools import lru_cache
@@ -20,7 +21,6 @@ from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.lenses import Lens
 
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next
@@ -65,7 +65,7 @@ def plane_corners(camera: Camera) -> Floats:
 
 def has_plane(camera: Camera) -> bool:
     """Return True if all rays meet the image plane, so that the image is on it."""
-    return camera.lens is None or _is_flat(camera.lens, camera.viewport, camera.distance)
+    return camera.lens is None or _is_flat(_optics(camera))
 
 
 def image_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
@@ -74,7 +74,7 @@ def image_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
     """
     if has_plane(camera):
         return point_at(camera.pinhole, x, y, plane_parameter(camera))
-    return point_at(camera, x, y, _plane_or_sphere(camera, x, y))
+    return ideal_point(camera, x, y)
 
 
 def ideal_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
@@ -83,25 +83,9 @@ def ideal_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
     """
     if camera.lens is None:
         return image_point(camera, x, y)
-    return point_at(camera, x, y, _plane_or_sphere(camera, x, y))
-
-
-def _plane_or_sphere(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
-    """Return the ray parameters there. Only for a camera with a lens."""
     along = ways(camera, x, y)
     ahead = -along[..., 2] if has_plane(camera) else np.linalg.norm(along, axis=-1)
-    return camera.distance / ahead
-
-
-def _ways(
-    lens: Lens,
-    viewport: tuple[float, float, float, float],
-    distance: float,
-    x: ArrayLike,
-    y: ArrayLike,
-) -> Floats:
-    """Return the rays' directions, (..., 3), in units of u, v and w."""
-    return Camera(viewport=viewport, distance=distance, lens=lens).direction(x, y)
+    return point_at(camera, x, y, camera.distance / ahead)
 
 
 def ways(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
@@ -110,23 +94,18 @@ def ways(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
 
     The last ones are kept: they stay the same while a camera moves.
     """
-    assert camera.lens is not None
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-    places = x.shape, x.tobytes(), y.tobytes()
-    return _kept_ways(camera.lens, camera.viewport, camera.distance, *places)
+    return _kept_ways(_optics(camera), x.shape, x.tobytes(), y.tobytes())
+
+
+def _optics(camera: Camera) -> Camera:
+    """Return a camera at the origin with the same viewport, distance and lens."""
+    return Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
 
 
 @lru_cache(maxsize=512)
-def _kept_ways(
-    lens: Lens,
-    viewport: tuple[float, float, float, float],
-    distance: float,
-    shape: tuple[int, ...],
-    x: bytes,
-    y: bytes,
-) -> Floats:
-    places = (np.frombuffer(axis).reshape(shape) for axis in (x, y))
-    found = _ways(lens, viewport, distance, *places)
+def _kept_ways(optics: Camera, shape: tuple[int, ...], x: bytes, y: bytes) -> Floats:
+    found = optics.direction(*(np.frombuffer(axis).reshape(shape) for axis in (x, y)))
     found.flags.writeable = False
     return found
 
@@ -137,49 +116,38 @@ def border(camera: Camera, parts: int = CURVE) -> Floats:
 
     parts: of a side, 1 for the corners.
     """
-    if camera.lens is not None:
-        return _border(camera.lens, camera.viewport, camera.distance, parts)
-    return _frame(camera.viewport, parts)
-
-
-def _frame(viewport: tuple[float, float, float, float], parts: int) -> Floats:
-    left, right, bottom, top = viewport
-    corners = np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
-    share = (np.arange(parts) / parts)[:, None]
-    return np.concatenate(
-        [
-            (1 - share) * start + share * end
-            for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True)
-        ]
-    )
+    return _border(_optics(camera), parts)
 
 
 @lru_cache(maxsize=64)
-def _border(
-    lens: Lens, viewport: tuple[float, float, float, float], distance: float, parts: int
-) -> Floats:
-    frame = _frame(viewport, parts)
-    left, right, bottom, top = viewport
+def _border(optics: Camera, parts: int) -> Floats:
+    left, right, bottom, top = optics.viewport
+    corners = np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
+    share = (np.arange(parts) / parts)[:, None]
+    after = np.roll(corners, -1, axis=0)
+    frame = np.concatenate(
+        [(1 - share) * start + share * end for start, end in zip(corners, after, strict=True)]
+    )
     # What a lens sees is in one piece around its axis: look for its end on the way from there.
     middle = np.array([min(max(0.0, left), right), min(max(0.0, bottom), top)])
-
-    def is_seen(points: Floats) -> NDArray[np.bool_]:
-        return np.isfinite(_ways(lens, viewport, distance, *points.T)[:, 0])
-
     low, high = np.zeros(len(frame)), np.ones(len(frame))
-    low[is_seen(frame)] = 1.0
+
+    def is_seen(share: Floats) -> NDArray[np.bool_]:
+        x, y = (middle + share[:, None] * (frame - middle)).T
+        return np.isfinite(optics.direction(x, y)[:, 0])
+
+    low[is_seen(high)] = 1.0
     for _ in range(0 if low.all() else 24):
-        share = (low + high) / 2
-        seen = is_seen(middle + share[:, None] * (frame - middle))
-        low, high = np.where(seen, share, low), np.where(seen, high, share)
+        seen = is_seen((low + high) / 2)
+        low, high = np.where(seen, (low + high) / 2, low), np.where(seen, high, (low + high) / 2)
     found = middle + low[:, None] * (frame - middle)
     found.flags.writeable = False
     return found
 
 
 @lru_cache(maxsize=64)
-def _is_flat(lens: Lens, viewport: tuple[float, float, float, float], distance: float) -> bool:
-    along = _ways(lens, viewport, distance, *_border(lens, viewport, distance, CURVE).T)
+def _is_flat(optics: Camera) -> bool:
+    along = optics.direction(*_border(optics, CURVE).T)
     cosines = -along[:, 2] / np.linalg.norm(along, axis=1)
     return bool((cosines > math.cos(math.radians(STEEPEST_DEG))).all())
 
@@ -189,42 +157,28 @@ def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
     `most` parts.
     """
     least = max(size) / max(1, min(most, MOST_GRID_LINES))
-    power = 1
-    while True:
-        for step in STEPS:
-            if step * power >= least:
-                return step * power
-        power *= 10
+    steps = (step * 10**power for power in itertools.count() for step in STEPS)
+    return next(step for step in steps if step >= least)
 
 
 def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
-    """Return the pixel grid's inner lines on the image, (n, 2, 3).
+    """Return the pixel grid's inner lines on the image, (n, 2, 3): on a sphere as short ones, as
+    far as the lens sees them.
 
     size: of the image. most: parts of a side.
     """
     left, right, bottom, top = camera.viewport
-    step = grid_step(size, most)
+    step, pieces = grid_step(size, most), 1 if has_plane(camera) else 2 * CURVE
     x = left + np.arange(step, size[0], step) / size[0] * (right - left)
     y = top - np.arange(step, size[1], step) / size[1] * (top - bottom)
-    if not has_plane(camera):
-        return _curved_grid(camera, x, y)
-    flat = camera.pinhole
-    t = plane_parameter(flat)
-    columns = np.stack([point_at(flat, x, top, t), point_at(flat, x, bottom, t)], axis=1)
-    rows = np.stack([point_at(flat, left, y, t), point_at(flat, right, y, t)], axis=1)
-    return np.concatenate([columns, rows])
-
-
-def _curved_grid(camera: Camera, x: Floats, y: Floats) -> Floats:
-    """Return the lines of a grid on the sphere as short ones, as far as the lens sees them."""
-    left, right, bottom, top = camera.viewport
-    across, down = np.linspace(left, right, 2 * CURVE + 1), np.linspace(top, bottom, 2 * CURVE + 1)
+    across, down = np.linspace(left, right, pieces + 1), np.linspace(top, bottom, pieces + 1)
     lines = [
         image_point(camera, *np.broadcast_arrays(x[:, None], down)),
         image_point(camera, *np.broadcast_arrays(across, y[:, None])),
     ]
-    pieces = [np.stack([line[:, :-1], line[:, 1:]], axis=2).reshape(-1, 2, 3) for line in lines]
-    found = np.concatenate(pieces)
+    found = np.concatenate(
+        [np.stack([line[:, :-1], line[:, 1:]], axis=2).reshape(-1, 2, 3) for line in lines]
+    )
     return found[np.isfinite(found).all(axis=(1, 2))]
 
 
@@ -240,12 +194,8 @@ def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
     """Return the pixels, (n, 2), of a bundle of rows x columns rays: those in the middles of as
     many equal parts of the image.
     """
-    rows, columns = (
-        np.unique(
-            ((np.arange(min(count, side)) + 0.5) * side / max(1, min(count, side))).astype(int)
-        )
-        for count, side in zip(counts, (size[1], size[0]), strict=True)
-    )
+    sides = [(min(count, side), side) for count, side in zip(counts, size[::-1], strict=True)]
+    rows, columns = (((np.arange(n) + 0.5) * side / max(n, 1)).astype(int) for n, side in sides)
     return np.stack(np.meshgrid(rows, columns, indexing="ij"), axis=-1).reshape(-1, 2)
 
 

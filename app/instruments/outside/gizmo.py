@@ -177,8 +177,7 @@ class Handle(NamedTuple):
     """Handles of ImGuizmo.
 
     name: distinguishes them from others. frame: (4, 4), where they are, with their axes. length: in
-    clip space. colors: in place of ImGuizmo's. head_px: the most of an arrow's head. snap: the
-    steps of a motion.
+    clip space. colors: in place of ImGuizmo's. head_px: the most of an arrow's head.
     """
 
     name: str
@@ -188,7 +187,6 @@ class Handle(NamedTuple):
     length: float
     colors: Mapping[Rgb8, ImVec4]
     head_px: float = math.inf
-    snap: imguizmo.im_guizmo.Matrix3 | None = None
 
 
 class Manipulated(NamedTuple):
@@ -225,7 +223,6 @@ def manipulate(
     gizmo.push_id(handle.name)
     moved = gizmo.manipulate(
         matrix16(view), matrix16(projection), handle.operation, handle.mode, matrix,
-        snap=handle.snap,
     )  # fmt: skip
     using, over = is_dragging(), gizmo.is_using() or gizmo.is_over()
     gizmo.pop_id()  # is_using() asks for the pushed one

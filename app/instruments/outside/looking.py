@@ -17,7 +17,7 @@ from lucida.app.images.ray_pictures import RayPainter, RayPictures
 from lucida.app.instruments.outside.diagram import RayEnd
 from lucida.app.instruments.outside.extent import around, framed, outside_camera, way_of
 from lucida.app.instruments.outside.frustum import bundle_pixels
-from lucida.app.instruments.outside.mouse import Scope
+from lucida.app.instruments.outside.mouse import Area, Scope
 from lucida.app.instruments.outside.screen import NEAREST, OutsideScreen
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
@@ -31,6 +31,7 @@ from lucida.renderer.system.memo import Memo, same
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters
+MOST_MARGIN = 1.6  # the most of a view's side, in sides of what is framed
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
@@ -46,9 +47,11 @@ LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 
 class Scopes:
-    """The view as it was last asked for: a frame asks before the mouse, and after it if that has
-    changed something. moves: whether the other camera has just moved. waits: whether the camera
-    that looks does not see everything of now yet."""
+    """The view of the present frame, computed again only if it must change.
+
+    moves: True if the other camera has just moved. waits: True if the outside camera stays where
+    it is although it does not see everything yet.
+    """
 
     def __init__(self) -> None:
         self._fixed: tuple[object, ...] | None = None
@@ -57,14 +60,12 @@ class Scopes:
         self._changed_s = 0.0
         self._scope: Scope | None = None
         self._is_in_picture = Memo(is_in_picture)
-        self.moves = self.waits = self._is_dragged = False
+        self.moves = self.waits = False
 
     def of(
         self,
         host: Host,
-        size: Size,
-        origin: ImVec2,
-        extent: ImVec2,
+        area: Area,
         more: Floats,
         now_s: float,
         held: bool = False,
@@ -73,24 +74,23 @@ class Scopes:
         not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
         """
         both, state = host.renderers, host.state
-        place = (origin.x, origin.y, extent.x, extent.y, theme.px(LETTER_PX))
+        place = (area.size, *area.origin, *area.extent, theme.px(LETTER_PX))
         options, inner = state.options.outside, both.camera(state)
         looking = options.camera
-        fixed = state.scene, more, looking, options.turned, both.size, size, place, state.step
+        fixed = state.scene, more, looking, options.turned, both.size, place, state.step
         if inner != self._seen:
             self._seen, self._changed_s = inner, now_s
         self.moves = now_s - self._changed_s < STILL_S
-        self._is_dragged = held and (self.moves or self._is_dragged)
         scope = self._scope if same(fixed, self._fixed) else None
         stays = (
             scope is not None
-            and (self.moves or self._is_dragged)
+            and (self.moves or held)
             and looking is None
             and self._is_in_picture(inner, scope.shown)
         )
         self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
-            self._scope = scope = scope_of(host, size, origin, extent, more)
+            self._scope = scope = scope_of(host, area, more)
             self._fixed, self._inner = fixed, inner
         return scope
 
@@ -106,14 +106,8 @@ def is_in_picture(camera: Camera, looking: Camera) -> bool:
     return bool((np.maximum(abs(x), abs(y)) <= edge).all())
 
 
-def scope_of(
-    host: Host,
-    size: Size,
-    origin: ImVec2,
-    extent: ImVec2,
-    more: Floats = NOTHING,
-) -> Scope:
-    """Return the outside camera for a picture of `size` that takes `extent` of the window.
+def scope_of(host: Host, area: Area, more: Floats = NOTHING) -> Scope:
+    """Return the view in an area.
 
     more: points (n, 3) that must be in sight with the scene.
     """
@@ -121,23 +115,20 @@ def scope_of(
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     reach = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0))) / 2
     options = host.state.options.outside
-    camera = options.camera or _for_all(points, host, size, extent)
+    camera = options.camera or camera_for_all(host, area, more)
     x, y, z = center.tolist()
     middle, reach = (x, y, z), max(reach, 1e-9)
     if options.turned:
         camera = orbited(camera, middle, math.radians(options.turned), 0.0)
-    return Scope(camera, camera.fitted(size), origin, extent, middle, reach)
+    return Scope(camera, camera.fitted(area.size), area, middle, reach)
 
 
-def camera_for_all(host: Host, size: Size, extent: ImVec2, more: Floats = NOTHING) -> Camera:
-    """Return the outside camera that sees everything."""
-    return _for_all(_points(host, more), host, size, extent)
-
-
-def _for_all(points: Floats, host: Host, size: Size, extent: ImVec2) -> Camera:
-    home, room = host.state.scene.view.camera, theme.px(LETTER_PX)
-    margin = margin_for(extent.x, room), margin_for(extent.y, room)
-    return outside_camera(points, home, size[0] / size[1], margin)
+def camera_for_all(host: Host, area: Area, more: Floats = NOTHING) -> Camera:
+    """Return the outside camera that sees everything, with room for letters around it."""
+    room = 2 * theme.px(LETTER_PX)
+    across, down = (side / max(side - room, side / MOST_MARGIN, 1.0) for side in area.extent)
+    home = host.state.scene.view.camera
+    return outside_camera(_points(host, more), home, area.size[0] / area.size[1], (across, down))
 
 
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
@@ -164,11 +155,6 @@ def widest_px(screen: OutsideScreen, corners: Floats) -> float:
     """Return the longest visible side of a polygon (n, 3) on the screen."""
     points, _, _ = screen.segments(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1))
     return float(np.linalg.norm(points[:, 1] - points[:, 0], axis=1).max(initial=0.0))
-
-
-def margin_for(side: float, room: float) -> float:
-    """Return a side of the view in sides of its contents, with room at both ends."""
-    return min(max(side / max(side - 2 * room, 1.0), 1.0), 1.6)
 
 
 def ray_ends(

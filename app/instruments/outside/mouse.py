@@ -10,33 +10,62 @@ import math
 import time
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
+from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
+from lucida.renderer.camera.image_plane import Size
 
 WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
 STILL_PX = 4.0  # a press that moves less is a click
+
+
+class Area(NamedTuple):
+    """The view's place: its size in pixels; its upper left corner and its size in ImGui's
+    coordinates.
+    """
+
+    size: Size
+    origin: ImVec2
+    extent: ImVec2
+
+    @classmethod
+    def of(cls, size: Size, origin: ImVec2) -> Area:
+        scale = framebuffer_scale()
+        return cls(size, origin, ImVec2(size[0] / scale, size[1] / scale))
+
+    @property
+    def far(self) -> ImVec2:
+        """The lower right corner."""
+        return self.origin + self.extent
 
 
 @dataclass(frozen=True)
 class Scope:
     """The view in a frame.
 
-    camera: the outside camera. shown: the same, fitted to the view. origin, extent: the view's
-    upper left corner and size, in ImGui's coordinates. center, reach: of everything in sight, world
-    space.
+    camera: the outside camera. shown: the same, fitted to the view. center, reach: of everything in
+    sight, world space.
     """
 
     camera: Camera
     shown: Camera
-    origin: ImVec2
-    extent: ImVec2
+    area: Area
     center: Vector
     reach: float
+
+    @property
+    def origin(self) -> ImVec2:
+        return self.area.origin
+
+    @property
+    def extent(self) -> ImVec2:
+        return self.area.extent
 
     def part(self, mouse: ImVec2) -> tuple[float, float]:
         """Return the mouse's position as a fraction of the view's width and height."""

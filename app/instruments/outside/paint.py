@@ -1,6 +1,6 @@
 """A projected diagram as the rasterizer's overlay takes it, in the theme's colours.
 
-Owns which colour a role has. Knows nothing of cameras.
+This module defines the colour of each role.
 """
 
 from __future__ import annotations
@@ -57,10 +57,6 @@ DARKER: dict[Role, ImVec4] = {
 }
 
 Rgba = tuple[float, float, float, float]
-
-# Of lines' edges. Dark in every theme: what is behind is the scene's picture, not the theme's
-# ground, and the lines themselves are pale.
-CASING: Rgba = (0.03, 0.035, 0.04, 0.6)
 
 
 def role_color(role: Role, ground: Rgb | None = None) -> ImVec4:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, 
 from lucida.renderer.camera.checks import Floats
 
 Spot = tuple[float, float]
+Sums = NDArray[np.float32]
 Label = tuple[str, str, int]  # name, role, how many before it have both
 Edges = tuple[float, float, float, float]  # left, top, right, bottom
 
@@ -25,14 +25,15 @@ Edges = tuple[float, float, float, float]  # left, top, right, bottom
 TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
 FARTHER = (0.0, 0.8, 1.8)
 # What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
-# on another label, on a mark, for a height of a line in the text, on the image plane.
-TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED, ON_PLANE = 1.2, 0.8, 60.0, 40.0, 6.0, 1.6, 0.5
+# on another label, on a mark, for a height of a line in the text.
+TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED = 1.2, 0.8, 60.0, 40.0, 18.0, 3.0
+CELL = 0.15  # of the grid, in heights of a text
+DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # of its radius
 # Places along a line, as many as turns: shares of its length, on both sides of it; and what it
 # costs to be on the other side, and away from the middle.
 SHARES = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2])
 OTHER_SIDE, SLID = 0.4, 1.0
 ALONG = 1.5  # the space between a text and its line, in that to a point: arrows have wide heads
-TINY = 1e-300  # in place of 0, to divide by
 JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
 KEPT = 1.0  # by which another place must be better than the present one
 SPACE = 0.12  # around a text, in its heights
@@ -45,23 +46,6 @@ class Box:
     width: float
     height: float
     room: float
-
-
-@dataclass(frozen=True, eq=False)
-class _Ground:
-    """Obstacles for labels. Boxes are left, top, right, bottom.
-
-    lines: boxes (n, 4) around them. starts, ways: of the lines, (n, 2). weights: what
-    the whole line in a text costs, in heights of the text (n,). marks: boxes (n, 4) of heads and
-    dots. plane: the image plane's corners (m, 2).
-    """
-
-    lines: Floats
-    starts: Floats
-    ways: Floats
-    weights: Floats
-    marks: Floats
-    plane: Floats
 
 
 @dataclass
@@ -90,21 +74,22 @@ class LabelPlacer:
         self._chosen = {}
         if not texts:
             return []
-        ground = _ground(primitives)
         found = [_places(text, box) for text, box in zip(texts, boxes, strict=True)]
         places, preferences = (np.stack(parts) for parts in zip(*found, strict=True))
         wide = np.array([(box.width, box.height) for box in boxes]) / 2
         wide += SPACE * np.array([[box.height] for box in boxes])
         around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
         areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
-        costs = preferences + _costs(around, areas, ground, np.reshape(tools, (-1, 4)), size)
+        met = _overlap(around, np.array([(0.0, 0.0, *size), *tools])) / areas[..., None]
+        costs = preferences + OUTSIDE * (1 - met[..., 0] + met[..., 1:].sum(axis=2))
+        height = max(box.height for box in boxes)
+        costs += _covered(around / (CELL * height), _sums(primitives, height, size))
         centers: list[Spot] = [(0.0, 0.0)] * len(texts)
         taken = np.zeros((len(texts), 4))
         order = sorted(range(len(texts)), key=lambda k: (not texts[k].fixed, not texts[k].strong))
         for number in order:
             text, label, of_text = texts[number], labels[number], around[number]
-            cost = costs[number] + _crossed(of_text, ground) / boxes[number].height
-            cost += LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
+            cost = costs[number] + LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
             if label in before:
                 cost[before[label][1]] -= KEPT
             best = 0 if text.fixed else int(cost.argmin())
@@ -157,52 +142,45 @@ def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
     return places.reshape(-1, 2), np.add.outer(np.multiply(OUT, FARTHER), costs).ravel()
 
 
-def _ground(primitives: Iterable[Primitive]) -> _Ground:
-    strokes = [part for part in primitives if isinstance(part, Strokes)]
-    shapes = [
-        part.points for part in primitives if isinstance(part, Shape) and part.opacity >= 0.5
-    ]  # heads, and the marked pixel
-    ends = np.concatenate([np.zeros((0, 2, 2)), *(part.points for part in strokes)])
-    start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
-    values = np.array([(part.opacity, part.width_px / 2) for part in strokes]).reshape(-1, 2)
-    weights, half = np.repeat(values, [len(part.points) for part in strokes], axis=0).T
-    lengths = np.hypot(way[:, 0], way[:, 1])
-    is_spot, is_line = lengths == 0, lengths > 0
-    spots, around = start[is_spot], half[is_spot, None]
-    marks = [np.concatenate([spots - around, spots + around], axis=1)]
-    start, way = start[is_line], way[is_line]
-    lines = np.concatenate([start + np.minimum(way, 0), start + np.maximum(way, 0)], axis=1)
-    way[way == 0] = TINY
-    if shapes:
-        corners, first = np.concatenate(shapes), [0, *accumulate(map(len, shapes[:-1]))]
-        low, high = np.minimum.reduceat(corners, first), np.maximum.reduceat(corners, first)
-        marks.append(np.concatenate([low, high], axis=1))
-    plane = [part.points[:, 0] for part in strokes if part.name == "image plane"]
-    return _Ground(
-        lines,
-        start,
-        way,
-        CROSSED * (weights * lengths)[is_line],
-        np.concatenate(marks),
-        plane[-1] if plane else np.zeros((0, 2)),
-    )
-
-
-def _costs(
-    around: Floats, areas: Floats, ground: _Ground, tools: Floats, size: tuple[float, float]
-) -> Floats:
-    """Return what boxes (labels, n, 4) cost without the lines and other labels, (labels, n).
-
-    areas: of a label's boxes, (labels, 1).
+def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, float]) -> Sums:
+    """Return what labels should not cover, summed over all cells of a grid above and left of each
+    cell's corner (Crow 1984): lines, by their lengths in heights of a text, dots, and heads.
     """
-    obstacles = np.concatenate([[[0.0, 0.0, *size]], tools, ground.marks])
-    met = _overlap(around, obstacles)
-    under = met[..., 1 : 1 + len(tools)].sum(axis=2)
-    costs = OUTSIDE * (1 - met[..., 0] / areas) + OUTSIDE * under / areas
-    costs += MARK * (met[..., 1 + len(tools) :] > 0).sum(axis=2)
-    if len(ground.plane) == 4:
-        costs += ON_PLANE * _in_polygon((around[..., :2] + around[..., 2:]) / 2, ground.plane)
-    return costs
+    strokes = [part for part in primitives if isinstance(part, Strokes)]
+    ends = np.concatenate([np.zeros((0, 2, 2)), *(part.points for part in strokes)])
+    looks = np.array([(part.opacity, part.width_px / 2) for part in strokes]).reshape(-1, 2)
+    opacity, radius = np.repeat(looks, [len(part.points) for part in strokes], axis=0).T
+    ways = ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(ways, axis=1)
+    cell_px = CELL * height
+    counts = np.maximum(np.ceil(lengths / cell_px), 1).astype(int)
+    of = np.repeat(np.arange(len(ends)), counts)
+    place = np.arange(len(of)) - np.repeat(np.cumsum(counts) - counts, counts)
+    is_dot = lengths == 0
+    dots = ends[is_dot, :1] + radius[is_dot, None, None] * DOT
+    shapes = [part for part in primitives if isinstance(part, Shape)]
+    marks = [part.points for part in shapes if part.opacity >= 0.5]  # heads, and the marked pixel
+    spots = [ends[of, 0] + ((place + 0.5) / counts[of])[:, None] * ways[of], *dots, *marks]
+    weights = [(CROSSED * opacity * lengths / counts / height)[of]]
+    weights += [np.full(len(corners), MARK / len(corners)) for corners in spots[1:]]
+    columns, rows = (math.ceil(side / cell_px) for side in size)
+    column, row = np.floor(np.concatenate(spots) / cell_px).astype(int).T
+    inside = (column >= 0) & (row >= 0) & (column < columns) & (row < rows)
+    cells, values = (row * columns + column)[inside], np.concatenate(weights)[inside]
+    sums = np.zeros((rows + 1, columns + 1), np.float32)
+    sums[1:, 1:] = np.bincount(cells, values, rows * columns).reshape(rows, columns)
+    for axis in (0, 1):
+        sums.cumsum(axis=axis, out=sums)
+    return sums
+
+
+def _covered(boxes: Floats, sums: Sums) -> Sums:
+    """Return the sum of what is in boxes (..., 4), in cells, and in the cells that they touch."""
+    most = np.array(sums.shape[::-1] * 2) - 1
+    edges = np.concatenate([np.floor(boxes[..., :2]), np.ceil(boxes[..., 2:])], axis=-1)
+    left, top, right, bottom = np.moveaxis(np.clip(edges, 0, most).astype(int), -1, 0)
+    found: Sums = sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left]
+    return found
 
 
 def _overlap(boxes: Floats, others: Floats) -> Floats:
@@ -211,27 +189,3 @@ def _overlap(boxes: Floats, others: Floats) -> Floats:
     wide = np.minimum(right, others[:, 2]) - np.maximum(left, others[:, 0])
     high = np.minimum(bottom, others[:, 3]) - np.maximum(top, others[:, 1])
     return np.maximum(wide, 0.0) * np.maximum(high, 0.0)
-
-
-def _crossed(boxes: Floats, ground: _Ground) -> Floats:
-    """Return what the lines in boxes (n, 4) of one label cost, (n,). Source: Liang and Barsky
-    1984.
-    """
-    low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
-    near = ((ground.lines[:, 2:] > low) & (ground.lines[:, :2] < high)).all(axis=1)
-    first, last = 0.0, 1.0
-    for axis in (0, 1):
-        start, way = ground.starts[near, axis], ground.ways[near, axis]
-        one = (boxes[:, axis, None] - start) / way
-        other = (boxes[:, axis + 2, None] - start) / way
-        first = np.maximum(first, np.minimum(one, other))
-        last = np.minimum(last, np.maximum(one, other))
-    return np.maximum(last - first, 0.0) @ ground.weights[near]
-
-
-def _in_polygon(points: Floats, corners: Floats) -> NDArray[np.bool_]:
-    """Return whether points (..., 2) are inside a convex polygon (m, 2)."""
-    sides = np.concatenate([corners[1:], corners[:1]]) - corners
-    x, y = points[..., 0, None] - corners[:, 0], points[..., 1, None] - corners[:, 1]
-    turns = sides[:, 0] * y - sides[:, 1] * x
-    return np.all(turns > 0, axis=-1) | np.all(turns < 0, axis=-1)

@@ -1,6 +1,6 @@
 """A diagram on the screen: each of its items clipped and projected by the outside camera.
 
-Painting and SVG both start from these primitives. Pure; knows nothing of colours. Positions and
+Painting and SVG both start from these primitives, which have no colours yet. Pure. Positions and
 depths are as in screen.py.
 """
 

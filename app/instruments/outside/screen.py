@@ -25,7 +25,7 @@ NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to 
 class Seen(NamedTuple):
     """Points on the screen.
 
-    spots (n, 4): see homogeneous(). points (n, 2), depth (n,): see on_screen(). visible (n,).
+    spots (..., 4): see homogeneous(). points (..., 2), depth (...): see on_screen(). visible (...).
     """
 
     spots: Floats
@@ -98,20 +98,18 @@ class OutsideScreen:
         return self.on_screen(cut_polygon(spots, self._planes))
 
     def seen(self, world: Floats) -> Seen:
-        """Project points (n, 3). Of the invisible ones, only `spots` mean something."""
+        """Project points (..., 3). Of the invisible ones, only `spots` mean something."""
         spots = self.homogeneous(world)
         with np.errstate(all="ignore"):
-            visible = (spots @ self._planes.T >= 0).all(axis=1)  # of NaN, nothing is
+            visible = (spots @ self._planes.T >= 0).all(axis=-1)  # of NaN, nothing is
             return Seen(spots, *self.on_screen(spots), visible)
 
     def spots(self, points: Floats) -> tuple[Floats, Floats] | None:
         """Return pixels (..., 2) and depths (...) of points (..., 3), or None unless all of them
         are visible.
         """
-        spots = self.homogeneous(points)
-        if not np.isfinite(spots).all() or (spots @ self._planes.T < 0).any():
-            return None
-        return self.on_screen(spots)
+        found = self.seen(points)
+        return (found.points, found.depth) if found.visible.all() else None
 
     def px_world(self, t: float) -> float:
         """Return a pixel's width in world units at a distance t in front of the camera."""

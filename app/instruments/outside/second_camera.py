@@ -36,37 +36,22 @@ class GivenRay:
     t: float | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class SecondCamera:
-    """origins, directions: (4, 3), of the rays through the image's corner pixels: upper left, upper
-    right, lower right, lower left as that camera's image has them. ray: of the marked pixel.
-    name: what it is called; first: what its first pixel is."""
-
-    origins: Floats
-    directions: Floats
-    ray: GivenRay | None = None
-    name: str = ""
-    first: str = ""
-
-
 def corner_rays(origins: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    """Return the corner pixels' rays of rays (H, W, 3), (4, 3) each, for SecondCamera."""
+    """Return the corner pixels' rays of rays (H, W, 3), (4, 3) each: upper left, upper right, lower
+    right, lower left as that camera's image has them.
+    """
     rows, columns = [0, 0, -1, -1], [0, -1, -1, 0]
     return origins[rows, columns], directions[rows, columns]
 
 
-def second_camera(camera: SecondCamera, reach: float) -> list[Item]:
-    """Return its drawing, as far as its rays are finite. reach: the length of the drawn rays, world
-    units.
+def second_camera(
+    origins: Floats, directions: Floats, reach: float, name: str, first: str
+) -> list[Item]:
+    """Return a camera's drawing if its rays are finite.
+
+    origins, directions: from corner_rays(). reach: the length of the drawn rays, world units.
+    name: of the camera. first: of its first pixel.
     """
-    items = _frustum(camera, reach)
-    if camera.ray is not None:
-        items += second_ray(camera.ray, reach)
-    return items
-
-
-def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
-    origins, directions = camera.origins, camera.directions
     length = np.linalg.norm(directions, axis=1).mean()
     if not np.isfinite(origins).all() or not np.isfinite(length) or length == 0:
         return []
@@ -85,14 +70,11 @@ def _frustum(camera: SecondCamera, reach: float) -> list[Item]:
         Segments("second end", ROLE, polyline(ends, True), 1.0, 0.7, 0.3, dashed=True, layer=2),
         Segments("second image plane", ROLE, polyline(plane, True), 2.4, dashed=True, layer=2),
         Dot("second first pixel", ROLE, plane[0], 5.0),
+        Label("second first pixel", ROLE, first, plane[0], away=plane.mean(axis=0)),
+        Label("second name", ROLE, name, plane[2], away=plane.mean(axis=0)),
     ]
-    if camera.first:
-        away = plane.mean(axis=0)
-        items.append(Label("second first pixel", ROLE, camera.first, plane[0], away=away))
     if has_eye:
         items.append(Dot("second eye", ROLE, middle, 7.0))
-    if camera.name:
-        items.append(Label("second name", ROLE, camera.name, plane[2], away=plane.mean(axis=0)))
     return items
 
 

@@ -25,6 +25,7 @@ from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
 
 MENU = "View/Outside view"
 PAD = 6  # around the menu's button
@@ -112,13 +113,13 @@ class Written(NamedTuple):
 def written(
     primitives: Sequence[Primitive],
     placer: LabelPlacer,
-    extent: ImVec2,
+    view: Size,
     fonts: theme.Fonts,
     tools: tuple[Edges, ...],
 ) -> list[Written]:
     """Return the texts of a diagram in their places.
 
-    placer: the view's own. extent: of the view. tools: boxes in the view's pixels that are covered.
+    placer: the view's own. view: its size in pixels. tools: boxes in it that are covered.
     """
     scale = framebuffer_scale()
     texts = [part for part in primitives if isinstance(part, Text)]
@@ -128,7 +129,7 @@ def written(
         pieces.append(measured(part.text, part.strong, size, fonts))
         room = scale * theme.px(7 if part.strong else 13)
         boxes.append(Box(scale * sum(piece[2] for piece in pieces[-1]), scale * size, room))
-    centers = placer.place(primitives, boxes, (scale * extent.x, scale * extent.y), tools)
+    centers = placer.place(primitives, boxes, view, tools)
     return [
         Written(
             part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found,

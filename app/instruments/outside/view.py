@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -18,16 +18,19 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.travel import Ends
 from lucida.app.images.picking import is_quick, line_meetings, nearest_hit, object_on_ray
+from lucida.app.images.ray_pictures import RayPictures
 from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.screen import available_px
 from lucida.app.instruments.outside.camera_diagram import Content
 from lucida.app.instruments.outside.cloud import Cloud
+from lucida.app.instruments.outside.cloud_layer import CloudLayer
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extensions import Extension, Extensions
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.frustum import pixel_seen, plane_corners
 from lucida.app.instruments.outside.gizmo import Gizmo
+from lucida.app.instruments.outside.ground import Ground, GroundPicture
 from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.hosted import Hosted
 from lucida.app.instruments.outside.looking import (
@@ -39,9 +42,8 @@ from lucida.app.instruments.outside.looking import (
     units_px,
     widest_px,
 )
-from lucida.app.instruments.outside.mouse import Mouse, Scope
-from lucida.app.instruments.outside.paint import CASING, ground_of, layers
-from lucida.app.instruments.outside.parts import MadePicture, Tools
+from lucida.app.instruments.outside.mouse import Area, Mouse, Scope
+from lucida.app.instruments.outside.paint import ground_of, layers
 from lucida.app.instruments.outside.pixel_plane import PixelPlane
 from lucida.app.instruments.outside.placing import Edges, LabelPlacer
 from lucida.app.instruments.outside.projected import Primitive, project
@@ -51,7 +53,6 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.areas import focused_steps, mouse_area
-from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.theme import framebuffer_scale
@@ -59,15 +60,32 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import orbited
 from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
+from lucida.renderer.raster.overlay import Overlay
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError, describe
-from lucida.renderer.system.memo import Memo, same
+from lucida.renderer.system.memo import Memo
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key
 SMALLEST_PX = 24  # a view that is smaller shows nothing
 GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
 NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
+
+
+class Tools(NamedTuple):
+    """Hold the parts of the view that need a context. layer: the cloud's picture."""
+
+    overlay: Overlay
+    ground: Ground
+    layer: CloudLayer
+    hits: RayPictures[dict[Pixel, float]]
+
+
+class Drawing(NamedTuple):
+    """The view's picture, and the diagram in it."""
+
+    texture: moderngl.Texture
+    primitives: tuple[Primitive, ...]
 
 
 class OutsideView(Instrument):
@@ -87,30 +105,23 @@ class OutsideView(Instrument):
         self.tools: Tools | None = None
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
-        self._error = ""
-        self._made: MadePicture | None = None
-        self._covered: tuple[Edges, ...] | None = None  # by tools, in the last frame
+        self._made: Drawing | None = None
         self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
-        self._meetings = Memo(_meetings)
+        self._meetings, self._drawn, self._written = Memo(_meetings), Memo(_drawn), Memo(written)
 
     @property
     def settled(self) -> bool:
-        return not self._scopes.moves and (self.tools is None or self.tools.settled)
+        tools = self.tools
+        return not self._scopes.moves and (
+            tools is None or (tools.ground.settled and not tools.hits.busy)
+        )
 
     @property
     def primitives(self) -> Sequence[Primitive]:
         """Return the diagram as it was last drawn, in pixels of the view."""
         return self._made.primitives if self._made is not None else ()
-
-    @property
-    def cloud(self) -> Cloud | None:
-        return self.extensions.cloud
-
-    @property
-    def extra(self) -> tuple[Item, ...]:
-        return self.extensions.lines
 
     @property
     def size_px(self) -> Size | None:
@@ -122,11 +133,14 @@ class OutsideView(Instrument):
         self.extensions.by_source[source] = Extension(tuple(items), **more)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self.tools = Tools.of(context, host.animate)
+        hits: RayPictures[dict[Pixel, float]] = RayPictures("lucida-outside-rays", host.animate)
+        self.tools = Tools(Overlay(context), Ground(), CloudLayer(context), hits)
 
     def end(self) -> None:
         if self.tools is not None:
-            self.tools.release()
+            self.tools.hits.close()
+            self.tools.overlay.release()
+            self.tools.layer.release()
 
     def cancel(self) -> None:
         self._mouse.cancel()
@@ -134,10 +148,10 @@ class OutsideView(Instrument):
 
     def begin_anew(self) -> None:
         self._scopes, self._placer = Scopes(), LabelPlacer()
-        self._covered = None  # places the labels anew
 
     def unseen(self, host: Host) -> None:
         self._made = None
+        self._drawn.forget()
         if self.tools is not None:
             self.tools.ground.forget()
 
@@ -152,11 +166,11 @@ class OutsideView(Instrument):
         more than that changes or the view is hidden.
         """
         state, scope, size = host.state, self.scope, self.size_px
-        changed = state.options.outside.camera != target.options.outside.camera
-        if scope is None or size is None or not changed or state.view != target.view:
+        end = target.options.outside.camera
+        is_changed = state.options.outside.camera != end
+        if scope is None or size is None or not is_changed or state.view != target.view:
             return None
-        options = target.options.outside
-        end = options.camera or camera_for_all(host, size, scope.extent, self.extensions.points)
+        end = end or camera_for_all(host, scope.area, self.extensions.points)
         return Ends(
             scope.camera, end, size, lambda s: s.options.outside.camera, self.with_own_camera
         )
@@ -182,168 +196,118 @@ class OutsideView(Instrument):
             return
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
-        scale = framebuffer_scale()
-        origin = imgui.get_cursor_screen_pos()
-        extent = ImVec2(size[0] / scale, size[1] / scale)
-        pixels = self._pixels.shown(host)
-        self.show("pixels", pixels)
-        scope = self._follow_mouse(host, size, origin, extent)
-        texture = self._texture(host, scope.shown, size, scope)
-        draw = imgui.get_window_draw_list()
-        far = ImVec2(origin.x + extent.x, origin.y + extent.y)
-        if texture is None:
-            draw.add_rect_filled(origin, far, theme.u32(theme.BACKGROUND))
-            imgui.set_cursor_screen_pos(ImVec2(origin.x + theme.px(8), origin.y + theme.px(8)))
-            imgui.text_wrapped(self._error)
+        area = Area.of(size, imgui.get_cursor_screen_pos())
+        self.show("pixels", self._pixels.shown(host))
+        self._follow_mouse(host, self._scope(host, area))
+        scope, draw = self._scope(host, area), imgui.get_window_draw_list()
+        try:
+            self._made = self._picture(host, scope)
+        except (LucidaError, moderngl.Error) as error:
+            self.unseen(host)
+            draw.add_rect_filled(area.origin, area.far, theme.u32(theme.BACKGROUND))
+            imgui.set_cursor_screen_pos(area.origin + ImVec2(theme.px(8), theme.px(8)))
+            imgui.text_wrapped(describe(error))
             return
-        assert self.tools is not None
-        assert self._made is not None
-        draw.add_image(imgui.ImTextureRef(texture.glo), origin, far)
-        draw.push_clip_rect(origin, far, True)
-        ground = _ground(host.state)
+        draw.add_image(imgui.ImTextureRef(self._made.texture.glo), area.origin, area.far)
+        draw.push_clip_rect(area.origin, area.far, True)
+        ground = ground_of(host.state.scene.background, host.state.images.exposure_ev)
         self._gizmo.follow(host, scope, ground)
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
             axis, tools = use_tools(host, scope, self.actions)
             if axis is not None:
                 self.look_along(host, axis)
-        if tools != self._covered:
-            labels = written(self._made.primitives, self._placer, extent, host.fonts, tools)
-            self._made, self._covered = replace(self._made, labels=labels), tools
-        draw_labels(self._made.labels, origin, ground)
+        labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
+        draw_labels(labels, area.origin, ground)
         taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 
-    # What the mouse does.
+    def _scope(self, host: Host, area: Area) -> Scope:
+        now_s, held = time.monotonic(), imgui.is_any_mouse_down()
+        self.scope = self._scopes.of(host, area, self.extensions.points, now_s, held)
+        return self.scope
 
-    def _follow_mouse(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        scope, begun = self._scope(host, size, origin, extent), host.state
-        imgui.set_cursor_screen_pos(origin)
+    def _follow_mouse(self, host: Host, scope: Scope) -> None:
+        imgui.set_cursor_screen_pos(scope.origin)
         self._over = False
         if self.hosted.holds or (self._gizmo.over and host.state.options.outside.gizmo != "none"):
-            imgui.dummy(extent)  # ImGuizmo takes no click where an item is under the mouse
-            return scope
+            imgui.dummy(scope.extent)  # ImGuizmo takes no click where an item is under the mouse
+            return
         buttons = imgui.ButtonFlags_
         imgui.set_next_item_allow_overlap()
         mouse_area(
             f"image##{self.name}",
-            extent,
+            scope.extent,
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
         right, down = (0, 0) if self.extensions.guests else focused_steps()
         if right or down:
-            angles = right * TURN_RAD, -down * TURN_RAD
-            camera = orbited(scope.camera, scope.center, *angles)
-            host.apply(
-                host.state.with_options(replace(host.state.options.outside, camera=camera)),
-                (self.name, "turned"),
-            )
-            return self._scope(host, size, origin, extent)
+            camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
+            host.apply(self.with_flown(host.state, camera), (self.name, "turned"))
+            return
         if self._pixels.follow(host, scope):
             self._mouse.cancel()
-            return self._scope(host, size, origin, extent)
+            return
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)
-        state = host.state
         if camera != scope.camera:
-            state = state.with_options(replace(state.options.outside, camera=camera))
-            host.apply(state, gesture)
-        number = partial(self.object_under, host)
-        if self.hosted.take_click(host, scope, self._mouse.clicked(), number):
-            return self._scope(host, size, origin, extent)
-        pixel = None
-        if imgui.is_item_hovered() or self._mouse.clicked():
-            pixel = self._pixel_under(host, scope)
-        if pixel is not None:
-            if self._mouse.clicked():
-                marked = None if host.state.marked == pixel else pixel
-                host.edit(replace(host.options, marked=marked))
-            elif not was_dragging:
-                host.hover(self.name, pixel)
-        return scope if host.state is begun else self._scope(host, size, origin, extent)
-
-    def _scope(self, host: Host, size: Size, origin: ImVec2, extent: ImVec2) -> Scope:
-        now_s, held = time.monotonic(), imgui.is_any_mouse_down()
-        points = self.extensions.points
-        self.scope = self._scopes.of(host, size, origin, extent, points, now_s, held)
-        return self.scope
+            host.apply(self.with_flown(host.state, camera), gesture)
+        clicked = self._mouse.clicked()
+        if self.hosted.take_click(host, scope, clicked, partial(self.object_under, host)):
+            return
+        pixel = self._pixel_under(host, scope) if imgui.is_item_hovered() or clicked else None
+        if pixel is not None and clicked:
+            marked = None if host.state.marked == pixel else pixel
+            host.edit(replace(host.options, marked=marked))
+        elif pixel is not None and not was_dragging:
+            host.hover(self.name, pixel)
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
         """Return the pixel of the image plane that is visible under the mouse."""
-        outside = host.state.options.outside
-        if not (outside.image or outside.grid):
-            return None
-        camera, ray = host.renderers.camera(host.state), scope.ray(imgui.get_mouse_pos())
-        found = pixel_seen(camera, host.renderers.size, *ray)
-        if found is None or (
-            is_quick(host.state.scene) and nearest_hit(host.state.scene, *ray)[0] <= found[1]
-        ):
-            return None
-        return found[0]
-
-    # The picture.
-
-    def _texture(
-        self, host: Host, camera: Camera, size: Size, scope: Scope
-    ) -> moderngl.Texture | None:
-        """Return the view's picture, drawn again if anything has changed; None if that failed."""
-        try:
-            self._made = self._drawn(host, camera, size, scope)
-        except (LucidaError, moderngl.Error) as error:
-            self.unseen(host)
-            self._error = describe(error)
-            return None
-        assert self.tools is not None
-        if self._scopes.waits or self._scopes.moves or not self.tools.ground.settled:
-            host.animate()
-        return self._made.texture
-
-    def _drawn(self, host: Host, camera: Camera, size: Size, scope: Scope) -> MadePicture:
-        """Return the present picture; the last one if nothing has changed."""
         both, state = host.renderers, host.state
-        assert self.tools is not None
+        if not (state.options.outside.image or state.options.outside.grid):
+            return None
+        ray = scope.ray(imgui.get_mouse_pos())
+        found = pixel_seen(both.camera(state), both.size, *ray)
+        is_hidden = (
+            found is not None
+            and is_quick(state.scene)
+            and nearest_hit(state.scene, *ray)[0] <= found[1]
+        )
+        return None if found is None or is_hidden else found[0]
+
+    def _picture(self, host: Host, scope: Scope) -> Drawing:
+        """Return the present picture; the last one if nothing has changed."""
+        both, state, tools, extensions = host.renderers, host.state, self.tools, self.extensions
+        assert tools is not None
         assert both.textures is not None
-        inner, options, extensions = both.camera(state), state.options.outside, self.extensions
-        overlay, exposure_ev = self.tools.overlay, state.images.exposure_ev
-        request, live = both.request(state), None
+        request, picture, live = both.request(state), extensions.picture, None
         assert request is not None
-        if options.image:
-            both.textures.raster.follow(request)
-            live = both.textures.raster.image
-        ground = self.tools.ground.picture(
-            ImageRequest(state.scene, camera, size), both.textures.rasterizer, overlay,
-            refines=not self._scopes.moves,
-        )  # fmt: skip
-        screen = OutsideScreen(camera, size, nearest(camera, scope), *units_px(scope.extent))
-        content = self.content(host, screen)
-        if options.half_line and self._over:
-            content = replace(content, pointed=_pointed(content, scope))
-        moves = self._scopes.moves or ground.factor > 1 or both.unfinished(state)
-        key = (
-            content, ground, screen.near, units_px(scope.extent),
-            live and live.number, state.images, theme.used(), extensions.items,
-            extensions.cloud, extensions.picture, moves,
-        )  # fmt: skip
-        if self._made is not None and same(self._made.key, key):
-            return self._made
-        primitives = project([*grown_diagram(content), *extensions.items], screen)
-        labels = written(primitives, self._placer, scope.extent, host.fonts, self._covered or ())
-        picture = extensions.picture
-        plane = image_plane(inner, camera, size)
-        if not options.image:
+        if not state.options.outside.image:
             picture = None
         elif picture is None:
             picture = both.textures.whole_raster(request, look_of(state.images))
-        texture = overlay.draw(
-            ground.textures, camera, size, layers(primitives, _ground(state)), plane, picture,
-            exposure_ev, options.image_opacity, screen.unit_px, ground.mean, CASING, ground,
-            self.tools.layer.picture(extensions.cloud, screen, _ground(state)), moves=moves,
+            live = both.textures.raster.image
+        camera, size, moves = scope.shown, scope.area.size, self._scopes.moves
+        ground = tools.ground.picture(
+            ImageRequest(state.scene, camera, size), both.textures.rasterizer, tools.overlay,
+            refines=not moves,
         )  # fmt: skip
-        return MadePicture(key, texture, primitives, labels)
+        if self._scopes.waits or moves or not tools.ground.settled:
+            host.animate()
+        near, units = nearest(camera, scope), units_px(scope.extent)
+        content = self.content(host, OutsideScreen(camera, size, near, *units))
+        if state.options.outside.half_line and self._over:
+            content = replace(content, pointed=_pointed(content, scope))
+        return self._drawn(
+            tools, ground, content, near, units, extensions.items, extensions.cloud, picture,
+            state.images.exposure_ev, (live and live.number, state.images, theme.used()),
+            moves or ground.factor > 1 or both.unfinished(state),
+        )  # fmt: skip
 
     def content(self, host: Host, screen: OutsideScreen) -> Content:
         """Return the content of a screen, with rays' ends as far as they are known."""
@@ -356,27 +320,57 @@ class OutsideView(Instrument):
         if options.meetings and marked is not None:
             ray = camera.ray(*marked.pixel, size)
             found = self._meetings(state.scene, *ray.origin.tolist(), *ray.direction.tolist())
+        text_px = NUMBER_SPACE * theme.type_px() * framebuffer_scale()
+        step = math.ceil(max(size) * text_px / max(side_px, 1.0))
         return Content(
-            camera, size, replace(options, camera=None),
-            end_parameter(camera, host.focus.framed), tuple(hits), marked,
-            int(side_px / (GRID_PX * screen.unit_px)), state.options.notation,
-            state.options.indexing.value,
-            None if host.has_tools or not options.grid else _number_step(size, side_px), found,
+            camera,
+            size,
+            replace(options, camera=None),
+            end_parameter(camera, host.focus.framed),
+            tuple(hits),
+            marked,
+            grid_parts=int(side_px / (GRID_PX * screen.unit_px)),
+            notation=state.options.notation,
+            base=state.options.indexing.value,
+            number_step=None if host.has_tools or not options.grid else step,
+            meetings=found,
             names_t=host.has_tools,
-        )  # fmt: skip
+        )
+
+
+def _drawn(
+    tools: Tools,
+    ground: GroundPicture,
+    content: Content,
+    near: float,
+    units: tuple[float, float],
+    items: tuple[Item, ...],
+    cloud: Cloud | None,
+    picture: moderngl.Texture | None,
+    exposure_ev: float,
+    number: Hashable,
+    moves: bool,
+) -> Drawing:
+    """Draw the view's picture.
+
+    number: identifies what else it shows: the content of the picture on the image plane, the
+    display transform, the theme.
+    """
+    camera, size, scene = ground.request.camera, ground.request.size, ground.request.scene
+    screen = OutsideScreen(camera, size, near, *units)
+    primitives = tuple(project([*grown_diagram(content), *items], screen))
+    behind = ground_of(scene.background, exposure_ev)
+    texture = tools.overlay.draw(
+        ground.textures, camera, size, layers(primitives, behind),
+        image_plane(content.camera, camera, size), picture, exposure_ev,
+        content.options.image_opacity, screen.unit_px, ground.mean, ground,
+        tools.layer.picture(cloud, screen, behind), moves=moves,
+    )  # fmt: skip
+    return Drawing(texture, primitives)
 
 
 def _meetings(scene: Scene, *ray: float) -> tuple[float, ...]:
     return line_meetings(scene, np.array(ray[:3]), np.array(ray[3:]))
-
-
-def _number_step(size: Size, side_px: float) -> int:
-    """Return the least step from one number of a row, or of a column, to the next.
-
-    side_px: of the image plane's longer side.
-    """
-    text_px = NUMBER_SPACE * theme.type_px() * framebuffer_scale()
-    return math.ceil(max(size) * text_px / max(side_px, 1.0))
 
 
 def _pointed(content: Content, scope: Scope) -> float | None:
@@ -385,12 +379,6 @@ def _pointed(content: Content, scope: Scope) -> float | None:
         return None
     ray = content.camera.ray(*content.marked.pixel, content.size)
     origin, way = scope.ray(imgui.get_mouse_pos())
-    start, along = np.asarray(ray.origin), np.asarray(ray.direction)
-    sides = np.column_stack([along, -np.asarray(way)])
-    found, *_ = np.linalg.lstsq(sides, np.asarray(origin) - start, rcond=None)
+    sides = np.column_stack([ray.direction, -way])
+    found, *_ = np.linalg.lstsq(sides, origin - ray.origin, rcond=None)
     return float(found[0])
-
-
-def _ground(state: AppState) -> Rgb:
-    """Return the colour that most of the drawing is on."""
-    return ground_of(state.scene.background, state.images.exposure_ev)

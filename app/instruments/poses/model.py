@@ -35,12 +35,7 @@ INLIERS = (1.0, 99.0)  # percent of points between which a reconstruction is; th
 LOOKED_AT = 50_000  # points, for that
 SEED = 7  # of the order in which points are drawn
 PLAIN = 150  # gray of points without colours
-_HEIGHT = np.linspace(-0.99, 0.99, 96)
-_TURN = np.pi * (1 + 5**0.5) * np.arange(96)
-# Evenly spread unit vectors (96, 3). Source: the spherical Fibonacci lattice.
-DIRECTIONS = np.stack(
-    [np.cos(_TURN) * (1 - _HEIGHT**2) ** 0.5, _HEIGHT, np.sin(_TURN) * (1 - _HEIGHT**2) ** 0.5], 1
-)
+CORNERS = np.array(list(np.ndindex(2, 2, 2)), bool)  # of a box: True for the higher side
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
 # A frustum's length, relative to the cameras' extent: shorter if there are many.
 SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
@@ -55,8 +50,6 @@ class PoseSet:
     them if there is a lens, and their directions, equally long: from the upper left to the right.
     points, colors: of a reconstruction, as Cloud has them.
     low, high: (3,), a box around the cameras and most of the points.
-    hull: the outermost of these points (k, 3).
-    outer: the numbers of the outermost cameras.
     told: notes on the set, a phrase each.
     files: their stamps at the time of reading.
     """
@@ -71,8 +64,6 @@ class PoseSet:
     colors: NDArray[np.uint8]
     low: Floats
     high: Floats
-    hull: Floats
-    outer: NDArray[np.int64]
     told: tuple[str, ...]
     files: Noted = field(default_factory=dict)
 
@@ -160,7 +151,6 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
     most = points[:LOOKED_AT]
     if len(most):
         ends = np.percentile(most, INLIERS, axis=0)
-        most = most[((most >= ends[0]) & (most <= ends[1])).all(axis=1)]
         low, high = np.minimum(low, ends[0]), np.maximum(high, ends[1])
     return PoseSet(
         path,
@@ -173,19 +163,8 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
         colors,
         low,
         high,
-        most[outermost(most)],
-        outermost(eyes),
         found.taken,
     )
-
-
-def outermost(points: Floats) -> NDArray[np.int64]:
-    """Return the indices of points (n, 3) that are outermost in one of many directions. Together
-    they have about the same extent as all points, from every side.
-    """
-    if not len(points):
-        return np.zeros(0, np.int64)
-    return np.unique(np.argmax(points @ DIRECTIONS.T, axis=0))
 
 
 def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
@@ -240,11 +219,9 @@ def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
     size = length * poses.length
     lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
     points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
-    origins = poses.origins[poses.outer]
-    ends = origins + size * poses.ways[poses.outer]
-    around = np.concatenate([origins, ends]).reshape(-1, 3)
-    if with_points:
-        around = np.concatenate([around, poses.hull])
+    eyes = poses.origins.mean(axis=1)
+    low, high = (poses.low, poses.high) if with_points else (eyes.min(axis=0), eyes.max(axis=0))
+    around = np.where(CORNERS, high + size, low - size)
     return Cloud(lines, poses.origin, points, colors, around)
 
 
@@ -280,23 +257,3 @@ def with_set_framed(state: AppState, poses: PoseSet, size: Size | None) -> AppSt
     width, height = size or (4, 3)
     camera = framed(points, way, width / height, up=poses.up)
     return state.with_options(replace(state.options.outside, camera=camera))
-
-
-# The list.
-
-
-def matching(names: Sequence[str], query: str) -> list[int]:
-    """Return the indices of the names that contain all words of a query, ignoring case."""
-    words = query.lower().split()
-    return [n for n, name in enumerate(names) if all(word in name.lower() for word in words)]
-
-
-def walked(shown: Sequence[int], chosen: int, steps: int) -> int:
-    """Return the camera that is this many steps further in the list, clamped to its ends; -1 for an
-    empty list. If the selected one is not in the list, return the first.
-    """
-    if not shown:
-        return -1
-    if chosen not in shown:
-        return shown[0] if steps >= 0 else shown[-1]
-    return shown[min(max(shown.index(chosen) + steps, 0), len(shown) - 1)]

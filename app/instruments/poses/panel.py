@@ -5,7 +5,6 @@ Takes values and returns requests.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -109,15 +108,6 @@ def _buttons(*entries: tuple[PoseWish, str, str]) -> PoseWish:
     return wish
 
 
-def search(query: str, found: int, of: int) -> str:
-    """Draw the search field for names."""
-    imgui.set_next_item_width(-1)
-    _, query = imgui.input_text_with_hint("##search", f"search {of} names", query)
-    if query:
-        tip(f"{found} of {of}")
-    return str(query)
-
-
 def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
     """Return the rooms for the list and the photograph, and whether they are side by side."""
     room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
@@ -131,28 +121,24 @@ def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
     return ImVec2(room.x, max(room.y - photo - gap.y, 1.0)), ImVec2(room.x, photo), False
 
 
-def rows(
-    poses: PoseSet, shown: Sequence[int], chosen: int, scroll: bool, room: ImVec2
-) -> int | None:
+def rows(poses: PoseSet, chosen: int, scroll: bool, room: ImVec2) -> int | None:
     """Draw the list. Return the number of the clicked row. Only visible rows are made.
 
-    shown: the numbers of those that the search found. chosen: the number of the selected one, -1
-    for none. scroll: scroll to it; without a selection, to the first.
+    chosen: the number of the selected one, -1 for none. scroll: scroll to it; without a selection,
+    to the first.
     """
     clicked = None
     if imgui.begin_child("list", room, LISTED):
         height = imgui.get_text_line_height_with_spacing()
-        if scroll and chosen not in shown:
-            imgui.set_scroll_y(0.0)
-        elif scroll:
-            top = height * shown.index(chosen)
+        if scroll:
+            top = height * max(chosen, 0)
             seen, tall = imgui.get_scroll_y(), imgui.get_window_height()
             if not seen <= top <= seen + tall - 3 * height:
                 imgui.set_scroll_y(max(top - 0.4 * tall, 0.0))
         clipper = imgui.ListClipper()
-        clipper.begin(len(shown), height)
+        clipper.begin(len(poses.names), height)
         while clipper.step():
-            for number in shown[clipper.display_start : clipper.display_end]:
+            for number in range(clipper.display_start, clipper.display_end):
                 on = number == chosen
                 if on:  # distinct from the one under the mouse
                     imgui.push_style_color(imgui.Col_.header, theme.FILL)
@@ -160,8 +146,6 @@ def rows(
                 if imgui.selectable(f"{one_line(poses.names[number])}###{number}", on)[0]:
                     clicked = number
                 imgui.pop_style_color(2 if on else 0)
-        if not shown:
-            imgui.text_colored(theme.DIM, "no name has that in it")
     imgui.end_child()
     return clicked
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.instruments.poses.model import PoseSet
-from lucida.app.instruments.poses.reprojected import bare, with_points
+from lucida.app.instruments.poses.reprojected import with_points
 from lucida.app.ui.background import Background
 from lucida.renderer.system.errors import one_line
 
@@ -29,7 +29,7 @@ class Photograph:
 
     path: None if there is no file.
     pixels: uint8 (height, width, 3), row 0 at the top; None if there is nothing to show.
-    problem: the reason why there is no photograph; pixels then only show the points.
+    problem: the reason why there is no photograph.
     size: the file's own, (width, height).
     """
 
@@ -99,12 +99,11 @@ def _is_there(path: Path) -> bool:
 
 
 def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
-    """Return a camera's photograph; if there is none, the set's points as the camera sees them."""
+    """Return a camera's photograph, with the set's points as the camera sees them if `dotted`."""
     found = read_photograph(poses, number)
-    if not len(poses.points) or not (dotted or found.pixels is None):
+    if found.pixels is None or not dotted or not len(poses.points):
         return found
-    pixels = bare(poses, number, SIDE_PX) if found.pixels is None else found.pixels
-    return replace(found, pixels=with_points(poses, number, pixels))
+    return replace(found, pixels=with_points(poses, number, found.pixels))
 
 
 def read_photograph(poses: PoseSet, number: int) -> Photograph:

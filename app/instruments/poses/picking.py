@@ -3,52 +3,26 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lucida.app.instruments.outside.screen import OutsideScreen
-from lucida.app.instruments.poses.model import PoseSet, frusta
+from lucida.app.instruments.poses.model import PoseSet
 
-REACH_PX = 7.0  # from a line, in units of symbols
-AS_NEAR_PX = 1.5  # of two frusta whose lines are as near, the one in front
+REACH_PX = 12.0  # from a point of a frustum's edges, in units of symbols
+PLACES = np.linspace(0.0, 1.0, 9)[:, None]  # of the points along an edge
 
 
 def picked(
     poses: PoseSet, size: float, screen: OutsideScreen, place: tuple[float, float]
 ) -> int | None:
-    """Return the number of the camera with a line at this place of the screen, in pixels from the
-    upper left corner. size: of the frusta, world units.
+    """Return the number of the camera that has an edge at this place of the screen, in pixels from
+    the upper left corner; the one in front if there are several. size: of the frusta, world units.
     """
-    reach = REACH_PX * screen.symbol_px
-    near = _around(poses, size, screen, place, reach)
-    if not len(near):
-        return None
-    points, depth, which = screen.segments(frusta(poses, size, near))
-    if not len(points):
-        return None
-    start, along = points[:, 0], points[:, 1] - points[:, 0]
-    length2 = np.maximum((along**2).sum(axis=1), 1e-12)
-    part = np.clip(((np.asarray(place) - start) * along).sum(axis=1) / length2, 0.0, 1.0)
-    away = np.linalg.norm(start + part[:, None] * along - place, axis=1)
-    if away.min() > reach:
-        return None
-    s = depth[:, 0] + part * (depth[:, 1] - depth[:, 0])
-    front = s if screen.camera.is_parallel else -s  # the smaller, the nearer to the eye
-    close = np.flatnonzero(away <= away.min() + AS_NEAR_PX * screen.symbol_px)
-    return int(near[which[close[np.argmin(front[close])]] // poses.lines])
-
-
-def _around(
-    poses: PoseSet, size: float, screen: OutsideScreen, place: tuple[float, float], reach: float
-) -> NDArray[np.int64]:
-    """Return the numbers of the cameras whose box on the screen contains the place, and of those
-    that reach behind the viewer's eye, which have no box.
-    """
-    corners = np.concatenate([poses.origins, poses.origins + 1.5 * size * poses.ways], axis=1)
-    spots = screen.homogeneous(corners)
-    ahead = (spots[..., 2] > screen.near).all(axis=1)
+    edges = size * poses.ways[:, :: poses.parts, None] * PLACES
+    spots = screen.homogeneous(poses.origins[:, :: poses.parts, None] + edges)
     with np.errstate(all="ignore"):
-        at, _ = screen.on_screen(spots)
-    low, high = at.min(axis=1) - reach, at.max(axis=1) + reach
-    inside = ((low <= place) & (high >= place)).all(axis=1)
-    partly = (spots[..., 2] > screen.near).any(axis=1) & ~ahead
-    return np.flatnonzero((ahead & inside) | partly)
+        places, _ = screen.on_screen(spots)
+        away = np.linalg.norm(places - place, axis=-1)
+    t = spots[..., 2]
+    near = (away <= REACH_PX * screen.symbol_px) & (t > screen.near)
+    front = np.where(near, t, np.inf).min(axis=(1, 2))
+    return int(front.argmin()) if near.any() else None

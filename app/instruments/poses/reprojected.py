@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from lucida.app.instruments.poses.model import PoseSet
 
 Bytes = NDArray[np.uint8]
-BARE = (40, 44, 49)  # without a photograph
 MANY = (4, 20)  # pixels per point, above which points are larger
 DARKER = 0.45  # a photograph's light under points
 
@@ -37,15 +36,3 @@ def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
             inside = (i >= 0) & (i < height) & (j >= 0) & (j < width)
             out[i[inside], j[inside]] = poses.colors[seen][order][inside]
     return out
-
-
-def bare(poses: PoseSet, number: int, side: int) -> Bytes:
-    """Return a plain picture of a camera's proportions, in place of its photograph. side: the
-    longer one, pixels.
-    """
-    posed = poses.cameras[number]
-    left, right, bottom, top = posed.camera.viewport
-    width, height = posed.size or (right - left, top - bottom)
-    scale = side / max(width, height)
-    shape = max(round(scale * height), 1), max(round(scale * width), 1), 3
-    return np.broadcast_to(np.array(BARE, np.uint8), shape)

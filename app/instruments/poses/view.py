@@ -24,8 +24,6 @@ from lucida.app.instruments.poses.model import (
     PoseSet,
     cloud,
     frusta,
-    matching,
-    walked,
     with_set,
     with_set_framed,
 )
@@ -77,8 +75,6 @@ class PosesView(Instrument):
         self._mistake = ""
         self.hovered: int | None = None
         self._picked = Memo(_picked)
-        self._query = ""
-        self._matching = Memo(_matching)
         self._cloud = Memo(cloud)
         self._items = Memo(_outside_items)
         self._upload = Memo(_upload)
@@ -88,7 +84,6 @@ class PosesView(Instrument):
     def give(self, window: Host, poses: PoseSet) -> None:
         """Show the set that the state names."""
         self._reader.give(poses)  # so that nothing waits
-        self._query = ""
         window.show_in(POSES, layout.OUTSIDE)
 
     def open(self, window: Host, poses: PoseSet, scene: Scene | None) -> None:
@@ -159,11 +154,9 @@ class PosesView(Instrument):
         wish, changed = panel.head(poses, options, host.fonts)
         if changed != options:
             host.apply(state.with_options(changed))
-        shown = self._matching(poses, self._query)
-        self._query = panel.search(self._query, len(shown), len(poses.names))
         for_list, for_photo, beside = panel.rooms(chosen >= 0)
         scroll = chosen != self._scrolled
-        clicked = panel.rows(poses, shown, chosen, scroll, for_list)
+        clicked = panel.rows(poses, chosen, scroll, for_list)
         self._scrolled = chosen
         if chosen >= 0:
             if beside:
@@ -178,7 +171,7 @@ class PosesView(Instrument):
 
     def _forget_set(self) -> None:
         self._photographs.forget()
-        for memo in (self._matching, self._picked, self._cloud, self._items, self._upload):
+        for memo in (self._picked, self._cloud, self._items, self._upload):
             memo.forget()
         self._scrolled = self.hovered = None
 
@@ -233,8 +226,9 @@ class PosesView(Instrument):
             self.lay(host, poses)
         else:
             steps = {"next": 1, "previous": -1, "first": -BEYOND, "last": BEYOND}[wish]
-            number = walked(self._matching(poses, self._query), self.chosen(host.state), steps)
-            if number >= 0 and number != self.chosen(host.state):
+            chosen = self.chosen(host.state)
+            number = min(max(chosen + steps, 0), len(poses.names) - 1)
+            if number != chosen:
                 self.take(host, number)
 
     def frame(self, host: Host, poses: PoseSet) -> None:
@@ -266,9 +260,7 @@ class PosesView(Instrument):
             return self._uploads.get(PHOTO), "", follows or None
         self._upload(self._uploads, found)
         caption = found.problem
-        if found.problem and found.pixels is not None:
-            caption += " The points as it would see them."
-        elif found.path is not None and not found.problem:
+        if found.path is not None and not found.problem:
             caption = f"{found.size[0]} x {found.size[1]}, {one_line(found.path.name)}"
         laid = follows if follows or found.path is not None else None
         return self._uploads.get(PHOTO), caption, laid
@@ -319,10 +311,6 @@ class PosesView(Instrument):
         at = column * size[0], row * size[1]
         near, unit_px = nearest(scope.shown, scope), theme.px(1) * scale
         return self._picked(poses, length, scope.shown, size, near, unit_px, at)
-
-
-def _matching(poses: PoseSet, query: str) -> list[int]:
-    return matching(poses.names, query)
 
 
 def _picked(

@@ -19,6 +19,7 @@ from lucida.app.ui.explaining.notation import (
     bold,
     formula,
     latex_number,
+    results,
     scalar_slot,
     vector_slot,
 )
@@ -88,30 +89,24 @@ def _on_plane(reading: Reading, indexing: Indexing, axis: int) -> Line:
     """Return the line for u (axis 0) or v (1) of the pixel's centre."""
     low, high = reading.camera.viewport[2 * axis : 2 * axis + 2]
     pixel, count = "ji"[axis], "WH"[axis]
-    ends = (r"\mathrm{left}", low), (r"\mathrm{right}", high)
+    first, last = (r"\mathrm{left}", low), (r"\mathrm{right}", high)
     if axis:  # rows are counted from the top
-        ends = (r"\mathrm{top}", high), (r"\mathrm{bottom}", low)
+        first, last = (r"\mathrm{top}", high), (r"\mathrm{bottom}", low)
     slots = {
-        "p": _count(pixel, reading.pixel[1 - axis] + indexing.value),
-        "n": _count(count, reading.size[axis]),
-        "a": scalar_slot(*ends[0]),
-        "b": scalar_slot(*ends[1], factor=bool(axis)),
-        "af": scalar_slot(*ends[0], factor=True),
+        "p": Slot(pixel, str(reading.pixel[1 - axis] + indexing.value)),
+        "n": Slot(count, str(reading.size[axis])),
+        "a": scalar_slot(*first),
+        "b": scalar_slot(*last, factor=bool(axis)),
+        "af": scalar_slot(*first, factor=True),
     }
     part = rf"\frac{{<p> {indexing.offset}}}{{<n>}}"
     if reading.camera.viewport == LECTURE_VIEWPORT:
         right = rf"-\left({part} - 0.5\right)" if axis else f"{part} - 0.5"
     else:
-        extent = "(<a> - <b>)" if axis else "(<b> - <af>)"
-        sign = "-" if axis else "+"
-        right = rf"<a> {sign} {extent}\,{part}"
+        right = rf"<a> - (<a> - <b>)\,{part}" if axis else rf"<a> + (<b> - <af>)\,{part}"
     symbol = "uv"[axis]
     value = reading.y if axis else reading.x
     return formula(symbol, f"along {symbol}", symbol, right, slots, value)
-
-
-def _count(symbol: str, value: int) -> Slot:
-    return Slot(symbol, str(value))
 
 
 # Direction and origin.
@@ -128,15 +123,14 @@ def _direction_and_origin(reading: Reading) -> list[Line]:
     }
     across = r"<x>\,<u> + <y>\,<v>"
     if parallel:
-        symbols, own = ("0", "0", "-1"), (0.0, 0.0, -1.0)
+        in_camera, own = r"(0,\ 0,\ -1)", (0.0, 0.0, -1.0)
         direction, origin = "-<w>", f"<e> + {across}"
     else:
-        symbols, own = ("u", "v", "-d"), (reading.x, reading.y, -camera.distance)
+        in_camera, own = r"(u,\ v,\ -d)", (reading.x, reading.y, -camera.distance)
         direction, origin = rf"{across} - <d>\,<w>", "<e>"
-    d, p, left = r"\mathbf{d}", r"\mathbf{p}", r"\mathbf{d}_{uvw}"
-    in_camera = r"({},\ {},\ {})".format(*symbols)
+    d, p = r"\mathbf{d}", r"\mathbf{p}"
     return [
-        formula("camera direction", "direction, camera", left, in_camera, {}, own),
+        formula("camera direction", "direction, camera", rf"{d}_{{uvw}}", in_camera, {}, own),
         formula("direction", "direction, world", d, direction, slots, reading.direction),
         formula("origin", "origin", p, origin, slots, reading.origin),
     ]
@@ -147,19 +141,14 @@ def _range(camera: Camera) -> Line:
     low, high = camera.t_range
     if camera.near is None and camera.far is None:
         return Line("range", "half a line", "t > 0", "", (low, high))
-    over, symbols = "" if camera.is_parallel else "d", []
-    for clip, name in ((camera.near, "near"), (camera.far, "far")):
-        symbol = rf"\mathrm{{{name}}}"
-        symbols.append(rf"\frac{{{symbol}}}{{{over}}}" if over else symbol)
-        if clip is None:
-            symbols[-1] = r"\infty" if name == "far" else "0"
-    return Line(
-        "range",
-        "clipped by near and far",
-        f"{symbols[0]} < t < {symbols[1]}",
-        f"{latex_number(low)} < t < {latex_number(high)}",
-        (low, high),
+    near, far = (
+        rf"\mathrm{{{name}}}" if camera.is_parallel else rf"\frac{{\mathrm{{{name}}}}}{{d}}"
+        for name in ("near", "far")
     )
+    near = "0" if camera.near is None else near
+    far = r"\infty" if camera.far is None else far
+    numbers = f"{latex_number(low)} < t < {latex_number(high)}"
+    return Line("range", "clipped by near and far", f"{near} < t < {far}", numbers, (low, high))
 
 
 # The hit on the visible object.
@@ -197,14 +186,8 @@ def _sphere_t(reading: Reading) -> list[Line]:
         "b": scalar_slot("b", b, factor=True),
         "c": scalar_slot("c", c, factor=True),
     }
-    root = formula(
-        "t",
-        "its root",
-        "t",
-        rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}",
-        slots,
-        t,
-    )
+    right = rf"\frac{{-<b> {sign} \sqrt{{<b>^2 - <a> \cdot <c>}}}}{{<a>}}"
+    root = formula("t", "its root", "t", right, slots, t)
     return [quadratic, coefficients, root]
 
 
@@ -227,22 +210,13 @@ def _triangle_t(reading: Reading) -> list[Line]:
         hit.t,
     )
     weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
-    corners = [vector_slot(name, at) for name, at in zip("abc", reading.corners, strict=True)]
-    factors = [scalar_slot(f"b_{k}", weight, factor=True) for k, weight in enumerate(weights)]
-    sums = [
-        " + ".join(pair)
-        for pair in (
-            [rf"{f.latex}\,{c.latex}" for f, c in zip(factors, corners, strict=True)],
-            [rf"{f.latex_value}\,{c.latex_value}" for f, c in zip(factors, corners, strict=True)],
-        )
-    ]
-    inside = Line(
-        "inside",
-        "inside: no weight of a corner is negative",
-        rf"\mathbf{{x}} = {sums[0]}",
-        f"= {sums[1]}",
-        weights,
-    )
+    terms = {}
+    for k, (letter, at) in enumerate(zip("abc", reading.corners, strict=True)):
+        terms[f"b{k}"] = scalar_slot(f"b_{k}", weights[k], factor=True)
+        terms[letter] = vector_slot(letter, at)
+    right = r"<b0>\,<a> + <b1>\,<b> + <b2>\,<c>"
+    name = "inside: no weight of a corner is negative"
+    inside = formula("inside", name, r"\mathbf{x}", right, terms, weights, results(hit.point))
     return [plane, inside]
 
 
@@ -269,7 +243,7 @@ def _geometric_normal(reading: Reading) -> Line:
     sign = "" if is_front else "-"
     product = r"\frac{(\mathbf{b} - \mathbf{a}) \times (\mathbf{c} - \mathbf{a})}{|\dots|}"
     name = "normal of the triangle, towards the viewer"
-    return _stated("geometric", name, symbol, sign + product, hit.geometric)
+    return formula("geometric", name, bold(symbol), sign + product, {}, hit.geometric)
 
 
 def _normal_for_light(hit: SurfaceHit) -> Line:
@@ -277,22 +251,16 @@ def _normal_for_light(hit: SurfaceHit) -> Line:
     if not hit.corner_normals:
         g, d = r"\mathbf{g}", r"\hat{\mathbf{d}}"
         right = rf"\frac{{{g} - ({g} \cdot {d} + {LEAST_COSINE:g})\,{d}}}{{|\dots|}}"
-        return _stated("normal", "normal for the light, bent to the viewer", "n", right, hit.normal)
+        name = "normal for the light, bent to the viewer"
+        return formula("normal", name, bold("n"), right, {}, hit.normal)
     weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
     # Towards the viewer too, whichever side the corners' point to.
     sign = "-" if np.dot(weights, hit.corner_normals) @ np.array(hit.normal) < 0 else ""
-    right = (
-        rf"{sign}\frac{{b_0 \mathbf{{n}}_a + b_1 \mathbf{{n}}_b + b_2 \mathbf{{n}}_c}}{{|\dots|}}"
-    )
-    return _stated("normal", "normal for the light, between the corners'", "n", right, hit.normal)
+    corners = r"b_0 \mathbf{n}_a + b_1 \mathbf{n}_b + b_2 \mathbf{n}_c"
+    right = rf"{sign}\frac{{{corners}}}{{|\dots|}}"
+    name = "normal for the light, between the corners'"
+    return formula("normal", name, bold("n"), right, {}, hit.normal)
 
 
 def _geometric_symbol(hit: SurfaceHit) -> str:
     return "g" if hit.has_own_normal else "n"
-
-
-def _stated(
-    key: str, name: str, symbol: str, right: str, value: tuple[float, float, float]
-) -> Line:
-    """Return a line that shows only the result in numbers."""
-    return formula(key, name, bold(symbol), right, {}, value)

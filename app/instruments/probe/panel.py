@@ -22,19 +22,16 @@ from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Notation, Pixel
 from lucida.app.ui import palettes, theme
-from lucida.app.ui.checks import checkbox
 from lucida.app.ui.explaining.notation import Line, number
 from lucida.app.ui.formula import formula, lit
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
-from lucida.app.ui.rows import button_width, follow, tip
+from lucida.app.ui.rows import button_width, follow
 from lucida.app.ui.theme import Fonts
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.scene.model import Color
 
-WIDE_EM, NAMES_EM = 42.0, 8.5  # from this width on, names have a separate column
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")
 
@@ -53,19 +50,12 @@ class Pin:
 # The tools above.
 
 
-def toolbar(state: AppState, pixel: Pixel | None, size: Size, reading: Reading | None) -> AppState:
-    """Draw the pixel, its indexing, the copies. pixel: the marked one, or the one under
-    the mouse.
-    """
+def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> AppState:
+    """Draw the pixel, and the buttons. pixel: the marked one, or the one under the mouse."""
     indexing = state.options.indexing
-    state = _pixel_fields(state, pixel, size, indexing)
-    follow(imgui.calc_text_size("from 1").x + 1.6 * imgui.get_frame_height())
-    imgui.begin_disabled(state.step is not None)  # a lecture's text counts in its own way
-    changed, one_based = checkbox("from 1", state.options.one_based)
-    imgui.end_disabled()
-    tip("count rows and columns from 1, as in the lecture, or from 0, as arrays")
-    if changed:
-        state = state.with_options(replace(state.options, one_based=one_based))
+    imgui.align_text_to_frame_padding()
+    words = indexing.words(pixel) if pixel is not None else "no pixel"
+    imgui.text(f"{words}, {indexing.told}")
     pins = state.options.probe.pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -111,37 +101,6 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
     return state
 
 
-def _pixel_fields(state: AppState, pixel: Pixel | None, size: Size, indexing: Indexing) -> AppState:
-    first = indexing.value
-    shown = indexing.numbers(pixel or (0, 0))
-    width = imgui.calc_text_size("00000").x + 2 * imgui.get_style().frame_padding.x
-    chosen = list(shown)
-    edited = False
-    imgui.begin_disabled(pixel is None)
-    for k, name in enumerate(("row i", "column j")):
-        if k:
-            follow(width + imgui.calc_text_size(name).x + theme.px(12))
-        imgui.align_text_to_frame_padding()
-        imgui.text(name)
-        imgui.same_line()
-        imgui.set_next_item_width(width)
-        changed, value = imgui.drag_int(
-            f"##{name}", shown[k], 0.2, first, size[1 - k] - 1 + first, "%d",
-            imgui.SliderFlags_.always_clamp,
-        )  # fmt: skip
-        tip("drag or double-click to type; the arrow keys walk, Shift: 10 pixels")
-        if changed:
-            chosen[k], edited = value, True
-    imgui.end_disabled()
-    if not edited:
-        return state
-    row, column = (
-        min(max(part - first, 0), most - 1)
-        for part, most in zip(chosen, (size[1], size[0]), strict=True)
-    )
-    return state.with_options(replace(state.options, marked=(row, column)))
-
-
 # The reading.
 
 _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compared by identity
@@ -179,31 +138,15 @@ def _section(name: str, fonts: Fonts) -> bool:
 
 
 def _lines(lines: Iterable[Line], swatches: Reading | None = None) -> None:
-    """Draw the lines. Names go next to the formulas if there is room, else above them."""
+    """Draw the lines, each with its name above the formula."""
     size_px = imgui.get_font_size()
-    beside = imgui.get_content_region_avail().x > 0.999 * WIDE_EM * size_px
-    if not beside:
-        for number, line in enumerate(lines):
-            if number:
-                imgui.dummy(ImVec2(0, 0))
-            _name(line, swatches)
-            imgui.indent(0.6 * size_px)
-            _formula(line, size_px)
-            imgui.unindent(0.6 * size_px)
-        return
-    flags = imgui.TableFlags_
-    if not imgui.begin_table("lines", 2, flags.no_saved_settings):
-        return
-    imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, NAMES_EM * size_px)
-    imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
-    for line in lines:
-        imgui.table_next_row()
-        imgui.table_next_column()
+    for count, line in enumerate(lines):
+        if count:
+            imgui.dummy(ImVec2(0, 0))
         _name(line, swatches)
-        imgui.table_next_column()
+        imgui.indent(0.6 * size_px)
         _formula(line, size_px)
-        imgui.dummy(ImVec2(0, 0.2 * size_px))
-    imgui.end_table()
+        imgui.unindent(0.6 * size_px)
 
 
 def _name(line: Line, swatches: Reading | None) -> None:

@@ -7,14 +7,12 @@ probe/panel.py draws a reading, probe/model.py computes it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from lucida.app.images.pair.marks import walked
 from lucida.app.images.request import MIRROR_DEPTH
 from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Segments
 from lucida.app.instruments.outside.extent import end_parameter
@@ -37,21 +35,16 @@ from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 
 PROBE = "Probe"
-ARROWS = (
-    imgui.Key.left_arrow,
-    imgui.Key.right_arrow,
-    imgui.Key.up_arrow,
-    imgui.Key.down_arrow,
-)
 NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
-HINT = "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys walk."
+HINT = (
+    "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys move it."
+)
 
 
 class ProbeView(Instrument):
     name = PROBE
     title = "Probe"
     actions = PINNING
-    keyboard = (("arrows in the probe", "another pixel; Shift: by ten"),)
     synonyms = {
         "Probe": "ray formula intersection pixel",
     }
@@ -89,11 +82,10 @@ class ProbeView(Instrument):
         if min(size) < 1:
             return
         self._prepare(state)
-        self._walk(host, size)
         pixel = self._pixel(host, size)
         reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
         self.reading = reading
-        host.apply(panel.toolbar(host.state, pixel, size, reading))
+        host.apply(panel.toolbar(host.state, pixel, reading))
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
@@ -164,24 +156,6 @@ class ProbeView(Instrument):
             reading = self._reading(state, pixel if inside else None, camera, size)
             pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
         return pins
-
-    def _walk(self, host: Host, size: Size) -> None:
-        """Handle the arrow keys while the panel has them. They are taken from ImGui's navigation,
-        which keeps Tab.
-        """
-        shift = int(imgui.Key.mod_shift)
-        flags = int(imgui.InputFlags_.repeat | imgui.InputFlags_.route_focused)
-        taken = [
-            imgui.shortcut(modifier | int(key), flags) for key in ARROWS for modifier in (0, shift)
-        ]
-        if not any(taken) or imgui.is_any_item_active():
-            return
-        start = self._pixel(host, size) or (size[1] // 2, size[0] // 2)
-        pixel = walked(host.state.marked, size, start)
-        if pixel is not None:
-            host.apply(
-                host.state.with_options(replace(host.state.options, marked=pixel)), (PROBE, "walk")
-            )
 
     # In the outside view.
 

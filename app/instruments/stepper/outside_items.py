@@ -7,8 +7,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import Dot, Face, Item, Segments, polyline
-from lucida.app.instruments.outside.frustum import image_point, pixel_corners
+from lucida.app.instruments.outside.diagram import Dot, Item, Segments, polyline
+from lucida.app.instruments.outside.frustum import image_point
+from lucida.app.instruments.outside.pixel_drawing import pixel_square
 from lucida.app.instruments.stepper.loop_parts import ViewingRay
 from lucida.app.instruments.stepper.model import Moment
 from lucida.app.instruments.stepper.programs import Hits
@@ -30,7 +31,7 @@ def run_items(camera: Camera, size: Size, moments: tuple[Moment, ...], end: floa
         if moment.box is not None and moment.box[0] and moment.box[1]:
             items.append(_plane_box(camera, size, moment.box))
         if moment.pixel is not None:
-            items += _pixel(camera, size, moment.pixel)
+            items += pixel_square(camera, size, moment.pixel, 0.3, 2.0)
         if moment.ray is not None:
             hits = (moment.t,) if moment.t < math.inf else ()
             items += _ray(moment.ray, min(moment.t, end), hits, moment.t)
@@ -49,15 +50,7 @@ def traced_items(
     reach = min(closest, end) if part >= 2 else end * min(part, 1.0)
     found = t[t <= (closest if part > 3 else end * (part - 1))]
     ray = _ray(hits.rays[number], reach, found[found < math.inf].tolist(), closest)
-    return [*_pixel(camera, hits.size, pixel), *ray]
-
-
-def _pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
-    corners = pixel_corners(camera, pixel, size)
-    return [
-        Face("pixel", "mark", corners, 0.3, on_plane=True, layer=2),
-        Segments("pixel", "mark", polyline(corners, True), 2.0, on_plane=True, layer=3),
-    ]
+    return [*pixel_square(camera, hits.size, pixel, 0.3, 2.0), *ray]
 
 
 def _ray(ray: ViewingRay, reach: float, hits: Iterable[float], closest: float) -> list[Item]:

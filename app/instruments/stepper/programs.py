@@ -22,9 +22,9 @@ from lucida.renderer.camera.checks import Floats, three
 from lucida.renderer.camera.image_plane import Size
 
 GLOW = 0.01  # of a run: the lines that have just been executed shine together
-# When a line is executed: once, in each row, in each turn of the outer loop, in each turn of the
-# inner one, if the object is the nearest so far, or after the inner loop.
-When = Literal["once", "row", "outer", "inner", "nearer", "after"]
+# When a line is executed: in each turn of the outer loop, in each turn of the inner one, if the
+# object is the nearest so far, or after the inner loop. Other lines are never lit.
+When = Literal["", "outer", "inner", "nearer", "after"]
 
 
 class Line(NamedTuple):
@@ -69,10 +69,10 @@ def whole_program(camera: Camera) -> tuple[Line, ...]:
     if camera.is_parallel:
         ray = "cam.eye + x*cam.u + y*cam.v", "-cam.w"
     return (
-        Line("from objects import color, intersect, miss", "once"),
-        Line("def render(scene, cam, canvas):", "once"),
-        Line("    height, width = canvas.shape[:2]", "once"),
-        Line("    for i in range(height):", "row"),
+        Line("from objects import color, intersect, miss", ""),
+        Line("def render(scene, cam, canvas):", ""),
+        Line("    height, width = canvas.shape[:2]", ""),
+        Line("    for i in range(height):", ""),
         Line("        for j in range(width):", "outer"),
         Line(f"            x = {place[0]}", "outer"),
         Line(f"            y = {place[1]}", "outer"),
@@ -161,14 +161,12 @@ class LoopRun:
         """Return each line executed, with the number of tests of an object at a pixel by then."""
         of = {
             when: [n for n, line in enumerate(self.lines) if line.when == when]
-            for when in ("once", "row", "outer", "inner", "nearer", "after")
+            for when in ("outer", "inner", "nearer", "after")
         }
         nearer = self.hits.nearer if self.by_object else self.hits.nearer.T
-        steps = [(n, 0) for n in of["once"]]
+        steps: list[tuple[int, int]] = []
         for outer, turns in enumerate(nearer.tolist()):
             begun = outer * len(turns)
-            if not outer % self.hits.size[0]:
-                steps += [(n, begun) for n in of["row"]]
             steps += [(n, begun) for n in of["outer"]]
             for inner, is_nearer in enumerate(turns):
                 steps += [(n, begun + inner) for n in of["inner"]]

@@ -14,8 +14,7 @@ EYE = ImVec2(0.04, 0.56)
 FRAME = ImVec2(0.28, 0.84), ImVec2(0.28, 0.24), ImVec2(0.54, 0.12), ImVec2(0.54, 0.64)
 BALL, RADIUS = ImVec2(0.83, 0.42), 0.165
 PIXEL, HIT = ImVec2(0.41, 0.492), ImVec2(0.68, 0.444)
-# The columns and rows of the pictures; in a narrow room.
-PLACES = ((0.0, 0.0), (1.0, 0.0), (0.5, 1.0)), ((0.0, 0.0), (0.0, 1.0), (0.0, 2.0))
+PLACES = (0.0, 0.0), (1.0, 0.0), (0.5, 1.0)  # the columns and rows of the pictures
 
 
 def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: float) -> None:
@@ -23,12 +22,11 @@ def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: fl
 
     texture: of the image, (width, height) = size.
     """
-    gap, places = imgui.get_font_size(), PLACES[room.x < 0.6 * room.y]
-    columns, rows = (1 + max(axis) for axis in zip(*places, strict=True))
-    side = min((room.x - gap * (columns + 1)) / columns, (room.y - gap * (rows + 1)) / rows)
-    low = low + (room - ImVec2(columns, rows) * (side + gap) + ImVec2(gap, gap)) * 0.5
+    gap = imgui.get_font_size()
+    side = (min(room.x, room.y) - 3 * gap) / 2
+    low = low + (room - ImVec2(2, 2) * (side + gap) + ImVec2(gap, gap)) * 0.5
     draw = imgui.get_window_draw_list()
-    for number, place in enumerate(places):
+    for number, place in enumerate(PLACES):
         at = low + ImVec2(*place) * (side + gap)
         opacity = min(max(part - number, 0.0), 1.0)
         if not opacity:

@@ -22,13 +22,12 @@ from lucida.renderer.files.cameras import colmap_lenses
 from lucida.renderer.files.cameras import colmap_records as records
 from lucida.renderer.files.cameras.colmap_lenses import model_for
 from lucida.renderer.files.cameras.distortion import lens_of
-from lucida.renderer.files.cameras.entries import in_image
+from lucida.renderer.files.cameras.entries import ORIGIN_TOLD, in_image
 from lucida.renderer.files.cameras.given import Given, Options
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
 from lucida.renderer.files.cameras.rigid import pinhole
 from lucida.renderer.files.cameras.rotations import quaternion_of, rotation_of
 from lucida.renderer.files.reading import naming, read_file
-from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError, under
 
 LENSES = frozenset(colmap_lenses.LENSES.values())
@@ -54,10 +53,6 @@ def read(given: Given, options: Options) -> CameraSet:
         problem = "has no cameras and images of COLMAP, .bin or .txt"
         raise LucidaError("", problem, "give the folder of a model, such as sparse/0")
     folder, kind = model
-    for name in ("cameras", "images"):
-        if not isfile(folder / f"{name}{kind}"):
-            problem = f"has no {name}{kind}, which a model of COLMAP needs"
-            raise LucidaError("", problem, "copy it there", str(folder))
     read_lenses, read_images, read_points = _READERS[kind]
     lenses = _read(folder / f"cameras{kind}", read_lenses)
     images = _read(folder / f"images{kind}", read_images)
@@ -69,12 +64,13 @@ def read(given: Given, options: Options) -> CameraSet:
     optics = {}
     for number, found in lenses.items():
         (fx, _, cx), (_, fy, cy), _ = found.matrix.tolist()
-        viewport = viewport_of(fx, fy, cx, cy, check_size(found.size), origin)
+        viewport = viewport_of(fx, fy, cx, cy, found.size, origin)
         optics[number] = viewport, lens_of(found.model, found.coefficients, options)
     photographs = _photographs(folder)
-    poses = rotation_of(np.array([image.quaternion for image in images]).reshape(-1, 4))
-    moved = np.array([image.translation for image in images]).reshape(-1, 3, 1)
-    eyes = -(poses.swapaxes(1, 2) @ moved)[..., 0]
+    numbers = np.array([image.pose for image in images]).reshape(-1, 7)
+    with naming(folder / f"images{kind}"):
+        poses = rotation_of(numbers[:, :4])
+    eyes = -(poses.swapaxes(1, 2) @ numbers[:, 4:, None])[..., 0]
     bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # y down and z forward become up and back
     posed = []
     for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
@@ -88,20 +84,12 @@ def read(given: Given, options: Options) -> CameraSet:
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
         posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
-    others = [] if folder == given.path else _other_models(folder, kind)
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
-        "integers at the pixels' " + ("corners" if origin == "corner" else "centres"),
+        ORIGIN_TOLD[origin],
     )
-    notes = tuple(f"{other} is another model: give its folder to see it" for other in others)
-    return CameraSet("colmap", tuple(posed), (*taken, *notes), cloud[0], cloud[1], notes)
-
-
-def _other_models(folder: Path, kind: str) -> list[Path]:
-    """Return the models next to one: COLMAP numbers those that it could not connect."""
-    beside = sorted(folder.parent.glob("[0-9]*"))
-    return [other for other in beside if other != folder and isfile(other / f"images{kind}")]
+    return CameraSet("colmap", tuple(posed), taken, *cloud)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -166,12 +154,10 @@ def _model(given: Given) -> tuple[Path, str] | None:
         known = given.path.stem in FILES + MORE_FILES and kind in _READERS
         folder = given.path.parent
         return (folder, kind) if known and isfile(folder / f"cameras{kind}") else None
-    for wanted in (all, any):  # if none is complete, one that lacks a file
-        for below in BELOW:
-            folder = given.path / below
-            for kind in _READERS:
-                if wanted(isfile(folder / f"{name}{kind}") for name in ("cameras", "images")):
-                    return folder, kind
+    for below in BELOW:
+        for kind in _READERS:
+            if isfile(given.path / below / f"cameras{kind}"):
+                return given.path / below, kind
     return None
 
 

@@ -1,4 +1,4 @@
-"""COLMAP's camera models, and the entries of a model's files: cameras, images, points.
+"""COLMAP's camera models.
 
 The numbers and names of the models, and the order of their parameters, are those of
 src/colmap/sensor/models.h. Source: that file, and COLMAP's documentation, "Camera Models".
@@ -10,12 +10,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lucida.renderer.camera.checks import Floats, listed, number, positive
+from lucida.renderer.camera.checks import Floats, number, positive
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.system.errors import LucidaError, under
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.system.errors import LucidaError
 
 # The parameters of each model in the file's order; "f" is both fx and fy. A model's id in binary
 # files is its index here.
@@ -57,9 +57,6 @@ LENSES = {
 _FOCAL = ("f", "fx", "fy", "w", "h")
 _PIXELS = (*_FOCAL, "cx", "cy")
 _SAME = 1e-12  # relative: focal lengths that differ by less are one
-_LARGEST_SIZE = 1_000_000  # pixels a side
-_QUATERNION = ("QW", "QX", "QY", "QZ")
-_POSE = (*_QUATERNION, "TX", "TY", "TZ")
 
 
 class ColmapLens(NamedTuple):
@@ -73,59 +70,25 @@ class ColmapLens(NamedTuple):
     coefficients: dict[str, float]
 
 
-class PosedImage(NamedTuple):
-    """A posed image.
-
-    where: its place in the file, for errors. quaternion (w, x, y, z) and translation: camera from
-    world, y down and z forward. camera: an id. name: the photograph's, relative to the folder of
-    images.
-    """
-
-    where: str
-    quaternion: list[float]
-    translation: list[float]
-    camera: int
-    name: str
-
-
-class PointRecords(NamedTuple):
-    """Points, float64 (n, 3), and their colours in sRGB, uint8 (n, 3)."""
-
-    points: NDArray[np.float64]
-    colors: NDArray[np.uint8]
-
-
-Lenses = dict[int, ColmapLens]  # by their CAMERA_ID
-
-
-def add_lens(
-    lenses: Lenses, camera: int, model: str, width: int, height: int, values: list[float]
-) -> None:
-    """Add a camera of a COLMAP model. Raises LucidaError if the id is taken or a value invalid."""
+def colmap_lens(model: str, width: int, height: int, values: list[float]) -> ColmapLens:
+    """Return a camera of a COLMAP model. Raises LucidaError if a value is invalid."""
     if model not in LENSES:
         remedy = f"give one of {', '.join(LENSES)}; COLMAP's image_undistorter makes it a PINHOLE"
-        why = "is a lens that is not supported" if model in MODELS else "is unknown"
-        raise LucidaError("MODEL", f"{model!r} {why}", remedy)
+        raise LucidaError("MODEL", f"{model!r} is a lens that is not supported", remedy)
     names = MODELS[model]
     if len(values) != len(names):
         problem = f"{model} has {len(names)} parameters, not {len(values)}"
         raise LucidaError("PARAMS", problem, f"give {', '.join(names)}")
-    for name, side in (("WIDTH", width), ("HEIGHT", height)):
-        if not 0 < side <= _LARGEST_SIZE:
-            problem = f"{side} is not between 1 and {_LARGEST_SIZE}"
-            raise LucidaError(name, problem, "give the image's size in pixels")
     known = dict(zip(names, values, strict=True))
     for name, value in known.items():
         positive(name, value, "1000, in pixels") if name in _FOCAL else number(name, value)
-    if camera in lenses:
-        raise LucidaError("CAMERA_ID", f"{camera} is given twice", "give each camera its own")
     if "w" in known:  # of the whole sphere
         known |= {"fx": known["w"] / (2 * math.pi), "fy": known["h"] / math.pi}
         known |= {"cx": known["w"] / 2, "cy": known["h"] / 2}
     fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
     K = np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
     bent = {lens_name(name): value for name, value in known.items() if name not in _PIXELS}
-    lenses[camera] = ColmapLens((width, height), K, LENSES[model], bent)
+    return ColmapLens(check_size((width, height)), K, LENSES[model], bent)
 
 
 def lens_name(name: str) -> str:
@@ -162,16 +125,3 @@ def model_for(
         problem = f"with {', '.join(sorted(needed))} is a lens that no model of COLMAP holds"
         remedy = "leave some out, or give --ignore-distortion"
     raise LucidaError("lens", f"{lens.model} {problem}", remedy)
-
-
-def checked_image(where: str, pose: list[float], camera: int, name: str) -> PosedImage:
-    """Return the image. pose: _POSE. Raises LucidaError for an invalid pose or name."""
-    with under(where, ": "):
-        for field, value in zip(_POSE, pose, strict=True):
-            number(field, value)
-        if not math.hypot(*pose[:4]) > 1e-9:
-            problem = f"{listed(pose[:4])} is no rotation"
-            raise LucidaError(" ".join(_QUATERNION), problem, "give a quaternion of length 1")
-        if not name or "\0" in name:
-            raise LucidaError("NAME", f"{name!r} is no name of a photograph", "give one")
-    return PosedImage(where, pose[:4], pose[4:], camera, name)

@@ -6,41 +6,51 @@ Source: COLMAP's documentation, "Output Format".
 
 from __future__ import annotations
 
+import contextlib
 import io
 import struct
 from codecs import BOM_UTF8
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lucida.renderer.camera.checks import LARGEST
-from lucida.renderer.files.cameras.colmap_lenses import (
-    MODELS,
-    NAMES,
-    Lenses,
-    PointRecords,
-    PosedImage,
-    add_lens,
-    checked_image,
-)
+from lucida.renderer.files.cameras.colmap_lenses import MODELS, NAMES, ColmapLens, colmap_lens
 from lucida.renderer.system.errors import LucidaError, under
 
-# The entries of a text file, and the same in a binary one.
-_CAMERA = ("CAMERA_ID", "MODEL", "WIDTH", "HEIGHT", "PARAMS")
-_IMAGE = ("IMAGE_ID", "QW", "QX", "QY", "QZ", "TX", "TY", "TZ", "CAMERA_ID", "NAME")
-_TEXTS = ("MODEL", "NAME")
-_WHOLE = ("CAMERA_ID", "IMAGE_ID", "WIDTH", "HEIGHT")
+_CAMERA = "CAMERA_ID MODEL WIDTH HEIGHT PARAMS"
+_IMAGE = "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME"
 _POINT = np.dtype([("xyz", "<f8", 3), ("rgb", "u1", 3)])  # after the id; then error and track
 _SHORT_BYTES = 1000  # a longer line's words are not counted
+_REMEDY = "write it again with COLMAP"
+
+Lenses = dict[int, ColmapLens]  # by their CAMERA_ID
+Points = tuple[NDArray[np.float64], NDArray[np.uint8]]  # (n, 3), and their colours in sRGB (n, 3)
+
+
+class PosedImage(NamedTuple):
+    """A posed image.
+
+    where: its place in the file, for errors. pose: a quaternion (w, x, y, z) and a translation:
+    camera from world, y down and z forward. camera: an id. name: the photograph's, relative to the
+    folder of images.
+    """
+
+    where: str
+    pose: list[float]
+    camera: int
+    name: str
 
 
 def text_cameras(data: bytes) -> Lenses:
     found: Lenses = {}
     for number, line in _lines(data):
-        with under(f"line {number}", ": "):
-            camera, model, width, height, *values = _values(line, _CAMERA, -1)
-            add_lens(found, camera, model, width, height, values)
+        with _reading(number, line, _CAMERA):
+            camera, model, width, height, *values = line.split()
+            size = int(width), int(height)
+            found[int(camera)] = colmap_lens(model, *size, list(map(float, values)))
     return found
 
 
@@ -54,29 +64,30 @@ def text_images(data: bytes) -> list[PosedImage]:
     for number, line in lines:
         if not line:
             continue
-        with under(f"line {number}", ": "):
-            _, *pose, camera, name = _values(line, _IMAGE, len(_IMAGE) - 1)
-        found.append(checked_image(f"line {number}", pose, camera, name))
+        with _reading(number, line, _IMAGE):
+            _, *pose, camera, name = line.split(None, 9)
+            numbers = list(map(float, pose))
+            found.append(PosedImage(f"line {number}", numbers, int(camera), name))
         # A file without the second lines has a pose of ten words here.
-        number, line = next(lines, (0, b""))
-        if len(line) < _SHORT_BYTES and len(line.split()) % 3:
-            remedy = "give each image two lines, of which the second may be empty"
-            raise LucidaError(f"line {number}", "is not X Y POINT3D_ID again and again", remedy)
+        number, line = next(lines, (0, ""))
+        with _reading(number, line, "X Y POINT3D_ID again and again, perhaps empty"):
+            if len(line) < _SHORT_BYTES and len(line.split()) % 3:
+                raise ValueError
     return found
 
 
-def text_points(data: bytes) -> PointRecords:
+def text_points(data: bytes) -> Points:
     """Return the points. Their tracks, of any length, are ignored."""
     if not any(True for _ in _lines(data)):
-        return PointRecords(np.zeros((0, 3)), np.zeros((0, 3), np.uint8))
+        return np.zeros((0, 3)), np.zeros((0, 3), np.uint8)
     try:
         # loadtxt() decodes the file in small pieces.
-        table = np.loadtxt(_file(data), np.float64, usecols=range(1, 8), ndmin=2)
+        file = io.BytesIO(data.removeprefix(BOM_UTF8))
+        table = np.loadtxt(file, np.float64, usecols=range(1, 8), ndmin=2)
     except (ValueError, UnicodeError):
-        raise _no_point() from None
-    if ((table[:, 3:6] < 0) | (table[:, 3:6] > 255)).any():
-        raise _no_point()
-    return _checked_points(table[:, :3].copy(), table[:, 3:6].astype(np.uint8))
+        table = np.full((1, 6), np.nan)
+    colors = table[:, 3:6].clip(0, 255)
+    return _checked(table[:, :3].copy(), np.nan_to_num(colors).astype(np.uint8))
 
 
 def binary_cameras(data: bytes) -> Lenses:
@@ -86,11 +97,10 @@ def binary_cameras(data: bytes) -> Lenses:
         camera, model, width, height = file.take("<IiQQ")
         with under(entry, ": "):
             if not 0 <= model < len(NAMES):
-                remedy = f"give 0 to {len(NAMES) - 1}"
-                raise LucidaError("MODEL", f"{model} is unknown", remedy)
+                raise LucidaError("MODEL", f"{model} is unknown", f"give 0 to {len(NAMES) - 1}")
         values = list(file.take(f"<{len(MODELS[NAMES[model]])}d"))
         with under(entry, ": "):
-            add_lens(found, camera, NAMES[model], width, height, values)
+            found[camera] = colmap_lens(NAMES[model], width, height, values)
     return found
 
 
@@ -102,11 +112,11 @@ def binary_images(data: bytes) -> list[PosedImage]:
         name = data[file.place : data.find(b"\0", file.place)]
         file.skip(len(name) + 1)
         file.skip(24 * file.take("<Q")[0])  # its points: x, y, number
-        found.append(checked_image(entry, pose, camera, name.decode("utf-8", "surrogateescape")))
+        found.append(PosedImage(entry, pose, camera, name.decode("utf-8", "surrogateescape")))
     return found
 
 
-def binary_points(data: bytes) -> PointRecords:
+def binary_points(data: bytes) -> Points:
     file = _Binary(data)
     records = []
     for _ in file.entries("point"):
@@ -115,7 +125,7 @@ def binary_points(data: bytes) -> PointRecords:
         file.skip(_POINT.itemsize + 8)  # and its error
         file.skip(8 * file.take("<Q")[0])  # its track
     table = np.frombuffer(b"".join(records), _POINT)
-    return _checked_points(table["xyz"].copy(), table["rgb"].copy())
+    return _checked(table["xyz"].copy(), table["rgb"].copy())
 
 
 class _Binary:
@@ -144,47 +154,27 @@ class _Binary:
             raise LucidaError(self._entry, problem, "copy the file whole")
 
 
-def _no_point() -> LucidaError:
-    return LucidaError("", "holds a line that is no point", "write it again with COLMAP")
+def _checked(points: Any, colors: Any) -> Points:
+    if not (np.abs(points) <= LARGEST).all():
+        raise LucidaError("", f"holds a point that is not within {LARGEST:g}", _REMEDY)
+    return points, colors
 
 
-def _checked_points(points: Any, colors: Any) -> PointRecords:
-    wrong = np.flatnonzero(~(np.abs(points) <= LARGEST).all(axis=1))
-    if len(wrong):
-        field = f"point {wrong[0] + 1} of {len(points)}: XYZ"
-        raise LucidaError(field, f"is not within {LARGEST:g}", "write it again with COLMAP")
-    return PointRecords(points, colors)
-
-
-def _file(data: bytes) -> io.BytesIO:
-    """Return the data as a file, after any byte order mark."""
-    return io.BytesIO(data.removeprefix(BOM_UTF8))
-
-
-def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, bytes]]:
+def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, str]]:
     """Yield the number and text of each line that is not a comment. blank: also of empty lines."""
-    for count, line in enumerate(_file(data), 1):
+    for count, line in enumerate(io.BytesIO(data.removeprefix(BOM_UTF8)), 1):
         line = line.strip()
         if (line or blank) and not line.startswith(b"#"):
-            yield count, line
+            yield count, line.decode("utf-8", "surrogateescape")
 
 
-def _values(line: bytes, fields: tuple[str, ...], most_splits: int) -> list[Any]:
-    """Return the values of a line, of which the last field may have several. Raises LucidaError."""
-    try:
-        words = line.decode("utf-8").split(None, most_splits)
-    except UnicodeDecodeError:
-        raise LucidaError("", "is not text in UTF-8", "save the file as UTF-8 text") from None
-    if len(words) < len(fields):
-        problem = f"has {len(words)} of the parts {' '.join(fields)}"
-        raise LucidaError("", problem, "write the line whole")
-    values: list[Any] = []
-    for k, word in enumerate(words):
-        field = fields[min(k, len(fields) - 1)]
-        kind: Any = str if field in _TEXTS else int if field in _WHOLE else float
+@contextlib.contextmanager
+def _reading(number: int, line: str, fields: str) -> Iterator[None]:
+    """Give errors raised inside this line; fields: what it should be."""
+    with under(f"line {number}", ": "):
         try:
-            values.append(kind(word))
+            yield
+        except LucidaError:
+            raise
         except ValueError:
-            what = "whole number" if kind is int else "number"
-            raise LucidaError(field, f"{word!r} is no {what}", "mend it") from None
-    return values
+            raise LucidaError("", f"{line[:60]!r} is not {fields}", _REMEDY) from None

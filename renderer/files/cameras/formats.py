@@ -13,7 +13,6 @@ Each raises LucidaError; a camera that the format cannot hold is never written.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -67,25 +66,6 @@ FORMATS = (
 
 _UNKNOWN = "is not a recognised camera format"
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
-# Formats that are not read, by words of their files.
-_NOT_READ = {
-    r"^import bpy|\bbpy\.data": "Blender's scripts are",
-    r'"PerspectiveCamera"': "three.js's JSON is",
-    r"<scene version=": "Mitsuba's XML is",
-    r'^\s*Camera\s+"': "pbrt's scene file is",
-    r"<sensor ": "Metashape's XML is",
-    r'"poseId"': "Meshroom's .sfm is",
-    r'"img_name"': "Gaussian splatting's cameras.json is",
-    r"PinholeCamera": "Open3D's JSON is",
-    r'"sfm_data_version"': "OpenMVG's sfm_data.json is",
-    r'"camera_path"': "nerfstudio's camera path is",
-    r'"t_00"': "Polycam's JSON is",
-    r'"value0"': "Basalt's calibration is",
-    r'"shots"\s*:': "OpenSfM's reconstruction.json is",
-    r"^# Bundle file": "Bundler's file is",
-    r"^(?:P0|K_00|P_rect_00|S_00):": "KITTI's calibration is",
-    r"^cam0_calib\s*:": "a configuration of VINS, which names its cameras' files, is",
-}
 
 
 def format_named(name: str) -> Format:
@@ -118,9 +98,6 @@ def read_cameras(
 
 def recognised(found: Given) -> Format:
     """Return the format that a file looks like. Raises LucidaError."""
-    for mark, what in _NOT_READ.items():
-        if found.is_text and re.search(mark, found.text, re.MULTILINE):
-            raise LucidaError("", f"{_UNKNOWN}: {what} not read", "export glTF or COLMAP there")
     for entry in FORMATS:
         if entry.module.recognises(found):
             return entry
@@ -132,7 +109,7 @@ def recognised(found: Given) -> Format:
         remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
         raise LucidaError("", "is a folder without cameras", remedy)
     wanted = ", ".join(f"{entry.needs} ({entry.name})" for entry in FORMATS)
-    raise LucidaError("", _UNKNOWN, f"give a file with {wanted}")
+    raise LucidaError("", _UNKNOWN, f"export glTF or COLMAP there, or give {wanted}")
 
 
 def written(

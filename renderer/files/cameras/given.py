@@ -72,27 +72,15 @@ class Given:
 def from_json(text: str) -> Any:
     """Parse JSON. Raises LucidaError naming the line and column of the error."""
     try:
-        return json.loads(text, object_pairs_hook=unique)
+        return json.loads(text)
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
         reason = error.msg[:1].lower() + error.msg[1:]
         raise LucidaError(where, reason, "correct the JSON there") from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except LucidaError:
-        raise
     except ValueError:  # Python's limit on the digits of an int
         raise LucidaError("", "holds a number of too many digits", "shorten it") from None
-
-
-def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return a table. Raises LucidaError for a key that is given twice."""
-    table = dict(pairs)
-    if len(table) < len(pairs):
-        names = [name for name, _ in pairs]
-        twice = next(name for name in names if names.count(name) > 1)
-        raise LucidaError(twice, "is given twice in one table", "remove one of the two")
-    return table
 
 
 def given(source: str | Path) -> Given:

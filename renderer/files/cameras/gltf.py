@@ -63,19 +63,15 @@ def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
     """Yield what is in a file and not shown."""
     if tree.animations:
         yield "animations are not used: the cameras are where their nodes are at rest"
-    cameras = tree.cameras if isinstance(tree.cameras, list) else []
-    for number, camera in enumerate(cameras):
-        if number not in shown:
-            yield f"cameras[{number}] is not used: no node of the scene holds it"
-        elif left := [*camera.get("extensions", ()), *["extras"] * bool(camera.get("extras"))]:
-            yield f"cameras[{number}] is shown without {', '.join(left)}"
+    for number in sorted(set(range(len(tree.cameras))) - shown):
+        yield f"cameras[{number}] is not used: no node of the scene holds it"
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     lenses, nodes = [], []
     for number, posed in enumerate(cameras):
         camera, size = sized(posed, options)
-        camera = rigid(camera, "gltf", size)
+        camera = rigid(camera, "gltf")
         lenses.append(camera_table(camera, size))
         nodes.append({"name": posed.name, "camera": number, "matrix": node_matrix(camera)})
         if not posed.name:

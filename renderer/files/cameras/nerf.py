@@ -8,6 +8,7 @@ Cameras._generate_rays_from_coords(); instant-ngp, "NeRF dataset tips" and commo
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import re
@@ -18,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats, listed
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import pixel_offset
 from lucida.renderer.camera.lenses import Lens
@@ -80,13 +81,10 @@ def read(given: Given, options: Options) -> CameraSet:
     if not isinstance(table, dict):
         raise LucidaError("", "is no JSON object", "give a transforms.json")
     frames = table.get("frames")
-    if not isinstance(frames, list):
-        raise LucidaError("frames", "is missing" if frames is None else "is no list", "give frames")
-    if not frames:
-        raise LucidaError("frames", "is empty", "give a frame with its transform_matrix")
-    for i, frame in enumerate(frames):
-        if not isinstance(frame, dict):
-            raise LucidaError(f"frames[{i}]", "is no JSON object", "give a transform_matrix")
+    if not isinstance(frames, list) or not frames:
+        raise LucidaError("frames", "are missing, or no list", "give frames")
+    if not all(isinstance(frame, dict) for frame in frames):
+        raise LucidaError("frames", "are no JSON objects", "give each a transform_matrix")
     folder = given.path and given.path.parent
     size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
@@ -102,19 +100,9 @@ def read(given: Given, options: Options) -> CameraSet:
     taken += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
     if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
         taken.append("transform_matrix is no rotation, and held as it is")
-    if any(map(_disagree, tables)):
-        taken.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     unused = (name for part in (table, *frames) for name in part if name not in _USED)
     notes = (*filter(None, [sizing]), *notes_on(unused))
     return CameraSet("nerf", tuple(cameras), (*taken, *notes), notes=notes)
-
-
-def _disagree(table: Table) -> bool:
-    """Return True if both forms of the focal length are given and differ by more than 1 %."""
-    if not {"fl_x", "w", "camera_angle_x"} <= table.keys():
-        return False
-    fx = table["w"] / 2 / _half_width(table, "camera_angle_x")
-    return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
@@ -149,17 +137,13 @@ def _size_for_all(
 
 
 def _size_of_image(path: str) -> Size | None:
-    """Return the size of an existing image. Return None if it cannot be read; viewers of the image
-    report the error.
-    """
+    """Return the size of an image; None if it cannot be read, which viewers of it report."""
     from PIL import Image
 
-    try:
+    with contextlib.suppress(Exception):  # Pillow raises what it likes for a damaged file
         if Path(path).is_file():  # reading from a pipe might never end
             with Image.open(path) as image:
                 return image.size
-    except (OSError, ValueError, Image.DecompressionBombError, Image.DecompressionBombWarning):
-        pass
     return None
 
 
@@ -197,9 +181,7 @@ def _camera(table: Table, size: Size | None, folder: Path | None, options: Optio
             K, size=pixels, camera_from_world=pose, axes="opengl", pixel_origin="corner", lens=lens
         )
     except np.linalg.LinAlgError:
-        u, v, w, _ = world_from_camera[:3].T
-        problem = f"has columns {listed(u)}, {listed(v)} and {listed(w)}: it has no inverse"
-        raise LucidaError("transform_matrix", problem, "give a rotation") from None
+        raise LucidaError("transform_matrix", "has no inverse", "give a rotation") from None
     except LucidaError as error:
         field = "fl_x" if error.field == "K" else "transform_matrix"
         raise LucidaError(field, error.problem, error.remedy) from None

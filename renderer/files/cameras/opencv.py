@@ -109,7 +109,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     camera, size = in_image(single(cameras, "a file of OpenCV"), options, "OpenCV")
     if camera.lens is not None:
-        camera = rigid(camera, "OpenCV", size)
+        camera = rigid(camera, "OpenCV")
     origin = options.pixel_origin or "center"
     K, R, t = (part + 0.0 for part in camera.intrinsics(size, origin))  # no negative zeros
     notes = [

@@ -142,14 +142,9 @@ def _camera(
     half = 1 / np.abs((a, b))
     low, high = -half - middle, half - middle
     near = far = None
-    if not clip[2, :2].any():
-        if not fitted:
-            near, far, told = _clip_planes(names[1], clip, parallel)
-            taken += told
-    else:
-        taken.append("the projection's oblique near plane is left out")
-    if b < 0:
-        taken.append(f"{names[1]} mirrors the image top to bottom, as for Vulkan")
+    if not clip[2, :2].any() and not fitted:  # an oblique near plane is left out
+        near, far, told = _clip_planes(names[1], clip, parallel)
+        taken += told
     u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
     viewport = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
     kind = "parallel" if parallel else "perspective"
@@ -209,8 +204,6 @@ def _clip_planes(
     )
     sides = f"near = {near:g} and far = {far:g}"
     told = [f"{name} takes {sides} to depths {depths[0]} and {depths[1]}{others}"]
-    if near <= 0:
-        told.append(f"{name} has near = {near:g}, behind the eye: nothing behind the eye is seen")
     return near if near > 0 else None, far if 0 < far < np.inf else None, told
 
 

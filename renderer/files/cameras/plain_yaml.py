@@ -9,7 +9,6 @@ from typing import Any
 
 import yaml
 
-from lucida.renderer.files.cameras.given import unique
 from lucida.renderer.system.errors import LucidaError
 
 # OpenCV's own YAML needs no space after a name: "key:2".
@@ -31,8 +30,6 @@ def from_yaml(text: str) -> Any:
         raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except LucidaError:
-        raise
     except (ValueError, OverflowError):  # an impossible number or date
         raise LucidaError("", "holds a number that cannot be", "correct it") from None
     if len(documents) > 1:
@@ -49,10 +46,6 @@ class _PlainYaml(yaml.SafeLoader):
             mark = self.peek_event().start_mark
             raise yaml.composer.ComposerError(None, None, "holds an alias (*)", mark)
         return super().compose_node(parent, index)
-
-    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
-        unique([(key.value, None) for key, _ in node.value if isinstance(key.value, str)])
-        return super().construct_mapping(node, deep)
 
 
 # 1e-05, which YAML 1.1 reads as text.

@@ -5,13 +5,12 @@ Determines which part of u, v and w such a pose can hold, and moves the rest int
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats, listed, told_apart
+from lucida.renderer.camera.checks import Floats, listed
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError
 
@@ -23,7 +22,7 @@ ROUNDED = 1e-4  # error of a rotation's numbers with four digits, or in float32
 REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
 
 
-def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
+def rigid(camera: Camera, target: str) -> Camera:
     """Return the camera with the same rays whose u, v and w are orthonormal.
 
     A rotation that a file has rounded becomes the nearest rotation, and the viewport stays
@@ -32,40 +31,35 @@ def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
     off-centre. near and far are measured along the new w. A parallel camera's eye moves to the
     viewport's centre.
 
-    target: the name of the format, for errors. size: of the image. Raises LucidaError for a
+    target: the name of the format, for errors. Raises LucidaError for a
     left-handed basis, for u and v that are not at right angles, and for an oblique parallel camera.
     A lens measures in u, v and w: with one, they must be orthogonal and equally long.
     """
-    if (turned := _turned(camera, size or ANY_SIZE)) is not None:
-        return centred(turned) if camera.is_parallel else turned
     u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
     if camera.determinant < 0:
         problem = f"{listed(u)} is left-handed with v and w, a mirror that {target} has not"
         raise LucidaError("u", problem, "negate u, which mirrors the picture")
+    if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() <= ROUNDED:
+        turn, _, back = np.linalg.svd(camera.basis)
+        u, v, w = (turn @ back).T
+        turned = replace(camera, u=tuple(u.tolist()), v=tuple(v.tolist()), w=tuple(w.tolist()))
+        return centred(turned) if camera.is_parallel else turned
     width, height = float(np.linalg.norm(u)), float(np.linalg.norm(v))
     u, v = u / width, v / height
-    if abs(u @ v) > STRAIGHT:
-        angle, _ = told_apart(math.degrees(math.acos(float(u @ v))), 90.0)
-        problem = f"{listed(camera.v)} is at {angle} degrees to u = {listed(camera.u)}, not at 90"
-        raise LucidaError("v", f"{problem}, which {target} cannot hold", REMEDY)
-    v = v - (u @ v) * u
-    v /= np.linalg.norm(v)
     back = np.cross(u, v)
     lean_x, lean_y, length = (float(w @ axis) for axis in (u, v, back))
+    off = [float(u @ v)]
+    if camera.is_parallel or camera.lens is not None:
+        off += [lean_x / length, lean_y / length]
     if camera.lens is not None:
-        uneven = (lean_x, lean_y, width - length, height - length)
-        if max(map(abs, uneven)) > STRAIGHT * length:
-            problem = f"{listed(w)} is not at right angles to u and v and as long, behind a lens"
-            raise LucidaError("w", f"{problem}, which {target} cannot hold", REMEDY)
+        off += [width / length - 1, height / length - 1]
+    if max(map(abs, off)) > STRAIGHT:
+        even = " and of one length, as behind a lens" * (camera.lens is not None)
+        problem = f"{listed(w)} is not with u and v at right angles{even}, as {target} needs"
+        raise LucidaError("w", problem, REMEDY)
     left, right, bottom, top = camera.viewport
     x, y = lean_x * camera.distance, lean_y * camera.distance
     if camera.is_parallel:
-        if np.hypot(lean_x, lean_y) > STRAIGHT * length:
-            problem = (
-                f"{listed(w)} is not at right angles to u and v, which {target} cannot hold in "
-                "a parallel projection"
-            )
-            raise LucidaError("w", problem, REMEDY)
         x = y = 0.0
     straight = replace(
         camera,
@@ -80,36 +74,6 @@ def rigid(camera: Camera, target: str, size: Size | None = None) -> Camera:
     return centred(straight) if camera.is_parallel else straight
 
 
-def _turned(camera: Camera, size: Size) -> Camera | None:
-    """Return the camera with the rotation nearest to its basis; None if that would be a different
-    camera.
-    """
-    if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() > ROUNDED or camera.determinant < 0:
-        return None
-    left, _, right = np.linalg.svd(camera.basis)
-    u, v, w = (left @ right).T.tolist()
-    turned = replace(camera, u=tuple(u), v=tuple(v), w=tuple(w))
-    return turned if moved_px(camera, turned, size) <= UNSEEN_PX else None
-
-
-def moved_px(camera: Camera, other: Camera, size: Size) -> float:
-    """Return the largest distance in pixels between a point's images in two cameras, for points
-    that one camera sees in its image's corners; with a lens, on a grid where both see them.
-    """
-    places = 2 if camera.lens is None else 9
-    i, j = (np.linspace(-0.5, side - 0.5, places) for side in (size[1], size[0]))
-    rows, columns = (part.ravel() for part in np.meshgrid(i, j, indexing="ij"))
-    origin, direction = camera.ray(rows, columns, size)
-    reach = 1.0
-    if camera.is_parallel:  # at a distance equal to the image's width
-        reach = (camera.viewport[1] - camera.viewport[0]) / float(np.linalg.norm(camera.w))
-    seen = other.project(origin + reach * direction, size)
-    apart = np.hypot(seen.row - rows, seen.column - columns)
-    if camera.lens is not None:
-        return float(np.nan_to_num(apart).max())
-    return float(np.nan_to_num(apart, nan=np.inf).max())
-
-
 def pinhole(
     camera: Camera, size: Size, target: str
 ) -> tuple[Camera, tuple[float, float, float, float]]:
@@ -120,7 +84,7 @@ def pinhole(
     if camera.is_parallel:
         problem = f"'parallel' has no focal length, which {target} needs"
         raise LucidaError("projection", problem, "give a perspective camera")
-    camera = rigid(camera, target, size)
+    camera = rigid(camera, target)
     (left, right, bottom, top), (width, height) = camera.viewport, size
     across, up = width / (right - left), height / (top - bottom)  # pixels per unit
     focal = across * camera.distance, up * camera.distance

@@ -5,7 +5,6 @@ radians as length (Rodrigues).
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -52,19 +51,11 @@ def rotation_of(quaternion: ArrayLike) -> Floats:
 def quaternion_of(rotation: ArrayLike) -> list[float]:
     """Return the quaternion (w, x, y, z), w >= 0, of a rotation matrix.
 
-    Starts from the largest component, so as not to divide by nearly 0.
+    From trimesh, which takes it from the eigenvector of a symmetric matrix (Bar-Itzhack 2000).
     """
-    m: Any = np.asarray(rotation, float)
-    (a, b, c), (d, e, f), (g, h, i) = m
-    squares = 1 + np.array([a + e + i, a - e - i, e - a - i, i - a - e])  # 4 w^2, 4 x^2, ...
-    products = np.array(
-        [
-            [squares[0], h - f, c - g, d - b],
-            [h - f, squares[1], b + d, c + g],
-            [c - g, b + d, squares[2], f + h],
-            [d - b, c + g, f + h, squares[3]],
-        ]
-    )  # 4 q_k q_l
-    row = products[np.argmax(squares)]
-    quaternion = row / np.linalg.norm(row)
-    return [float(part) for part in (quaternion if quaternion[0] >= 0 else -quaternion)]
+    from trimesh.transformations import quaternion_from_matrix  # takes long to import
+
+    pose = np.eye(4)
+    pose[:3, :3] = rotation
+    quaternion: list[float] = quaternion_from_matrix(pose).tolist()
+    return quaternion

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from lucida.renderer.files.cameras.given import Given, from_json, unique
+from lucida.renderer.files.cameras.given import Given, from_json
 from lucida.renderer.files.cameras.literals import values_in
 from lucida.renderer.files.reading import check_bytes
 from lucida.renderer.system.errors import LucidaError
@@ -98,7 +98,7 @@ def _from_xml(text: str) -> Any:
     if root.tag != "opencv_storage":
         problem = f"is XML of another kind: {root.tag}"
         raise LucidaError("", problem, "give OpenCV's <opencv_storage>")
-    return unique([(entry.tag, _of_element(entry)) for entry in root])
+    return {entry.tag: _of_element(entry) for entry in root}
 
 
 def _of_element(element: ElementTree.Element) -> Any:
@@ -107,7 +107,7 @@ def _of_element(element: ElementTree.Element) -> Any:
     parts = [(part.tag, _of_element(part)) for part in element]
     if parts[0][0] == "_":  # a sequence
         return [value for _, value in parts]
-    return unique(parts)
+    return dict(parts)
 
 
 def _words(text: str) -> Any:

@@ -4,7 +4,6 @@ export          checks the path, and writes the file
 gltf_scene      the scene as a .glb file
 glb_tree        the tree of that file, and its binary part
 meshes          triangles as glTF needs them
-materials       the nearest of glTF's materials, and the lights' strengths
 """
 
 from lucida.renderer.files.export.export import ENDINGS, check_export_path, export_scene

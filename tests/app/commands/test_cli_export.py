@@ -39,8 +39,8 @@ def test_what_is_hidden_does_not_count(capsys):
         (["-o", "a.glb", "--u=-1,0,0"], "lucida: u: (-1, 0, 0) is left-handed"),
         (
             ["-o", "a.glb", "--u=1,0.5,0", "--v=0,1,0"],
-            "lucida: v: (0, 1, 0) is at 63.4349 degrees to u = (1, 0.5, 0), not at 90, which "
-            "gltf cannot hold; add --up=0,1,0, which makes the basis orthonormal",
+            "lucida: w: (0, 0.164399, 0.986394) is not with u and v at right angles, as "
+            "gltf needs; add --up=0,1,0, which makes the basis orthonormal",
         ),
     ],
 )

@@ -70,7 +70,7 @@ options = [
     assert main(["lecture", str(path), "--check"]) == (2 if formula.available() else 0)
     said = capsys.readouterr()
     if formula.available():
-        told = r":18: steps[1].exercise.options[1].text: \vau is no command that formulas know"
+        told = r":16: steps[1].exercise.options[1].text: \vau is no command that formulas know"
         assert said.err.startswith(f"lucida: {path}{told}") and said.err.count("\n") == 1
     else:
         assert "formulas not checked" in said.out

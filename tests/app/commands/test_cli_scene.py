@@ -53,7 +53,11 @@ def test_only_models_are_odd(capsys, tmp_path):
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     text = "[[objects]]\ntype = 'disk'\n[[objects]]\ntype = 'model'\nfile = 't.obj'\n"
     (tmp_path / "s.toml").write_text(text)
-    (odd,) = (line for line in told(capsys, tmp_path / "s.toml").splitlines() if "odd" in line)
+    (odd,) = (
+        line
+        for line in told(capsys, tmp_path / "s.toml").splitlines()
+        if line.startswith("  odd: ")
+    )
     assert "object 1 is open" in odd
 
 

@@ -207,11 +207,11 @@ wrong = [
         ("steps[0].text", "y + z", 8),
         ("steps[0].text", "w", 11),
         ("steps[0].exercise.question", "q", 15),
-        ("steps[0].exercise.options[0].text", "a", 17),
-        ("steps[0].exercise.options[0].feedback", "b", 17),
-        ("steps[0].exercise.options[1].feedback", "d", 18),
+        ("steps[0].exercise.options[0].text", "a", 16),
+        ("steps[0].exercise.options[0].feedback", "b", 16),
+        ("steps[0].exercise.options[1].feedback", "d", 16),
         ("steps[1].exercise.question", "u", 24),
-        ("steps[1].exercise.answers[1].wrong[1].feedback", "e", 33),
+        ("steps[1].exercise.answers[1].wrong[1].feedback", "e", 31),
     ]
 
 

@@ -26,7 +26,7 @@ class TestPlaces:
         places = Places(text)
         lines = {
             "a": 1, "b c": 2, "b c.d": 2, "b c.d.e[1].f": 2, "b c.d.g": 2, "t": 4, "t.x.y.z": 5,
-            "t.list": 6, "t.list[0]": 7, "t.list[1]": 8, "t.list[1][1]": 9, "t.long": 12,
+            "t.list": 6, "t.list[0]": 6, "t.list[1][1]": 6, "t.long": 12,
             "t.same": 15, "t.many[0]": 17, "t.many[0].k": 18, "t.many[1]": 19, "t.many[1].in": 20,
             "t.many[1].in.k": 21, "t.many[1].in.deep[1]": 23, "t.many[1].in.deep[1].last": 24,
         }  # fmt: skip

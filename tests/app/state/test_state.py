@@ -13,7 +13,6 @@ from option_changes import with_options
 from lucida.app.cameras.basis import with_component, with_vector
 from lucida.app.cameras.editing import Draft, edit_component, edit_field
 from lucida.app.state.app_state import MOST_UNDO_STEPS, AppState, History, is_orthonormal
-from lucida.app.state.changes import change
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene import View
@@ -137,40 +136,10 @@ def test_a_mark_has_the_size_of_the_image_that_it_was_set_in() -> None:
     assert with_options(state, marked=(1, 2), shadows=True).options.marked_size == (64, 36)
     assert with_options(state, marked=(2, 2)).options.marked_size is None
     assert with_options(state, marked=None).options.marked_size is None
-    assert change(state, with_options(state, marked=(2, 2))) == "marked"
 
 
 IN_LECTURE = replace(STATE, step=("a lecture", 2, 0))
 TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0, 0, -1)))
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "words"),
-    [
-        (STATE, IN_LECTURE, "lecture: step 3"),
-        (IN_LECTURE, replace(STATE, step=("a lecture", 2, 1)), "lecture: step 3.2"),
-        (IN_LECTURE, with_options(IN_LECTURE, marked=(2, 2)), "marked"),
-        (IN_LECTURE, with_options(STATE, marked=(2, 2)), "marked"),
-        (STATE, STATE.with_scene(replace(SCENE, name="cow")), "scene: cow"),
-        (STATE, STATE.with_scene(replace(SCENE)), "scene: without a name"),
-        (STATE, moved(3.0), "camera: eye"),
-        (STATE, TURNED, "camera: u, v, w"),
-        (STATE, TURNED.with_camera(replace(TURNED.camera, eye=(0, 0, 9))), "camera: view"),
-        (STATE, STATE.with_fit(False), "fit to the aspect ratio"),
-        (STATE, STATE.with_keep_orthonormal(False), "keep orthonormal"),
-        (STATE, STATE.with_view(View(SKEWED, fit=True)), "camera: view"),
-        (STATE, with_options(STATE, images={"pixel_size": 4}), "pixel size"),
-        (STATE, with_options(STATE, outside={"camera": SKEWED}), "camera"),
-        (
-            with_options(moved(3.0), shadows=True, outside={"ray": False, "grid": False}),
-            STATE,
-            "camera: eye, shadows, grid",
-        ),
-        (STATE, STATE, "nothing visible"),
-    ],
-)
-def test_a_step_of_undo_is_named_by_what_it_changes(before, after, words) -> None:
-    assert change(before, after) == words
 
 
 @given(

@@ -56,7 +56,7 @@ def _world(mesh: Mesh) -> np.ndarray:
     ("source", "message"),
     [
         ("spherez", "scene: 'spherez' is neither a built-in scene nor a file; did you mean 'sph"),
-        ("nonsense", "scene: 'nonsense' is neither a built-in scene nor a file; built-in scenes"),
+        ("nonsense", "scene: 'nonsense' is neither a built-in scene nor a file; give one of"),
         ("", "scene: '' is empty"),
         ("a/b", "a/b: does not exist in "),
         ("a.toml", "a.toml: does not exist in "),
@@ -88,20 +88,6 @@ def test_endings_decide_and_a_built_in_name_wins_over_a_file(tmp_path: Path, mon
     with pytest.raises(LucidaError, match=r"^buny\.obj: does not .*; did you mean 'bunny\.obj'"):
         load_scene("buny.obj")
     assert load_scene(Path("bunny.obj")).name == "bunny"
-
-
-@pytest.mark.parametrize("name", ["x.obj", "x.toml", "x.png"])
-def test_a_link_that_leads_nowhere_is_told_as_one(name: str, tmp_path: Path, monkeypatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    try:
-        Path(name).symlink_to("gone.obj")
-    except OSError:
-        pytest.skip("this system makes no links")
-    with pytest.raises(LucidaError, match=r"is a link to 'gone\.obj', which does not exist; mend"):
-        load_scene(name)
-    Path("gone.obj").write_text(TRIANGLE)
-    if name == "x.obj":
-        assert load_scene(name).objects
 
 
 # Framing.

@@ -7,7 +7,6 @@ import pytest
 from imgui_bundle import ImVec2
 
 from lucida.app.instruments.objects.handles import (
-    STEPS_PER_REACH,
     cleaned,
     frame_of,
     gizmo,
@@ -15,7 +14,6 @@ from lucida.app.instruments.objects.handles import (
     length_px,
     moved_by,
     operation_of,
-    snap_step,
 )
 from lucida.app.ui import theme
 from lucida.renderer.editing import objects
@@ -115,16 +113,6 @@ def test_what_no_file_can_say_is_told(items):
     frame = frame_of(scene, (found["sphere"],), CENTER)
     with pytest.raises(LucidaError, match="ellipsoid"):
         moved_by(scene, (found["sphere"],), frame, frame @ np.diag([1, 2, 3, 1]))
-
-
-def test_snapping_goes_in_round_steps_of_the_scene_s_size():
-    for reach in np.geomspace(1e-6, 1e8, 200):
-        step = snap_step(reach)
-        digits = f"{step:e}"[0]
-        assert digits in "125"
-        assert 1 - 1e-9 <= step * STEPS_PER_REACH / reach < 2.5 + 1e-9
-    assert snap_step(40.0) == 1.0
-    assert snap_step(0.0) > 0
 
 
 def test_a_handle_s_noise_does_not_reach_the_file(items):

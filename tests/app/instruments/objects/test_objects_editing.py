@@ -9,6 +9,7 @@ import pytest
 
 from lucida.app.instruments.objects import editing
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of, unlocked
+from lucida.app.instruments.objects.outliner import scroll_to
 from lucida.app.state.app_state import AppState
 from lucida.renderer.editing.changing import set_field
 from lucida.renderer.editing.moving import bounds_of
@@ -75,19 +76,17 @@ def test_copies_stand_beside_and_are_chosen(state):
     assert np.allclose(by[1:], 0)
 
 
-def test_the_search_finds_names_and_kinds_in_any_order(state):
-    rows = rows_of(state.scene)
-    assert editing.found_in(rows, "") == list(rows)
-    for row in rows:
-        words = f"{row.kind.upper()} {row.shown}"
-        assert row in editing.found_in(rows, words)
-        assert row in editing.found_in(rows, " ".join(reversed(words.split())))
-    assert editing.found_in(rows, "no such thing") == []
+def test_hiding_a_row_hides_the_selection_if_the_row_is_in_it(state):
+    first, second, third = items_of(state)[:3]
+    both = choose(state, (first, second))
+    for item, hidden in ((first, {first, second}), (third, {third})):
+        after = editing.hidden(both, item, True)
+        assert {row.item for row in rows_of(after.scene) if row.hidden} == hidden
 
 
-def test_a_range_of_rows_ends_where_the_click_was(state):
-    rows, items = rows_of(state.scene), items_of(state)
-    assert editing.reached(rows, items[1], items[3]) == tuple(items[1:4])
-    assert editing.reached(rows, items[3], items[1]) == tuple(reversed(items[1:4]))
-    assert editing.reached(rows, None, items[2]) == (items[2],)
-    assert editing.reached(rows, items[2], items[2]) == (items[2],)
+@pytest.mark.parametrize(
+    ("line", "scrolled", "after"),
+    [(0, 0, 0), (4, 0, 0), (5, 0, 20), (30, 0, 520), (2, 100, 40), (7, 100, 100)],
+)
+def test_a_list_is_scrolled_by_as_little_as_a_line_needs(line, scrolled, after):
+    assert scroll_to(line, 20.0, scrolled, 100.0) == after

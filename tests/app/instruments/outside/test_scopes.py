@@ -10,10 +10,11 @@ from imgui_bundle import ImVec2
 from lucida.app.images.ray_pictures import RayPictures
 from lucida.app.instruments.outside import looking
 from lucida.app.instruments.outside.looking import NOTHING, STILL_S, Scopes, ray_ends
+from lucida.app.instruments.outside.mouse import Area
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 
-PLACE = ImVec2(0, 0), ImVec2(300, 200)
+PLACE = Area((300, 200), ImVec2(0, 0), ImVec2(300, 200))
 REACH = 3  # cameras are numbers here; a picture shows those that are nearer to it
 
 
@@ -46,25 +47,25 @@ def host(inner, own=None):
 def test_nothing_is_computed_twice(made):
     scopes = Scopes()
     for now_s in (1.0, 1.0, 1.1):
-        scopes.of(host("one"), (300, 200), *PLACE, NOTHING, now_s)
-    scopes.of(host("two"), (300, 200), *PLACE, NOTHING, 1.2)
+        scopes.of(host("one"), PLACE, NOTHING, now_s)
+    scopes.of(host("two"), PLACE, NOTHING, 1.2)
     assert made == ["one", "two"]
-    scopes.of(host("two"), (310, 200), *PLACE, NOTHING, 1.2)  # another size, at once
+    scopes.of(host("two"), PLACE._replace(size=(310, 200)), NOTHING, 1.2)  # another size, at once
     assert made == ["one", "two", "two"]
 
 
 def test_the_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
     scopes = Scopes()
     for step in range(8):
-        scope = scopes.of(host(step), (300, 200), *PLACE, NOTHING, step / 60)
+        scope = scopes.of(host(step), PLACE, NOTHING, step / 60)
         assert scope.of == step // REACH * REACH
         assert scopes.waits == (step % REACH > 0)
     assert scopes.moves
     for now_s in (7 / 60, 7 / 60 + STILL_S + 0.01):  # the button is held: a pause ends no drag
-        scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, now_s, True)
+        scope = scopes.of(host(7), PLACE, NOTHING, now_s, True)
         assert scope.of == 6
     assert not scopes.waits
-    scope = scopes.of(host(7), (300, 200), *PLACE, NOTHING, 7 / 60 + STILL_S + 0.01)
+    scope = scopes.of(host(7), PLACE, NOTHING, 7 / 60 + STILL_S + 0.01)
     assert scope.of == 7 and not (scopes.moves or scopes.waits)
     assert made == [0, 3, 6, 7]
 
@@ -91,7 +92,7 @@ def test_a_camera_is_in_the_picture_with_its_basis_and_its_image_plane(projectio
 def test_the_users_own_camera_waits_for_nothing(made):
     scopes = Scopes()
     for step in range(4):
-        scopes.of(host(step, own="mine"), (300, 200), *PLACE, NOTHING, step / 60)
+        scopes.of(host(step, own="mine"), PLACE, NOTHING, step / 60)
         assert not scopes.waits
     assert made == list(range(4))
 

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.instruments.outside.diagram import Dot, Label, Segments
+from lucida.app.instruments.outside.diagram import Dot, Item, Label, Segments
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
-    SecondCamera,
     corner_rays,
     second_camera,
+    second_ray,
 )
 from lucida.renderer.camera.camera import Camera
 
@@ -24,11 +24,15 @@ CAMERA = Camera.look_at((0.0, 1.0, 4.0), (0.0, 0.0, 0.0), aspect=4 / 3)
 LOOKING = Camera.look_at((6.0, 5.0, 9.0), (0.0, 0.0, 1.0))
 
 
-def second(camera: Camera = CAMERA, **changes) -> SecondCamera:
+def corners(camera: Camera = CAMERA) -> tuple[np.ndarray, np.ndarray]:
     rays = camera.rays(SIZE)
     origins = np.broadcast_to(rays.origin, (*SIZE[::-1], 3))
     directions = np.broadcast_to(rays.direction, origins.shape)
-    return replace(SecondCamera(*corner_rays(origins, directions)), **changes)
+    return corner_rays(origins, directions)
+
+
+def drawn(origins: np.ndarray, directions: np.ndarray) -> list[Item]:
+    return second_camera(origins, directions, REACH, "student's", "pixel (1, 1)")
 
 
 def named(items, name: str):
@@ -36,7 +40,7 @@ def named(items, name: str):
 
 
 def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
-    items = second_camera(second(name="student's", first="pixel (1, 1)"), REACH)
+    items = drawn(*corners())
     (edges,) = named(items, "second edges")
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
     lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
@@ -58,33 +62,33 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
 
 
 def test_a_parallel_camera_has_no_eye_and_its_plane_is_where_its_rays_begin() -> None:
-    given = second(replace(CAMERA, projection="parallel"))
-    items = second_camera(given, REACH)
+    origins, directions = corners(replace(CAMERA, projection="parallel"))
+    items = drawn(origins, directions)
     assert not named(items, "second eye")
-    assert np.allclose(named(items, "second image plane")[0].segments[:, 0], given.origins)
+    assert np.allclose(named(items, "second image plane")[0].segments[:, 0], origins)
 
 
 def test_a_singular_basis_is_drawn_as_it_is() -> None:
     """All rays in one plane, which no Camera may have."""
-    flat = second()
-    flat.directions[:, 1] = 0.0
-    items = second_camera(flat, REACH)
+    origins, directions = corners()
+    directions[:, 1] = 0.0
+    items = drawn(origins, directions)
     assert named(items, "second edges")
-    drawn = project(items, OutsideScreen(LOOKING, (200, 150)))
-    assert all(np.isfinite(part.points).all() for part in drawn if hasattr(part, "points"))
+    parts = project(items, OutsideScreen(LOOKING, (200, 150)))
+    assert all(np.isfinite(part.points).all() for part in parts if hasattr(part, "points"))
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 0.0])
 def test_rays_that_are_none_draw_nothing(bad) -> None:
     directions = np.full((4, 3), bad)
     ray = GivenRay(np.zeros(3), np.full(3, bad))
-    assert second_camera(second(directions=directions, ray=ray), REACH) == []
+    assert drawn(np.zeros((4, 3)), directions) == [] and second_ray(ray, REACH) == []
 
 
 def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
     ray = GivenRay(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -2.0]))
     for t, end, hits in ((1.5, -3.0, 1), (None, -REACH, 0), (np.inf, -REACH, 0)):
-        items = second_camera(second(ray=replace(ray, t=t)), REACH)
+        items = second_ray(replace(ray, t=t), REACH)
         (way,) = named(items, "second ray")
         assert isinstance(way, Segments)
         assert np.allclose(way.segments[0], [(1, 0, 0), (1, 0, end)])

@@ -53,15 +53,3 @@ def test_of_two_the_one_in_front_is_found(looking: Camera) -> None:
     for cameras, front in (((posed, second), 1), ((second, posed), 0)):
         poses = pose_set(Path("f"), CameraSet("f", cameras))
         assert picked(poses, LENGTH, screen, tuple(place[0][0].tolist())) == front
-
-
-def test_one_that_reaches_behind_the_eye_that_looks_is_found() -> None:
-    poses = a_set(1)
-    camera = poses.cameras[0].camera
-    inside = np.asarray(camera.eye) - 0.2 * np.asarray(camera.w)
-    looking = Camera.look_at(inside.tolist(), (0.0, 0.5, 0.0), fov_y_deg=80.0, aspect=4 / 3)
-    screen = OutsideScreen(looking, SIZE)
-    ends = poses.origins[0] + LENGTH * poses.ways[0]
-    spots = screen.spots(ends)
-    assert spots is not None
-    assert picked(poses, LENGTH, screen, tuple(spots[0][:2].mean(axis=0).tolist())) == 0

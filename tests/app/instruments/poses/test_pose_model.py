@@ -17,9 +17,7 @@ from lucida.app.instruments.poses.model import (
     cloud,
     frusta,
     looked_from,
-    matching,
     pose_set,
-    walked,
 )
 from lucida.app.state.app_state import AppState
 from lucida.renderer.camera.camera import Camera
@@ -160,22 +158,6 @@ def test_the_view_of_a_camera_loses_nothing_in_other_images() -> None:
     assert view.for_size(SIZE).viewport == pytest.approx(view.camera.viewport)
     wide = view.for_size((160, 60)).viewport
     assert wide[2:] == pytest.approx(view.camera.viewport[2:]) and wide[0] < view.camera.viewport[0]
-
-
-def test_a_search_finds_all_words_in_any_case() -> None:
-    names = ("Left/IMG_1.jpg", "right/img_10.jpg", "left/b.png")
-    assert matching(names, "") == [0, 1, 2]
-    assert matching(names, "IMG_1") == [0, 1]
-    assert matching(names, "jpg left") == [0]
-    assert matching(names, "tiff") == []
-
-
-def test_the_way_through_what_is_shown_ends_at_its_ends() -> None:
-    shown = [2, 5, 9]
-    assert walked(shown, 5, 1) == 9 and walked(shown, 5, -1) == 2
-    assert walked(shown, 9, 1) == 9 and walked(shown, 2, -7) == 2
-    assert walked(shown, -1, 1) == 2 and walked(shown, 3, -1) == 9  # not among them
-    assert walked([], 3, 1) == -1
 
 
 def test_a_camera_keeps_the_shape_of_its_image_s_pixels():

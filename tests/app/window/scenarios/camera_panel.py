@@ -196,7 +196,7 @@ def drive_look_at_is_typed(d: Driver) -> None:
     d.ctx.item_click("//Camera/Look there")
     assert d.window.state.camera == camera
     assert "along the view direction" in str(d.window.views["Camera"].entered.look.error)
-    d.ctx.item_click("//Camera/From the camera")
+    d.ctx.item_click("//###pending look/Back to the camera's own")
     d.ctx.yield_(2)
     assert d.window.views["Camera"].entered.look.error is None
     close_sections(d)

@@ -73,16 +73,6 @@ def drive_shadows_and_mirrors_are_the_ray_images_alone(d: Driver) -> None:
     d.agreeing_images()
 
 
-def drive_the_history_is_a_list(d: Driver) -> None:
-    d.drag_field("eye.x", 30)
-    d.drag_field("eye.z", 30)
-    d.drag_field("eye.y", 30)
-    assert len(d.window.history.past) == 3
-    d.ctx.menu_click("//##MainMenuBar/Edit/History/###step0")
-    assert d.window.state == d.start
-    assert len(d.window.history.future) == 3
-
-
 def drive_undo_takes_back_a_number_that_is_not_legal_before_any_edit(d: Driver) -> None:
     d.type("eye.y", "2.5")
     edited = d.window.state

@@ -39,14 +39,15 @@ def drive_exercises_say_what_is_right_and_wrong(d: Driver) -> None:
     assert verdict is not None and not verdict.right and "minus sign" in verdict.text
     d.ctx.yield_(2)
     outside = d.window.view(OutsideView)
-    assert any(item.name == "your d" for item in outside.extra)  # next to the correct one
+    drawn = outside.extensions.lines
+    assert any(item.name == "your d" for item in drawn)  # next to the correct one
     wrong = d.picture()
     answer(d, "origin", "0, 0, 0")
     answer(d, "direction", "1/16, 5/16, -1")
     d.ctx.item_click(item(d, "Check"))
     d.ctx.yield_(2)
     assert session.answers.verdict is not None and session.answers.verdict.right
-    assert changed(wrong, d.picture()) > 0 and not outside.extra
+    assert changed(wrong, d.picture()) > 0 and not outside.extensions.lines
     d.window.lecture.go(d.window, titles.index("Exercise: which lens?"))
     d.settle()
     d.ctx.item_click(item(d, "option 1"))

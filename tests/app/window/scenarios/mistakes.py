@@ -90,15 +90,15 @@ def drive_the_outside_view_shows_the_wrong_camera(d: Driver) -> None:
     d.window.change(with_options(d.window.state, marked=(100, 100)))
     d.settle()
     view = d.window.view(MistakesView)
-    names = {item.name for item in d.window.view(OutsideView).extra}
+    names = {item.name for item in d.window.view(OutsideView).extensions.lines}
     assert view.made is not None and {"second edges", "second ray"} <= names
     _ = d.picture()
     d.window.change(with_options(d.window.state, mistakes={"chosen": ()}))
     d.settle()
-    assert not d.window.view(OutsideView).extra
+    assert not d.window.view(OutsideView).extensions.lines
     d.window.change(with_options(d.window.state, mistakes={"chosen": ("no eye",)}))
     d.settle()
-    assert d.window.view(OutsideView).extra
+    assert d.window.view(OutsideView).extensions.lines
     d.window.shell.stage.show(MISTAKES, False)
     d.settle()
-    assert not d.window.view(OutsideView).extra  # who is not seen shows nothing
+    assert not d.window.view(OutsideView).extensions.lines  # who is not seen shows nothing

@@ -1,11 +1,11 @@
-"""The pixel probe in the window: its numbers, live; the keys, the pins, the copies, the rays."""
+"""The pixel probe in the window: its numbers, live; the pins, the copies, the rays."""
 
 from __future__ import annotations
 
 import numpy as np
 from imgui_bundle import hello_imgui
 from option_changes import with_options
-from window_driver import RASTER, Driver, Key
+from window_driver import RASTER, Driver
 
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
@@ -78,21 +78,10 @@ def drive_a_click_fills_the_probe(d):
     assert found.hit is None  # the sky
 
 
-def drive_keys_walk_and_pins_stay(d):
+def drive_pins_stay(d):
     enter(d)
-    d.window.change(with_options(d.window.state, marked=(60, 70)))
+    d.window.change(with_options(d.window.state, marked=(51, 71)))
     d.settle()
-    d.ctx.window_focus(WINDOW)
-    d.ctx.yield_(2)
-    for key, pixel in (
-        (Key.right_arrow, (60, 71)),
-        (Key.down_arrow, (61, 71)),
-        (int(Key.up_arrow) | int(Key.mod_shift), (51, 71)),
-    ):
-        d.ctx.key_press(int(key))
-        d.ctx.yield_(2)
-        assert d.window.state.marked == pixel
-        assert reading(d).pixel == pixel
     d.ctx.item_click(f"{WINDOW}/Pin")
     d.ctx.yield_(2)
     assert d.window.state.options.probe.pins == ((51, 71),)
@@ -101,9 +90,6 @@ def drive_keys_walk_and_pins_stay(d):
     d.ctx.item_click(f"{WINDOW}/###pin0")
     d.ctx.yield_(2)
     assert d.window.state.marked == (51, 71)
-    d.ctx.item_uncheck(f"{WINDOW}/from 1")
-    d.ctx.yield_(2)
-    assert not d.window.state.options.one_based
     d.ctx.item_click(f"{WINDOW}/###pin0", 1)
     d.ctx.yield_(2)
     assert d.window.state.options.probe.pins == ()

@@ -132,7 +132,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     until_told(d, "768 of 768 rays are wrong.", "half a pixel")
     d.settle()
     outside = view_of(d.window.views.values(), OutsideView)
-    assert any(item.name == "second edges" for item in outside.extra)
+    assert any(item.name == "second edges" for item in outside.extensions.lines)
     pictures = view(d).pictures
     assert pictures is not None and (pictures.given != pictures.right).any()
     d.picture()
@@ -145,7 +145,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     until_told(d, "pixel (0, 0), from 0")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
-    d.until(lambda: not any(item.name == "second edges" for item in outside.extra))
+    d.until(lambda: not any(item.name == "second edges" for item in outside.extensions.lines))
     write(d, RIGHT + "\ndef broken(:\n")
     until_told(d, "SyntaxError", "line 10")
     d.picture()
@@ -158,7 +158,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d: Driver) -> 
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
     leave(d)
-    assert not any(item.name.startswith("second") for item in outside.extra)
+    assert not any(item.name.startswith("second") for item in outside.extensions.lines)
 
 
 def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d: Driver) -> None:

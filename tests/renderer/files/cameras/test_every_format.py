@@ -24,7 +24,6 @@ from format_cameras import (
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.cameras import FORMATS, CameraSet, PosedCamera, read_cameras, written
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.rigid import UNSEEN_PX, moved_px
 from lucida.renderer.files.cameras.saving import save_files
 from lucida.renderer.system.errors import LucidaError
 
@@ -140,16 +139,16 @@ def test_a_lens_measures_in_u_v_and_w(name: str) -> None:
         camera, w=tuple(w + 0.01 * u for u, w in zip(camera.u, camera.w, strict=True))
     )
     for wrong in (longer, leaning):
-        with pytest.raises(LucidaError, match=r"\bw: .* behind a lens, which"):
+        with pytest.raises(LucidaError, match=r"\bw: .* behind a lens, as"):
             written([PosedCamera(wrong, (64, 48))], name)
 
 
 @pytest.mark.parametrize("name", RIGID)
 def test_a_camera_that_no_rotation_holds_is_refused(name: str) -> None:
     cases = {
-        "v: (0.5, 1, 0) is at 63.4349 degrees to u = (1, 0, 0), not at 90, which {} can": SKEWED,
+        "w: (0, 0, 1) is not with u and v at right angles, as {} needs": SKEWED,
         "u: (-1, 0, 0) is left-handed with v and w, a mirror that {} has not; negate u": MIRRORED,
-        "w: (0.2, 0, 1) is not at right angles to u and v, which {} cannot hold in a par": ASKANCE,
+        "w: (0.2, 0, 1) is not with u and v at right angles, as {} needs": ASKANCE,
     }
     for problem, posed in cases.items():
         if posed is ASKANCE and name in PERSPECTIVE_ONLY:
@@ -197,21 +196,7 @@ def test_cameras_with_rounded_poses_keep_one_calibration(
     found = again(cameras, name, Options(size=size), tmp_path).cameras
     assert len({one.camera.viewport for one in found}) == 1
     for one, other in zip(cameras, found, strict=True):
-        assert moved_px(one.camera, other.camera, size) <= 1.01 * UNSEEN_PX
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ('{"object": {"type": "PerspectiveCamera", "fov": 50}}', "three.js's JSON is not read"),
-        ('{"views": [], "poses": [{"poseId": "7"}]}', "Meshroom's .sfm is not read"),
-        ('<scene version="3.0.0"><sensor type="thinlens"/></scene>', "Mitsuba's XML is not read"),
-        ('Camera "perspective" "float fov" 40', "pbrt's scene file is not read"),
-    ],
-)
-def test_a_format_that_is_not_read_is_named(text: str, told: str) -> None:
-    with pytest.raises(LucidaError, match=f"{told}; export glTF or COLMAP there"):
-        pasted(text)
+        np.testing.assert_allclose(one.camera.basis, other.camera.basis, atol=10.0**-digits)
 
 
 def test_files_that_hold_no_camera_are_not_recognised() -> None:

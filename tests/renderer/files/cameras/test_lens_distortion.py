@@ -10,7 +10,8 @@ import pytest
 
 from lucida import Camera, LucidaError
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.colmap_lenses import ColmapLens, add_lens
+from lucida.renderer.files.cameras import colmap_lenses
+from lucida.renderer.files.cameras.colmap_lenses import ColmapLens
 from lucida.renderer.files.cameras.distortion import COUNTS, FISHEYE_NAMES, NAMES, lens_of, shift_px
 from lucida.renderer.files.cameras.given import Options
 
@@ -41,9 +42,7 @@ def moved(lens: Lens, origin: str = "corner", matrix: np.ndarray = K) -> tuple[f
 
 
 def colmap_lens(model: str, values: list[float]) -> ColmapLens:
-    found: dict[int, ColmapLens] = {}
-    add_lens(found, 1, model, *SIZE, values)
-    return found[1]
+    return colmap_lenses.colmap_lens(model, *SIZE, values)
 
 
 def used(model: str, coefficients: Mapping[str, float]) -> Lens:

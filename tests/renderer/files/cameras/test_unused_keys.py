@@ -126,19 +126,6 @@ def test_poses_under_the_programs_own_keys_are_read(text: str, count: int) -> No
 
 
 @pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("a.json", '{"K": [500, 500, 320, 240], "K": [400, 400, 320, 240]}'),
-        ("a.yaml", "K: [500, 500, 320, 240]\nK: [400, 400, 320, 240]\n"),
-        ("a.xml", "<opencv_storage><K>5 5 3 2</K><K>4 4 3 2</K></opencv_storage>"),
-    ],
-)
-def test_a_key_that_is_given_twice_is_an_error(name: str, text: str) -> None:
-    with pytest.raises(LucidaError, match="K: is given twice in one table"):
-        read_cameras(Given(name, text.encode(), Path(name)))
-
-
-@pytest.mark.parametrize(
     "text",
     [
         '{"K": [500, 500, 320, 240], "size": [640, 480], "model": "fisheye"}',
