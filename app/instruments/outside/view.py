@@ -247,7 +247,7 @@ class OutsideView(Instrument):
         right, down = (0, 0) if self.extensions.guests else focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
-            host.apply(self.with_flown(host.state, camera), (self.name, "turned"))
+            host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
             return
         if self._pixels.follow(host, scope):
             self._mouse.cancel()
@@ -255,7 +255,7 @@ class OutsideView(Instrument):
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)
         if camera != scope.camera:
-            host.apply(self.with_flown(host.state, camera), gesture)
+            host.apply(self.with_own_camera(host.state, camera), gesture)
         clicked = self._mouse.clicked()
         if self.hosted.take_click(host, scope, clicked, partial(self.object_under, host)):
             return
