@@ -62,7 +62,8 @@ def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None)
     style = imgui.get_style()
     for number, cause in enumerate(comparing.offered(host.state)):
         count = counts.get(cause.label, 0)
-        label = f"{cause.name} {count:<{DIGITS}}###{cause.name}"
+        text = str(count) if comparison is not None else "..."
+        label = f"{cause.name} {text:<{DIGITS}}###{cause.name}"
         if number:
             follow(imgui.get_frame_height() + style.item_inner_spacing.x + button_width(label))
         red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
