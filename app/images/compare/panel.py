@@ -16,7 +16,7 @@ from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
-DIGITS = 6  # of a count
+DIGITS = 2  # of a count, at least
 SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
 
 
