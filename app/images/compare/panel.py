@@ -10,13 +10,13 @@ from lucida.app.images.compare import comparing
 from lucida.app.images.compare.comparing import MODES
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.compare import CompareOptions
-from lucida.app.ui.checks import checkbox, radio_button
+from lucida.app.ui import theme
+from lucida.app.ui.checks import checkbox
 from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
-DIGITS = 2  # of a count, at least
 SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
 
 
@@ -26,9 +26,13 @@ def toolbar(host: Host) -> None:
     box = imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x
     for number, (mode, name, told) in enumerate(MODES):
         if number:
-            follow(box + imgui.calc_text_size(name).x)
-        if radio_button(name, options.mode == mode):
+            follow(button_width(name))
+        imgui.push_style_color(
+            imgui.Col_.button, theme.FILL if options.mode == mode else theme.FRAME
+        )
+        if imgui.button(name):
             host.edit(replace(options, mode=mode))
+        imgui.pop_style_color()
         tip(told)
     follow(box + imgui.calc_text_size("causes").x)
     changed, on = checkbox("causes", options.causes)
@@ -59,16 +63,15 @@ def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None)
     if shown != text:
         tip(text)
     counts = comparing.counts(comparison) if comparison is not None else {}
-    style = imgui.get_style()
     for number, cause in enumerate(comparing.offered(host.state)):
         count = counts.get(cause.label, 0)
         text = str(count) if comparison is not None else "..."
-        label = f"{cause.name} {text:<{DIGITS}}###{cause.name}"
+        label = f"{cause.name} {text}###{cause.name}"
         if number:
-            follow(imgui.get_frame_height() + style.item_inner_spacing.x + button_width(label))
+            follow(imgui.get_frame_height() + button_width(label))
         red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
         imgui.color_button(f"##color {cause.name}", ImVec4(red, green, blue, 1), SWATCH)
-        imgui.same_line(0, style.item_inner_spacing.x)
+        imgui.same_line(0, 0)
         imgui.begin_disabled(not count)
         pressed = imgui.button(label)
         imgui.end_disabled()

@@ -269,7 +269,8 @@ def _column(divider: float, size: tuple[int, int]) -> int:
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> None:
-    """Draw an image's name in its upper left or right corner. end: the divider, which cuts it."""
+    """Draw an image's name in its upper left or right corner. Without room for it, draw
+    nothing. end: the divider."""
     low, high = screen.visible
     draw = imgui.get_window_draw_list()
     with lettering(host.fonts.bold):
@@ -278,8 +279,7 @@ def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> No
         left = high.x - size.x - 3 * pad if right else low.x + pad
         at = ImVec2(left, low.y + pad)
         far = at + ImVec2(size.x + 2 * pad, pad + size.y)
-        shown = (ImVec2(end, low.y), high) if right else (low, ImVec2(end, high.y))
-        draw.push_clip_rect(*shown, True)
+        if (at.x < end if right else far.x > end) or at.x < low.x or far.x > high.x:
+            return
         draw.add_rect_filled(at, far, theme.u32(theme.rgb("#000000", 0.72)), 4.0)
         draw.add_text(at + ImVec2(pad, pad / 2), theme.u32(theme.rgb("#ffffff")), text)
-        draw.pop_clip_rect()
