@@ -1,4 +1,4 @@
-"""The first hits of a few rays, computed with NumPy. They agree with the images."""
+"""The first hits of a ray, computed with NumPy. They agree with the images."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.scene.model import Mesh, Scene, Sphere
@@ -18,8 +17,6 @@ def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None
     """Return the index of the nearest object on r(t) = origin + t direction, t > 0; None if there
     is none, or no direction: outside of a lens.
     """
-    if not np.isfinite(direction).all():
-        return None
     return nearest_hit(scene, origin, direction)[1]
 
 
@@ -28,41 +25,16 @@ def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float,
     infinity and None if nothing is hit, or the direction is NaN (outside of a lens). Both sides of
     triangles count.
     """
-    if not np.isfinite(direction).all():
-        return math.inf, None
-    t, numbers = nearest_hits(scene, origin, np.asarray(direction, float)[None])
-    return float(t[0]), int(numbers[0]) if np.isfinite(t[0]) else None
-
-
-def nearest_hits(
-    scene: Scene, origin: Floats, directions: Floats
-) -> tuple[Floats, NDArray[np.int64]]:
-    """Return nearest_hit() of rays from one origin: t (n,) and indices (n,), -1 for no hit."""
-    nearest = np.full(len(directions), math.inf)
-    numbers = np.full(len(directions), -1)
-    for k, t in _by_object(scene, origin, directions):
-        closer = t < nearest
-        nearest[closer], numbers[closer] = t[closer], k
-    return nearest, numbers
+    hits = [(t, k) for k, t in _by_object(scene, origin, direction) if math.isfinite(t)]
+    return min(hits, default=(math.inf, None))
 
 
 def line_meetings(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, ...]:
     """Return the t at which r(t) = origin + t direction meets objects, of each the nearest one
     ahead, and the nearest one behind.
     """
-    found = set()
-    for way in (1.0, -1.0):
-        ways = way * np.asarray(direction, float)[None]
-        found |= {way * float(t[0]) for _, t in _by_object(scene, origin, ways)}
-    return tuple(sorted(t for t in found if math.isfinite(t)))
-
-
-def _by_object(scene: Scene, origin: Floats, directions: Floats) -> Iterator[tuple[int, Floats]]:
-    """Yield the index of each visible object, and the t of its hits, infinity for none."""
-    for k, entry in scene.visible:
-        shape = entry.shape
-        meet = _sphere if isinstance(shape, Sphere) else _mesh
-        yield k, meet(shape, origin, directions)  # type: ignore[arg-type]
+    found = {way * t for way in (1, -1) for _, t in _by_object(scene, origin, way * direction)}
+    return tuple(sorted(filter(math.isfinite, found)))
 
 
 def is_quick(scene: Scene) -> bool:
@@ -73,47 +45,38 @@ def is_quick(scene: Scene) -> bool:
     return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
 
 
-def _sphere(sphere: Sphere, origin: Floats, directions: Floats) -> Floats:
-    """Return the smallest t > 0 at which each ray hits the sphere; infinity if there is none."""
-    offset = np.asarray(sphere.center) - origin
-    a = np.einsum("ij,ij->i", directions, directions)
-    middle = directions @ offset / a
-    away = offset - middle[:, None] * directions  # from the ray's nearest point to the centre
-    inside = (sphere.radius**2 - np.einsum("ij,ij->i", away, away)) / a
-    half = np.sqrt(np.maximum(inside, 0.0))
-    t = np.where(middle - half > 0, middle - half, middle + half)
-    return np.where((inside >= 0) & (t > 0), t, math.inf)
+def _by_object(scene: Scene, origin: Floats, direction: Floats) -> Iterator[tuple[int, float]]:
+    """Yield the index of each visible object, and the t of its hit, infinity for none."""
+    with np.errstate(all="ignore"):
+        for k, entry in scene.visible if np.isfinite(direction).all() else ():
+            shape = entry.shape
+            meet = _sphere if isinstance(shape, Sphere) else _mesh
+            yield k, meet(shape, origin, direction)  # type: ignore[arg-type]
 
 
-def _mesh(mesh: Mesh, origin: Floats, directions: Floats) -> Floats:
+def _sphere(sphere: Sphere, origin: Floats, direction: Floats) -> float:
+    """Return the smallest t > 0 at which the ray hits the sphere; infinity if there is none."""
+    offset, a = np.asarray(sphere.center) - origin, direction @ direction
+    middle = direction @ offset / a
+    away = offset - middle * direction  # from the ray's nearest point to the centre
+    half = np.sqrt((sphere.radius**2 - away @ away) / a)  # NaN if the sphere is missed
+    return min((float(t) for t in (middle - half, middle + half) if t > 0), default=math.inf)
+
+
+def _mesh(mesh: Mesh, origin: Floats, direction: Floats) -> float:
     """Return the same for triangles. Source: Möller and Trumbore 1997, all triangles at once."""
     from_world = np.linalg.inv(mesh.transform)
-    start = from_world[:3, :3] @ origin + from_world[:3, 3]
-    ways = directions @ from_world[:3, :3].T
-    nearest = np.full(len(ways), math.inf)
-    with np.errstate(all="ignore"):
-        near = _box(mesh, start, ways)
-        if not near.any():
-            return nearest
-        first, second, third = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
-        one, two, to_start = second - first, third - first, start - first
-        # Triple products, with the direction last: a product of matrices.
-        volume = ways[near] @ np.cross(two, one).T
-        other = np.cross(to_start, one)
-        b1 = ways[near] @ np.cross(two, to_start).T / volume
-        b2 = ways[near] @ other.T / volume
-        t = np.einsum("ij,ij->i", two, other) / volume
-        meets = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1) & (t > 0)
-        nearest[near] = np.where(meets, t, math.inf).min(axis=1, initial=math.inf)
-    return nearest
-
-
-def _box(mesh: Mesh, start: Floats, ways: Floats) -> NDArray[np.bool_]:
-    """Return whether each ray, in object space, meets the mesh's bounds (slabs; Kay and Kajiya
-    1986).
-    """
+    start, way = from_world[:3, :3] @ origin + from_world[:3, 3], from_world[:3, :3] @ direction
     low, high = mesh.vertices.min(axis=0) - start, mesh.vertices.max(axis=0) - start
     margin = 1e-6 * float(np.abs(high - low).max())
-    sides = np.stack([low - margin, high + margin])[:, None] / ways
-    found: NDArray[np.bool_] = np.nanmax(sides.min(axis=0), 1) <= np.nanmin(sides.max(axis=0), 1)
-    return found
+    sides = np.stack([low - margin, high + margin]) / way  # slabs; Kay and Kajiya 1986
+    if not np.nanmax(sides.min(axis=0)) <= np.nanmin(sides.max(axis=0)):
+        return math.inf
+    first, second, third = (mesh.vertices[mesh.faces[:, k]].astype(float) for k in range(3))
+    one, two, to_start = second - first, third - first, start - first
+    other = np.cross(to_start, one)
+    volume = np.cross(two, one) @ way
+    b1, b2 = np.cross(two, to_start) @ way / volume, other @ way / volume
+    t = np.einsum("ij,ij->i", two, other) / volume
+    meets = (b1 >= 0) & (b2 >= 0) & (b1 + b2 <= 1) & (t > 0)
+    return float(t[meets].min(initial=math.inf))

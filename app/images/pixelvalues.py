@@ -52,10 +52,10 @@ def value_lines(values: NDArray, options: ImageOptions) -> list[list[str]]:
         return [[_depth(t) for t in row] for row in values.tolist()]
     if channel == "id":
         return [[str(k) if k >= 0 else "-" for k in row] for row in values.tolist()]
-    if channel == "color" and options.values == "bytes":
+    if channel == "color":
         numbers, form = color_bytes(values, options), "{:3d}"
     else:
-        numbers, form = values, "{:+.2f}" if channel == "normal" else "{:.2f}"
+        numbers, form = values, "{:+.2f}"
     if options.component != "rgb":
         index = _COMPONENTS.index(options.component)
         numbers = numbers[..., index : index + 1]

@@ -55,7 +55,8 @@ class EntryBox:
         # The field that is typed into takes Escape for itself; the box is left all the same.
         left = imgui.shortcut(int(imgui.Key.escape))
         left = left or (self.focused and imgui.is_key_pressed(imgui.Key.escape))
-        width = self._field_em * imgui.get_font_size()
+        room = imgui.get_main_viewport().work_size.x
+        width = min(self._field_em * imgui.get_font_size(), 0.5 * room)
         done = False
         for name, text in self._fields.items():
             imgui.align_text_to_frame_padding()
@@ -70,7 +71,9 @@ class EntryBox:
             imgui.same_line()
         done = imgui.button(self._button) or done
         color = theme.ERROR if self.problem else theme.DIM
+        imgui.push_text_wrap_pos(0.8 * room)
         imgui.text_colored(color, self.problem or self._rule)
+        imgui.pop_text_wrap_pos()
         imgui.end()
         if not done:
             return bool(stays and not left)

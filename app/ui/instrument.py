@@ -81,14 +81,12 @@ class Instrument:
     def unseen(self, host: Host) -> None:
         """Called in each frame in which the view is hidden, or behind another tab."""
 
-    def flown(self, host: Host) -> Camera | None:
-        """Return the camera that the keys move while the mouse is over the view; None if there is
-        none.
-        """
+    def own_camera(self, host: Host) -> Camera | None:
+        """Return the camera of a 3D view, which F aims at an object; None if there is none."""
         return None
 
-    def with_flown(self, state: AppState, camera: Camera) -> AppState:
-        """Return the state with that camera moved."""
+    def with_own_camera(self, state: AppState, camera: Camera) -> AppState:
+        """Return the state with another such camera."""
         return state
 
     def object_under(self, host: Host) -> int | None:

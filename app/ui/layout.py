@@ -1,8 +1,8 @@
 """The layouts: where the windows are docked.
 
 A layout is one table: its splits, and the space of each view that it shows. The others are docked,
-hidden, in their own space, or INSTRUMENTS if the layout does not have that. HelloImGui
-keeps the user's changes of each layout, also between runs.
+hidden, in their own space, or INSTRUMENTS if the layout does not have that. HelloImGui keeps the
+user's changes of each layout, also between runs.
 """
 
 from __future__ import annotations

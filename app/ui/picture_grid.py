@@ -25,8 +25,8 @@ class GridPicture:
     """A picture of the grid.
 
     name: ImGui's id.
-    title, caption: the heading; the title is bold. The caption is next to it,
-    as far as it fits, and in a tooltip.
+    title, caption: the heading; the title is bold. The caption is next to it, as
+    far as it fits, and in a tooltip.
     texture: None while there is none.
     frame: a colour for its frame; None for the usual line.
     pixel: the marked one.

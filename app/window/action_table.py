@@ -41,9 +41,8 @@ ACTIONS = tuple(
 
 MOUSE = (
     *(row for instrument in INSTRUMENTS for row in instrument.mouse),
-    ("W, A, S, D, Q, E over a 3D view", "fly: forward, left, back, right, down, up; Shift: faster"),
-    ("Alt+drag, or drag while flying", "look around: the eye stays"),
-    ("right-click a number", "reset it, copy it, paste one"),
+    ("Alt+drag", "look around: the eye stays"),
+    ("right-click a number", "reset it"),
     ("drag a number", "change it; Shift: faster, Alt: slower"),
     ("double-click a number", "type it"),
 )

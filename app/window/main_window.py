@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import moderngl
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui
 
 from lucida.app.checking.your_code.view import YourCodeView
 from lucida.app.images.pair.view import RASTER
@@ -245,9 +245,7 @@ class MainWindow(Edits):
             self._titled = titled
             set_title(title(scene, is_a_steps))
         self._over = self.shell.stage.take_hovered()
-        keyed = self.views.get(self.shell.stage.keyboard)
-        is_keyed = imgui.get_current_context().nav_cursor_visible and keyed is not None
-        self.motions.frame(self, active, keyed if is_keyed else self._over)
+        self.motions.frame(self, active)
         if self.state.step is None and not self.saving.busy and self.files.follow(self.state.scene):
             hello_imgui.request_refresh()
         take_opened(self)

@@ -1,6 +1,4 @@
-"""The movements of the window itself: a camera's transition, a movement between two states, and a
-flight while keys are held.
-"""
+"""The movements of the window itself: a camera's transition, and a movement between two states."""
 
 from __future__ import annotations
 
@@ -12,7 +10,6 @@ from lucida.app.cameras.presets import framed
 from lucida.app.cameras.travel import CameraTransition
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.fly import Fly
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.window.edits import Edits
@@ -27,13 +24,11 @@ class Motions:
         self._edits = edits
         self.transition = CameraTransition()
         self.transition.instant = instant
-        self._fly = Fly()
 
     @property
     def under_way(self) -> bool:
         """True while anything moves."""
-        moving = self.transition.under_way or self._fly.under_way
-        return moving or self._edits.playing.under_way
+        return self.transition.under_way or self._edits.playing.under_way
 
     def stop(self) -> None:
         """End the transition and the movement where they are."""
@@ -57,7 +52,7 @@ class Motions:
         """Frame the object under the mouse, which is over a view, or all of the scene if there is
         none.
         """
-        camera, number = view.flown(host), view.object_under(host)
+        camera, number = view.own_camera(host), view.object_under(host)
         if camera is None:
             return
         points = host.focus.framed
@@ -67,13 +62,13 @@ class Motions:
             camera = framed(camera, points, host.focus.bounds)
         except LucidaError:  # too large for numbers
             return
-        host.travel(view.with_flown(host.state, camera))
+        host.travel(view.with_own_camera(host.state, camera))
 
-    def frame(self, host: Host, active: bool, over: Instrument | None) -> None:
+    def frame(self, host: Host, active: bool) -> None:
         """Move everything on by a frame. A press of the mouse ends a movement; on an item, a
         transition too.
 
-        active: an item is held. over: the view that keys fly through.
+        active: an item is held.
         """
         edits, pressed = self._edits, any(imgui.is_mouse_clicked(button) for button in range(3))
         if edits.playing.under_way:
@@ -84,6 +79,5 @@ class Motions:
         state = self.transition.step(edits.state)
         if state is not edits.state:
             edits.history = edits.history.change(state, self.transition.gesture)
-        self._fly.frame(host, over)
         if self.transition.under_way:
             host.animate()

@@ -1,4 +1,4 @@
-"""Moving the camera: orbit, pan, zoom, fly, look around, and the switch of projection.
+"""Moving the camera: orbit, pan, zoom, and the switch of projection.
 
 Pure functions from a camera to a camera. They also work for skewed, scaled and left-handed bases,
 which turn rigidly. They raise LucidaError (from Camera) if a motion leaves the legal range; the
@@ -103,26 +103,6 @@ def zoomed_viewport(camera: Camera, at: Point, factor: float) -> Camera:
     edges = zip((at[0], at[0], at[1], at[1]), camera.viewport, strict=True)
     left, right, bottom, top = (fixed + (edge - fixed) / factor for fixed, edge in edges)
     return replace(camera, viewport=(left, right, bottom, top))
-
-
-def flown(camera: Camera, right: float, up: float, forward: float) -> Camera:
-    """Return the camera moved along its own axes by lengths in world units.
-
-    forward: along -w, the view direction, through the middle of an on-axis image; lengths and
-    angles of the axes do not matter. Parallel rays move too: they do not see what is behind their
-    plane.
-    """
-    u, v, w = (np.asarray(axis) / np.linalg.norm(axis) for axis in (camera.u, camera.v, camera.w))
-    return moved(camera, right * u + up * v - forward * w)
-
-
-def looked(camera: Camera, right_rad: float, up_rad: float) -> Camera:
-    """Return the camera turned about its own eye.
-
-    The view direction turns to the image's right (about the world's up) and upwards, by these
-    angles, and stops short of the poles.
-    """
-    return orbited(camera, camera.eye, right_rad, up_rad)
 
 
 def dollied(camera: Camera, focus: ArrayLike, distance: float) -> Camera:

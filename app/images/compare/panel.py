@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from imgui_bundle import ImVec2, ImVec4, imgui
+from imgui_bundle import ImVec4, imgui
 
 from lucida.app.images.compare import comparing
-from lucida.app.images.compare.comparing import MODES, Cause
+from lucida.app.images.compare.comparing import MODES
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.compare import CompareOptions
 from lucida.app.ui import theme
-from lucida.app.ui.checks import checkbox, radio_button
+from lucida.app.ui.checks import checkbox
 from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
-DIGITS = 6  # of a count
+SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
 
 
 def toolbar(host: Host) -> None:
@@ -26,9 +26,13 @@ def toolbar(host: Host) -> None:
     box = imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x
     for number, (mode, name, told) in enumerate(MODES):
         if number:
-            follow(box + imgui.calc_text_size(name).x)
-        if radio_button(name, options.mode == mode):
+            follow(button_width(name))
+        imgui.push_style_color(
+            imgui.Col_.button, theme.FILL if options.mode == mode else theme.FRAME
+        )
+        if imgui.button(name):
             host.edit(replace(options, mode=mode))
+        imgui.pop_style_color()
         tip(told)
     follow(box + imgui.calc_text_size("causes").x)
     changed, on = checkbox("causes", options.causes)
@@ -60,28 +64,18 @@ def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None)
         tip(text)
     counts = comparing.counts(comparison) if comparison is not None else {}
     for number, cause in enumerate(comparing.offered(host.state)):
-        width = button_width(f"{cause.name} {'0' * DIGITS}") + imgui.get_text_line_height()
+        count = counts.get(cause.label, 0)
+        text = str(count) if comparison is not None else "..."
+        label = f"{cause.name} {text}###{cause.name}"
         if number:
-            follow(width)
-        if _count(cause, counts.get(cause.label, 0), width) and comparison is not None:
+            follow(imgui.get_frame_height() + button_width(label))
+        red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
+        imgui.color_button(f"##color {cause.name}", ImVec4(red, green, blue, 1), SWATCH)
+        imgui.same_line(0, 0)
+        imgui.begin_disabled(not count)
+        pressed = imgui.button(label)
+        imgui.end_disabled()
+        tip(f"{cause.told}\nClick: the next of these pixels. Shift+click: the previous one.")
+        if pressed and comparison is not None:
             forward = not imgui.get_io().key_shift
             host.apply(comparing.stepped(host.state, comparison, forward, cause.label))
-
-
-def _count(cause: Cause, count: int, width: float) -> bool:
-    """Draw a button with a cause's colour, name and count. Return True if it was pressed."""
-    at, pad = imgui.get_cursor_screen_pos(), imgui.get_style().frame_padding
-    side = imgui.get_text_line_height()
-    imgui.begin_disabled(not count)
-    pressed = imgui.button(f"##{cause.name}", ImVec2(width, 0))
-    imgui.end_disabled()
-    tip(f"{cause.told}\nClick: the next of these pixels. Shift+click: the previous one.")
-    draw, low = imgui.get_window_draw_list(), at + pad
-    red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
-    swatch = theme.u32(ImVec4(red, green, blue, 1))
-    draw.add_rect_filled(low, low + ImVec2(side, side), swatch, 2.0)
-    color, text = theme.u32(theme.TEXT if count else theme.DIM), str(count)
-    draw.add_text(low + ImVec2(side + pad.x, 0), color, cause.name)
-    right = at.x + width - pad.x - imgui.calc_text_size(text).x
-    draw.add_text(ImVec2(right, low.y), color, text)
-    return bool(pressed)

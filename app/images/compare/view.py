@@ -268,22 +268,18 @@ def _column(divider: float, size: tuple[int, int]) -> int:
     return round(divider * size[0])
 
 
-def _label(host: Host, screen: Screen, text: str, right: bool, end: float | None = None) -> None:
-    """Draw an image's name in its upper left or right corner.
-
-    end: where the image ends, if before the view does. Without room, there is no name.
-    """
+def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> None:
+    """Draw an image's name in its upper left or right corner. Without room for it, draw
+    nothing. end: the divider."""
     low, high = screen.visible
+    draw = imgui.get_window_draw_list()
     with lettering(host.fonts.bold):
         size = imgui.calc_text_size(text)
         pad = 0.5 * size.y
         left = high.x - size.x - 3 * pad if right else low.x + pad
         at = ImVec2(left, low.y + pad)
         far = at + ImVec2(size.x + 2 * pad, pad + size.y)
-        if at.x < low.x or far.x > high.x or far.y > high.y:
+        if (at.x < end if right else far.x > end) or at.x < low.x or far.x > high.x:
             return
-        if end is not None and not (at.x > end if right else far.x < end):
-            return
-        draw = imgui.get_window_draw_list()
         draw.add_rect_filled(at, far, theme.u32(theme.rgb("#000000", 0.72)), 4.0)
         draw.add_text(at + ImVec2(pad, pad / 2), theme.u32(theme.rgb("#ffffff")), text)

@@ -155,15 +155,6 @@ PIXELS = (
         separated=True,
         tip="Lines from 8x on, numbers from 32x on.",
     ),
-    choosing(
-        MAGNIFY,
-        "Values as linear light",
-        "images.values",
-        "floats",
-        "Alt+V",
-        off="bytes",
-        tip="A pixel's numbers: 0 to 255, or light.",
-    ),
 )
 LINEAR = choosing(
     "Image",

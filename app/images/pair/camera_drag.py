@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.ui.fly import held
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
@@ -42,13 +41,11 @@ class CameraDrag:
         point: on the image plane under the mouse. angle: of one unit of dragging.
         """
         try:
-            if self.kind == "look":  # by steps: flying moves the camera in between
-                delta = imgui.get_io().mouse_delta
-                return navigation.looked(camera, delta.x * angle, -delta.y * angle)
             if self.kind == "pan":
                 return navigation.panned(self.camera, self.point, point, self.parameter)
             right, up = mouse.x - self.start[0], self.start[1] - mouse.y
-            return navigation.orbited(self.camera, self.pivot, right * angle, up * angle)
+            pivot = self.camera.eye if self.kind == "look" else self.pivot
+            return navigation.orbited(self.camera, pivot, right * angle, up * angle)
         except LucidaError:
             return camera
 
@@ -58,4 +55,4 @@ def drag_kind() -> str:
     io = imgui.get_io()
     if not imgui.is_mouse_down(imgui.MouseButton_.left) or io.key_shift:
         return "pan"
-    return "look" if io.key_alt or any(held()) else "orbit"
+    return "look" if io.key_alt else "orbit"

@@ -4,7 +4,7 @@ navigation.py computes the motions of the camera, placement.py those of the magn
 
     drag                  turns the camera about the point under the pointer
     Shift, right, middle  moves it
-    Alt, or while flying  looks around
+    Alt                   looks around
     wheel                 goes closer and farther
     click                 marks the pixel
     Ctrl + wheel          magnifies the pixels
@@ -102,7 +102,7 @@ class ImageMouse:
         if grab.kind == "slide":
             at = screen.pane_px(mouse)
             return state.with_options(panned(state.images, screen.placement, grab.part, *at))
-        if state.camera != grab.latest and grab.kind != "look":  # by a key: continue from there
+        if state.camera != grab.latest:  # by a key: continue from there
             self.grab = replace(_begin(host, view, grab.kind, screen), moved_away=True)
             return state
         height = min(screen.placement.extent[1], screen.placement.pane[1]) / screen.scale

@@ -73,10 +73,10 @@ class ImageView(Instrument):
         self.linked.mouse, self.linked.anchor = ImageMouse(), None
         self.linked.steady_frames = 0
 
-    def flown(self, host: Host) -> Camera | None:
+    def own_camera(self, host: Host) -> Camera | None:
         return host.state.camera
 
-    def with_flown(self, state: AppState, camera: Camera) -> AppState:
+    def with_own_camera(self, state: AppState, camera: Camera) -> AppState:
         return state.with_camera(camera)
 
     def object_under(self, host: Host) -> int | None:

@@ -1,13 +1,9 @@
-"""Text over an image: the channel's legend, the magnification, a note.
-
-They are dark boxes in the lower corners, legible on any image.
-"""
+"""Text over an image, in dark boxes that are legible on any image: the channel's legend, a note."""
 
 from __future__ import annotations
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.images.placement import magnification_text
 from lucida.app.images.screen import Screen
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import palettes, theme
@@ -57,17 +53,6 @@ def draw_legend(
         draw.add_text(at + ImVec2(size + PADDING, 0), theme.u32(TEXT), text)
 
 
-def draw_magnification(draw: imgui.ImDrawList, screen: Screen, state: AppState) -> None:
-    """Draw the magnification in the lower right corner if it is not the window's."""
-    if state.images.magnification is None and state.images.resolution is None:
-        return
-    text = magnification_text(screen.placement.magnification)
-    width = imgui.calc_text_size(text).x + 2 * PADDING
-    low = _corner(draw, screen, width, imgui.get_font_size() + 2 * PADDING, right=True)
-    if low is not None:
-        draw.add_text(low + ImVec2(PADDING, PADDING), theme.u32(TEXT), text)
-
-
 def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool) -> None:
     """Draw a line or two of text in the middle of the image, which is darkened."""
     origin, far = screen.visible
@@ -80,17 +65,14 @@ def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool)
     draw.add_text(imgui.get_font(), imgui.get_font_size(), at, color, note, wrap_width=wrap)
 
 
-def _corner(
-    draw: imgui.ImDrawList, screen: Screen, width: float, height: float, right: bool = False
-) -> ImVec2 | None:
-    """Draw a dark box in the lower left or right corner. Return its upper left corner, or None if
+def _corner(draw: imgui.ImDrawList, screen: Screen, width: float, height: float) -> ImVec2 | None:
+    """Draw a dark box in the lower left corner. Return its upper left corner, or None if
     it would leave too little of a small image free.
     """
     start, end = screen.pane
     if width + 2 * MARGIN >= 0.8 * (end.x - start.x) or height >= 0.5 * (end.y - start.y):
         return None
-    left = end.x - MARGIN - width if right else start.x + MARGIN
-    low = ImVec2(left, end.y - MARGIN - height)
+    low = ImVec2(start.x + MARGIN, end.y - MARGIN - height)
     draw.add_rect_filled(low, low + ImVec2(width, height), theme.u32(BOX), 4.0)
     return low
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.images.pair.marks import draw_hovered, draw_marked, draw_pin
-from lucida.app.images.pair.overlay import draw_legend, draw_magnification, draw_note
+from lucida.app.images.pair.overlay import draw_legend, draw_note
 from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
 from lucida.app.images.pair.rulers import draw_rulers
 from lucida.app.images.placement import Placement
@@ -78,10 +78,8 @@ def draw_pane(
         draw.push_clip_rect(*screen.pane, intersect_with_current_clip_rect=True)
     if hovered is not None:
         draw_hovered(draw, screen, hovered)
-    if picture is not None and host.has_tools:
-        if pane.legend:
-            draw_legend(draw, screen, state, depths)
-        draw_magnification(draw, screen, state)
+    if picture is not None and host.has_tools and pane.legend:
+        draw_legend(draw, screen, state, depths)
     if pane.error is not None or pane.note:
         text = describe(pane.error) if pane.error is not None else pane.note
         draw_note(draw, screen, text, pane.error is not None)

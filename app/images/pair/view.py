@@ -91,7 +91,6 @@ class RasterView(PairView):
         "Reduce": "zoom out",
         "Fit": "zoom",
         "Pixel grid and values": "raster lines numbers",
-        "Values as linear light": "bytes floats",
         "Brighter": "exposure ev",
         "Darker": "exposure ev",
         "Exposure 0": "reset ev brightness",

@@ -128,7 +128,7 @@ class Mouse:
         if not imgui.is_item_active():
             self._grab = None
             return camera
-        if camera != grab.latest and grab.kind != "look":  # by a key: continue from there
+        if camera != grab.latest:  # by a key: continue from there
             self._grab = self._begin(scope, grab.kind, mouse)
             return camera
         still = math.dist(grab.start, (mouse.x, mouse.y)) < STILL_PX

@@ -155,10 +155,10 @@ class OutsideView(Instrument):
         if self.tools is not None:
             self.tools.ground.forget()
 
-    def flown(self, host: Host) -> Camera | None:
+    def own_camera(self, host: Host) -> Camera | None:
         return self.scope.camera if self.scope is not None else None
 
-    def with_flown(self, state: AppState, camera: Camera | None) -> AppState:
+    def with_own_camera(self, state: AppState, camera: Camera | None) -> AppState:
         return state.with_options(replace(state.options.outside, camera=camera))
 
     def ends(self, host: Host, target: AppState) -> Ends | None:
@@ -171,11 +171,13 @@ class OutsideView(Instrument):
         if scope is None or size is None or not is_changed or state.view != target.view:
             return None
         end = end or camera_for_all(host, scope.area, self.extensions.points)
-        return Ends(scope.camera, end, size, lambda s: s.options.outside.camera, self.with_flown)
+        return Ends(
+            scope.camera, end, size, lambda s: s.options.outside.camera, self.with_own_camera
+        )
 
     def look(self, host: Host, camera: Camera | None) -> None:
         """Look through a camera; None: through one that sees everything."""
-        host.travel(self.with_flown(host.state, camera))
+        host.travel(self.with_own_camera(host.state, camera))
 
     def look_along(self, host: Host, axis: str) -> None:
         """Look along an axis of the world, "x", "-x", ... "-z", at everything."""
@@ -245,7 +247,7 @@ class OutsideView(Instrument):
         right, down = (0, 0) if self.extensions.guests else focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
-            host.apply(self.with_flown(host.state, camera), (self.name, "turned"))
+            host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
             return
         if self._pixels.follow(host, scope):
             self._mouse.cancel()
@@ -253,7 +255,7 @@ class OutsideView(Instrument):
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)
         if camera != scope.camera:
-            host.apply(self.with_flown(host.state, camera), gesture)
+            host.apply(self.with_own_camera(host.state, camera), gesture)
         clicked = self._mouse.clicked()
         if self.hosted.take_click(host, scope, clicked, partial(self.object_under, host)):
             return

@@ -31,7 +31,7 @@ MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 # Fields of ImageOptions that say how an image is shown, not which one.
 DISPLAY = (
     *("channel", "component", "transfer", "exposure_ev", "magnification", "center"),
-    *("grid", "values", "dissolved"),
+    *("grid", "dissolved"),
 )
 
 Channel = Literal["color", "depth", "normal", "id"]
@@ -52,7 +52,7 @@ class ImageOptions(OptionPart):
     pixels, None to fit the whole image into its window; center: the centre of the view then, as a
     fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
     if those are large enough.
-    values: the notation of a colour's numbers. samples: rays per pixel for the ray image's colour,
+    samples: rays per pixel for the ray image's colour,
     once the image is complete. dissolved: how far both images have dissolved into flat squares,
     which finally are 32 in a row. lens_enlargement: texels along a side per pixel, in the pinhole
     images in which the raster image of a lens is looked up.
@@ -67,7 +67,6 @@ class ImageOptions(OptionPart):
     magnification: Annotated[float, Range(1 / 64, 128)] | None = None
     center: tuple[Part, Part] = (0.5, 0.5)
     grid: bool = True
-    values: Literal["bytes", "floats"] = "bytes"
     samples: Annotated[int, OneOf(SAMPLES)] = 1
     dissolved: Part = 0.0
     lens_enlargement: Annotated[int, OneOf(ENLARGEMENTS)] = ENLARGEMENT

@@ -13,7 +13,6 @@ from lucida.app.cameras.camera_panel import actions as camera_actions
 from lucida.app.cameras.camera_panel.actions import CAMERA, EDIT
 from lucida.app.cameras.presets import PRESETS
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.fly import KEYS
 from lucida.app.window.action_table import ACTIONS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
@@ -71,10 +70,9 @@ def run(window: Window, name: str) -> None:
     next(action for action in (*CAMERA, *EDIT) if action.name == name).run(window)
 
 
-def test_no_two_actions_have_a_key_and_none_has_one_that_flies() -> None:
+def test_no_two_actions_have_a_key() -> None:
     chords = Counter(chord for action in ACTIONS for chord in action.chords)
     assert [chord for chord, count in chords.items() if count > 1] == []
-    assert not chords.keys() & {int(key) for key in KEYS}
 
 
 @pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)

@@ -115,7 +115,7 @@ def test_scenes_and_views_beside_the_file(tmp_path):
         ('"Which ray?"', '""', 32, "exercise.question: is empty"),
         ('kind = "ray"', 'kind = "rya"', 31, "exercise.kind: 'rya' is unknown; did you"),
         (", right = true", "", 44, "exercise.options: has 0 right ones"),
-        ('"sphere"', '"sphre"', 7, "objects[0].type: 'sphre' is unknown; did you mean"),
+        ('"sphere"', '"sphre"', 6, "objects[0].type: 'sphre' is unknown; did you mean"),
         ("scenes.ball", "scenes.spheres", 5, "scenes.spheres: is the name of a built-in"),
     ],
 )  # fmt: skip
@@ -168,7 +168,7 @@ answers = [
     with pytest.raises(LucidaError) as told:
         lecture_from_toml(text, tmp_path, "x.toml")
     assert str(told.value).startswith(
-        "x.toml:9: steps[0].exercise.answers[0].wrong[0].feedback: a formula does not end"
+        "x.toml:7: steps[0].exercise.answers[0].wrong[0].feedback: a formula does not end"
     )
 
 

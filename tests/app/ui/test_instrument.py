@@ -16,5 +16,4 @@ def test_the_sheet_holds_what_mouse_and_keyboard_do_in_each_instrument() -> None
             assert [keys for keys, _ in parts[instrument.heading]] == own
             names = {action.name for action in instrument.actions}
             assert not names & {what for _, what in rows}
-    assert ("arrows in the probe", "another pixel; Shift: by ten") in rows
     assert ("Space", "play and pause") in parts["Loop stepper, once it is clicked"]

@@ -9,7 +9,6 @@ from any_camera import cameras, vectors
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from lucida.app.ui.fly import way_flown
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
@@ -99,38 +98,6 @@ def test_a_motion_out_of_range_is_refused():
     camera = Camera(projection="parallel")
     with pytest.raises(LucidaError, match=r"viewport: .* is empty"):
         navigation.zoomed(camera, (0.25, 0.25), 1e300, 1.0)
-
-
-@given(cameras(), st.floats(-2, 2), st.floats(-2, 2), st.floats(-2, 2))
-def test_flying_goes_along_the_camera_s_own_axes(camera, right, up, forward):
-    after = navigation.flown(camera, right, up, forward)
-    assert (after.u, after.v, after.w) == (camera.u, camera.v, camera.w)
-    lengths = np.linalg.norm(camera.basis, axis=0)
-    local = np.linalg.solve(camera.basis, np.subtract(after.eye, camera.eye))
-    assert local * lengths == pytest.approx(np.array([right, up, -forward]), abs=1e-7)
-
-
-def test_a_frame_flies_as_far_as_its_time_and_a_long_one_no_further():
-    """After a rest, or a frame that compiled, the camera does not jump."""
-    assert way_flown(20.0, 0.05, False) == pytest.approx(0.35)
-    assert way_flown(20.0, 0.05, True) == pytest.approx(1.4)
-    assert way_flown(20.0, 0.1, False) == pytest.approx(0.7)
-    for frame_s in (0.11, 3.0, 1e9):
-        assert way_flown(20.0, frame_s, False) == pytest.approx(0.7)
-
-
-@given(cameras(), st.floats(-1, 1), st.floats(-1, 1))
-def test_looking_around_turns_about_the_eye(camera, right, up):
-    after = navigation.looked(camera, right, up)
-    assert after.eye == pytest.approx(camera.eye, abs=1e-9)
-    assert np.allclose(after.basis.T @ after.basis, camera.basis.T @ camera.basis, atol=1e-9)
-
-
-def test_looking_to_the_right_and_up_does_that():
-    camera = Camera(eye=(1, 2, 3))
-    assert navigation.looked(camera, 0.3, 0.0).w[0] < -0.2  # the view direction is -w
-    assert navigation.looked(camera, 0.0, 0.3).w[1] < -0.2
-    assert navigation.looked(camera, 0.3, 0.0).v == pytest.approx((0, 1, 0))
 
 
 @given(cameras(), st.floats(0.05, 20), st.floats(0.2, 20), points)

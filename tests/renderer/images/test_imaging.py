@@ -108,7 +108,6 @@ def test_components_and_linear_light():
 def test_values_are_written_as_the_channel_needs():
     color = np.array([[[0, 0.5, 2.0]]], np.float32)
     assert value_lines(color, COLOR) == [["  0\n188\n255"]]
-    assert value_lines(color, replace(COLOR, values="floats")) == [["0.00\n0.50\n2.00"]]
     assert value_lines(color, replace(COLOR, component="green")) == [["188"]]
     depth = replace(COLOR, channel="depth")
     assert value_lines(np.array([[3.14159, np.inf, 12345.0]]), depth) == [["3.14", "-", "1e+04"]]

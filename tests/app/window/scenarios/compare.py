@@ -130,8 +130,11 @@ def check_false_colours(d):
 
 def check_counts(d):
     both = comparison(d)
-    count = d.steps
-    d.click("//###Compare/##shading")
+    counts = comparing.counts(both)
+    assert counts[SHADING] >= 40 * 60 - 100
+    assert counts[SHADING] == both.shading == (both.labels == SHADING).sum()
+    count = len(d.window.history.past)
+    d.click("//###Compare/###shading")
     assert d.state.marked is not None
     assert both.labels[d.state.marked] == SHADING
     d.settle()

@@ -143,7 +143,7 @@ def drive_the_strip_does_the_same(d):
         d.click(f"**/##{name}")
         d.click(f"//$FOCUSED/{item}")
         d.settle()
-        assert check(d.state.images), name
+        assert check(d.state.images), item
     d.ctx.set_ref("")
     assert d.steps == 1  # the resolution
     assert imgui.get_io().display_size.x > 0

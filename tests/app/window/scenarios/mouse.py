@@ -87,27 +87,6 @@ def drive_the_wheel_goes_through_nothing(d):
     assert window.state == d.start
 
 
-def drive_keys_fly_over_an_image(d):
-    window = d.window
-    keys = ((Key.w, -np.asarray(d.start.camera.w)), (Key.d, np.asarray(d.start.camera.u)))
-    for name, (key, direction) in zip((RASTER, RAY), keys, strict=True):
-        d.move_to(d.point(name, 0.5, 0.5))
-        d.ctx.key_down(key)
-        d.until(
-            lambda: np.linalg.norm(np.subtract(window.state.camera.eye, d.start.camera.eye)) > 0.3
-        )
-        d.ctx.key_up(key)
-        d.frames(2)
-        way = np.subtract(window.state.camera.eye, d.start.camera.eye)
-        assert np.allclose(way / np.linalg.norm(way), direction, atol=1e-6)
-        assert window.state.camera.w == d.start.camera.w
-        assert d.steps == 1
-        resting = window.state
-        d.frames(4)
-        assert window.state == resting
-        d.reset()
-
-
 def drive_the_object_under_the_mouse_is_framed(d):
     d.settle()
     window = d.window

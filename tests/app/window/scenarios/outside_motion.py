@@ -138,19 +138,10 @@ def drive_the_mouse_moves_the_camera_that_looks(d):
     assert window.state.options.outside.camera == closer
 
 
-def drive_keys_fly_it_and_switch_it(d):
+def drive_keys_switch_it(d):
     enter(d)
-    window, inner = d.window, d.state.camera
+    window = d.window
     d.move_to(empty_place(d))
-    d.ctx.key_down(Key.w)
-    d.until(lambda: window.state.options.outside.camera is not None)
-    before = window.state.options.outside.camera
-    d.until(lambda: window.state.options.outside.camera != before)
-    d.ctx.key_up(Key.w)
-    d.frames(2)
-    assert window.state.camera == inner
-    d.press(Key.mod_shift | Key.h)
-    assert window.state.options.outside.camera is None
     d.press(Key.b)
     assert min(window.state.options.outside.bundle) > 0
     d.press(Key.g)
