@@ -17,7 +17,7 @@ from lucida.app.images.imaging import (
     with_pixel_size,
     with_resolution,
 )
-from lucida.app.images.pair.boxes import ask_resolution
+from lucida.app.images.pair.boxes import ask_pixel, ask_resolution
 from lucida.app.images.placement import magnification_text, step_from
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
@@ -188,6 +188,7 @@ IMAGE = (
         off=False,
         can=lambda window: not window.state.camera.is_parallel,
     ),
+    Action("Image", "Go to pixel...", ask_pixel, "Ctrl+G", separated=True),
     *(
         choosing(
             COUNTING,

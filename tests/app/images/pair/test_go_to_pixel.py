@@ -1,0 +1,42 @@
+"""A pixel's row and column as somebody types them."""
+
+import pytest
+
+from lucida.app.images.pair.boxes import parsed_pixel
+from lucida.renderer.camera.pixels import Indexing
+from lucida.renderer.system.errors import LucidaError
+
+SIZE = (8, 6)
+
+
+@pytest.mark.parametrize(
+    ("texts", "indexing", "pixel"),
+    [
+        (("1", "1"), Indexing.LECTURE, (0, 0)),
+        ((" 6 ", "8"), Indexing.LECTURE, (5, 7)),
+        (("0", "0"), Indexing.ARRAY, (0, 0)),
+        (("5", "7"), Indexing.ARRAY, (5, 7)),
+    ],
+)
+def test_pixels(texts, indexing, pixel):
+    assert parsed_pixel(texts, SIZE, indexing) == pixel
+
+
+@pytest.mark.parametrize(
+    ("texts", "indexing", "told"),
+    [
+        (("0", "1"), Indexing.LECTURE, "'0' is no row of this image; give 1 to 6"),
+        (("7", "1"), Indexing.LECTURE, "'7' is no row of this image; give 1 to 6"),
+        (("1", "9"), Indexing.LECTURE, "'9' is no column of this image; give 1 to 8"),
+        (("6", "1"), Indexing.ARRAY, "'6' is no row of this image; give 0 to 5"),
+        (("1.5", "1"), Indexing.ARRAY, "'1.5' is no row"),
+        (("-1", "1"), Indexing.ARRAY, "'-1' is no row"),
+        (("", "1"), Indexing.ARRAY, "'' is no row"),
+        (("٣", "1"), Indexing.ARRAY, "is no row"),
+        (("1", "9" * 5000), Indexing.ARRAY, "is no column"),
+    ],
+)
+def test_mistakes(texts, indexing, told):
+    with pytest.raises(LucidaError) as caught:
+        parsed_pixel(texts, SIZE, indexing)
+    assert told in str(caught.value)
