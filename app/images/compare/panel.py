@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from imgui_bundle import ImVec4, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.images.compare import comparing
 from lucida.app.images.compare.comparing import MODES
@@ -17,6 +17,7 @@ from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
+WIDEST = "000000"  # count
 SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
 
 
@@ -63,17 +64,19 @@ def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None)
     if shown != text:
         tip(text)
     counts = comparing.counts(comparison) if comparison is not None else {}
+    swatch, room = imgui.get_frame_height(), imgui.get_content_region_avail().x
     for number, cause in enumerate(comparing.offered(host.state)):
-        count = counts.get(cause.label, 0)
-        text = str(count) if comparison is not None else "..."
-        label = f"{cause.name} {text}###{cause.name}"
+        # The rows do not depend on the counts: another height would be another image.
+        width = min(button_width(f"{cause.name} {WIDEST}"), room - swatch)
         if number:
-            follow(imgui.get_frame_height() + button_width(label))
+            follow(swatch + width)
         red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
         imgui.color_button(f"##color {cause.name}", ImVec4(red, green, blue, 1), SWATCH)
         imgui.same_line(0, 0)
+        count = counts.get(cause.label, 0)
+        text = str(count) if comparison is not None else "..."
         imgui.begin_disabled(not count)
-        pressed = imgui.button(label)
+        pressed = imgui.button(f"{cause.name} {text}###{cause.name}", ImVec2(width, 0))
         imgui.end_disabled()
         tip(f"{cause.told}\nClick: the next of these pixels. Shift+click: the previous one.")
         if pressed and comparison is not None:
