@@ -130,16 +130,18 @@ class ProbeView(Instrument):
         pixel = host.state.marked
         if pixel is None and host.hovered is not None:
             pixel = host.hovered[1]
-        if pixel is None or not (0 <= pixel[0] < size[1] and 0 <= pixel[1] < size[0]):
-            return None
-        return pixel
+        return pixel if pixel is not None and _has(size, pixel) else None
 
     def _reading(
         self, state: AppState, pixel: Pixel | None, camera: Camera, size: Size
     ) -> Reading | None:
-        """Return the pixel's reading, recomputed if anything in it has changed."""
+        """Return the pixel's reading, recomputed if anything in it has changed; None outside the
+        image.
+        """
         probe = self._probe
         if pixel is None or probe is None or probe.scene is not state.scene:
+            return None
+        if not _has(size, pixel):
             return None
         images, options = state.images, state.options
         depth = MIRROR_DEPTH if options.mirrors else 0
@@ -152,8 +154,7 @@ class ProbeView(Instrument):
         state, camera = host.state, host.renderers.camera(host.state)
         pins = []
         for pixel in state.options.probe.pins:
-            inside = pixel[0] < size[1] and pixel[1] < size[0]
-            reading = self._reading(state, pixel if inside else None, camera, size)
+            reading = self._reading(state, pixel, camera, size)
             pins.append(panel.Pin(pixel, reading.bytes if reading is not None else None))
         return pins
 
@@ -165,6 +166,11 @@ class ProbeView(Instrument):
         pinned = tuple(pin for pin in pins if pin is not None)
         end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
         self._outside.show(PROBE, self._items(reading, pinned, end, length))
+
+
+def _has(size: Size, pixel: Pixel) -> bool:
+    """Return True if an image of that size has the pixel."""
+    return 0 <= pixel[0] < size[1] and 0 <= pixel[1] < size[0]
 
 
 def _outside_items(
