@@ -55,7 +55,7 @@ def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> Ap
     indexing = state.options.indexing
     imgui.align_text_to_frame_padding()
     words = indexing.words(pixel) if pixel is not None else "no pixel"
-    imgui.text(f"{words}, {indexing.told}")
+    wrapped(f"{words}, {indexing.told}")
     pins = state.options.probe.pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -214,7 +214,7 @@ def color_row(shown: Shown | None, fonts: Fonts) -> None:
     with lettering(fonts.mono):
         for k, name in enumerate("RGB"):
             text = f"{name} {shown[0][k]:3d}" if shown is not None else f"{name}   -"
-            imgui.same_line()
+            follow(imgui.calc_text_size(text).x)
             imgui.text_colored(theme.legible(palettes.CHANNELS[k]), text)
 
 
