@@ -25,12 +25,13 @@ def dark_note(text: str, remedy: str, screen: Screen) -> bool:
     if remedy:
         size.x = max(size.x, button_width(remedy))
         size.y += imgui.get_frame_height_with_spacing()
-    size += padding * 2 + ImVec2(1, 0)
+    size += padding * 2 + ImVec2(2, 1)  # whole pixels
     imgui.set_cursor_screen_pos((low + high - size) / 2)
     imgui.push_style_color(imgui.Col_.child_bg, BOX)
     imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
-    child = imgui.ChildFlags_
-    imgui.begin_child("##why", size, child.always_use_window_padding | child.nav_flattened)
+    flags = imgui.ChildFlags_.always_use_window_padding | imgui.ChildFlags_.nav_flattened
+    # A scrollbar that one frame needs would narrow the text, which needs it from then on.
+    imgui.begin_child("##why", size, flags, imgui.WindowFlags_.no_scrollbar)
     imgui.pop_style_var()
     imgui.pop_style_color()
     wrapped(text, TEXT)

@@ -2,9 +2,11 @@
 
 from dataclasses import replace
 
+from imgui_bundle import imgui
 from window_driver import RASTER, RAY
 
 from lucida.app.cameras.remedies import CUT_NOTHING, FRAME
+from lucida.app.images.pair import dark_note
 from lucida.app.window.status import is_good_news, told
 
 WHY = "everything is behind the eye"
@@ -51,3 +53,23 @@ def drive_a_black_image_has_a_button_that_helps(d):
         assert window.state.camera == camera
     window.change(before)
     d.settle()
+
+
+def drive_the_note_on_a_scene_without_objects_needs_no_scrollbar(d):
+    path = d.folder / "nothing.toml"
+    path.write_text('lucida = 1\nname = "nothing"\nobjects = []\n')
+    d.drop([str(path)])
+    d.until(lambda: d.state.scene.name == "nothing")
+    scrolls, wrapped = [], dark_note.wrapped
+
+    def noting(*text):
+        scrolls.append(imgui.get_scroll_max_y())
+        wrapped(*text)
+
+    for scale in (1.0, 1.1, 1.25, 2.0):
+        d.change(preferences={"font_scale": scale})
+        d.settle()
+        dark_note.wrapped = noting
+        d.frames(3)
+        dark_note.wrapped = wrapped
+    assert scrolls and not any(scrolls)
