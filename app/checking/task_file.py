@@ -40,11 +40,13 @@ from lucida.renderer.system.errors import LucidaError, under
 from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
-# Fields of older files, and their values that may be ignored because they still hold.
+# Fields of older files, and their values that may be ignored because they still hold. With others,
+# it would be another task.
 REMOVED: dict[str, tuple[Any, ...]] = {
     "vectorised": (True, False),
     "vectors": ("column",),
     "origin": ("exact",),
+    "pixel_origin": (),
     "at_threshold": (1,),
 }
 # Words that give the size of a parallel view.
@@ -126,11 +128,17 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
 def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
     """Delete the fields that may be ignored. Return their names."""
     names = []
-    for table in (tables.get("conventions"), *tables.get("tasks", ())):
-        for name, values in REMOVED.items():
-            if isinstance(table, dict) and table.get(name) in values:
-                del table[name]
-                names.append(name)
+    tasks = tables.get("tasks")
+    places = {f"tasks[{k}]": table for k, table in enumerate(tasks if type(tasks) is list else ())}
+    for place, table in {"conventions": tables.get("conventions"), **places}.items():
+        for name in REMOVED if isinstance(table, dict) else ():
+            if name not in table:
+                continue
+            value = table.pop(name)
+            if value not in REMOVED[name]:
+                problem = f"{value!r} is of an older version, and made another task"
+                raise LucidaError(f"{place}.{name}", problem, "CHANGELOG.md says what remains")
+            names.append(name)
     return tuple(dict.fromkeys(names))
 
 

@@ -278,7 +278,7 @@ def _write_starter(arguments: argparse.Namespace) -> int:
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.starter != "all":
-        first = named(tasks, arguments.starter)
+        first = named(tasks, arguments.starter, "--starter")
         tasks = [task for task in tasks if task.function == first.function]
     text = starter(tasks)
     if arguments.output is None:

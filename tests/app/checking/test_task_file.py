@@ -153,6 +153,7 @@ def test_mistakes_name_file_line_and_field(tmp_path, line):
 
 OTHERS = {
     "tasks = []": ("1: tasks", "holds 0 tasks"),
+    "tasks = 3": ("1: tasks", "give a list"),
     "seconds = 0\n" + RAYS: ("1: seconds", "expected a number > 0"),
     '[conventions]\ncamera = { a = "b" }\n' + RAYS: ("2: conventions.camera.a", "unknown"),
     '[[tasks]]\nkind = "basis"\ncameras = ["turned"]': ("3: tasks[0].cameras", "no cameras"),
@@ -182,8 +183,9 @@ def test_the_words_of_computer_vision_bring_their_axes(tmp_path):
     (task,) = load(tmp_path, VISION).tasks
     assert task.conventions.axes == (1, -1, -1) and "skewed" not in task.cameras
     assert task.conventions.first_center == 0.0
-    with pytest.raises(LucidaError, match="vectors"):  # it would be another task without it
-        load(tmp_path, VISION + 'vectors = "row"')
+    for value in ('vectors = "row"', 'pixel_origin = "corner"'):
+        with pytest.raises(LucidaError, match="of an older version, and made another task"):
+            load(tmp_path, VISION + value)
 
 
 @pytest.mark.parametrize(

@@ -153,6 +153,8 @@ def test_a_starter_is_never_written_over_another_file(check, tmp_path):
     assert (tmp_path / "rays.py").read_text("utf-8") == text
     status, out, _ = check(None, "rays.py")
     assert status == 2 and "returned None" in out
+    status, _, err = check(None, "--starter", "project")
+    assert status == 2 and err.startswith("lucida: --starter: 'project' is unknown")
     status, out, _ = check(None, "--starter", "viewing-ray")
     assert (status, out) == (0, text)
     assert main(["check", "--starter", "all", "-o", "all.py"]) == 0
