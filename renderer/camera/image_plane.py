@@ -14,11 +14,17 @@ from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.checks import Floats, arrays_text
 from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.camera.pixels import Pixel
 
 Size = tuple[int, int]
 Viewport = tuple[float, float, float, float]
 
 LARGEST_KEPT = 1 << 21  # pixels of a lens's directions that are kept: 48 MB
+
+
+def has_pixel(size: Size, pixel: Pixel) -> bool:
+    """Return True if an image of (width, height) has the pixel (row, column)."""
+    return 0 <= pixel[0] < size[1] and 0 <= pixel[1] < size[0]
 
 
 class Ray(NamedTuple):

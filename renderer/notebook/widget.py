@@ -22,7 +22,7 @@ from PIL import Image
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera, check_camera
 from lucida.renderer.camera.checks import Vector
-from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.image_plane import Size, has_pixel
 from lucida.renderer.camera.pixels import Indexing, Pixel
 from lucida.renderer.compare.pixel_report import as_rows, picked
 from lucida.renderer.files import load_scene
@@ -87,7 +87,7 @@ def check_pixel(place: Any, size: Size) -> Pixel | None:
     except (TypeError, ValueError):
         problem = f"{place!r} is not a row and a column"
         raise LucidaError("pixel", problem, "give e.g. (240, 320)") from None
-    if not (0 <= row < height and 0 <= column < width):
+    if not has_pixel(size, (row, column)):
         problem = f"{(row, column)} is outside an image of {width}x{height}"
         raise LucidaError("pixel", problem, f"give (0, 0) to {(height - 1, width - 1)}")
     return row, column

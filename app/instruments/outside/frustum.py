@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.image_plane import Size, has_pixel
 
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next
@@ -211,9 +211,8 @@ def pixel_seen(
     x, y, t = found
     left, right, bottom, top = camera.viewport
     row = math.floor((top - y) / (top - bottom) * size[1])
-    column = math.floor((x - left) / (right - left) * size[0])
-    inside = 0 <= row < size[1] and 0 <= column < size[0]
-    return ((row, column), t) if inside else None
+    pixel = row, math.floor((x - left) / (right - left) * size[0])
+    return (pixel, t) if has_pixel(size, pixel) else None
 
 
 def on_plane(

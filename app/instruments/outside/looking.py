@@ -25,7 +25,7 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.image_plane import Size, has_pixel
 from lucida.renderer.camera.navigation import depth_of, orbited
 from lucida.renderer.system.memo import Memo, same
 
@@ -210,10 +210,7 @@ def _ray_pixel(host: Host, others: Container[str]) -> Pixel | None:
     pixel = host.state.marked
     if pixel is None and host.hovered is not None and host.hovered[0] not in others:
         pixel = host.hovered[1]
-    width, height = host.renderers.size
-    if pixel is None or not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
-        return None
-    return pixel
+    return pixel if pixel is not None and has_pixel(host.renderers.size, pixel) else None
 
 
 def _points(host: Host, more: Floats) -> Floats:

@@ -25,7 +25,7 @@ from lucida.app.instruments.probe.reading import (
 from lucida.app.ui.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector, three
-from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.image_plane import Size, has_pixel
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.scene.flat import FlatScene, flatten
@@ -198,7 +198,7 @@ class Probe:
 def check_pixel(pixel: tuple[int, int], size: Size) -> None:
     """Raise LucidaError if an image of (width, height) has no pixel (row, column)."""
     width, height = check_size(size)
-    if not (0 <= pixel[0] < height and 0 <= pixel[1] < width):
+    if not has_pixel((width, height), pixel):
         problem = f"row {pixel[0]}, column {pixel[1]} is outside {width}x{height}"
         raise LucidaError("pixel", problem, "give 0 to height - 1 and 0 to width - 1")
 

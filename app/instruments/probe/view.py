@@ -30,7 +30,7 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.messages import wrapped
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.image_plane import Size, has_pixel
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 
@@ -130,7 +130,7 @@ class ProbeView(Instrument):
         pixel = host.state.marked
         if pixel is None and host.hovered is not None:
             pixel = host.hovered[1]
-        return pixel if pixel is not None and _has(size, pixel) else None
+        return pixel if pixel is not None and has_pixel(size, pixel) else None
 
     def _reading(
         self, state: AppState, pixel: Pixel | None, camera: Camera, size: Size
@@ -141,7 +141,7 @@ class ProbeView(Instrument):
         probe = self._probe
         if pixel is None or probe is None or probe.scene is not state.scene:
             return None
-        if not _has(size, pixel):
+        if not has_pixel(size, pixel):
             return None
         images, options = state.images, state.options
         depth = MIRROR_DEPTH if options.mirrors else 0
@@ -166,11 +166,6 @@ class ProbeView(Instrument):
         pinned = tuple(pin for pin in pins if pin is not None)
         end, length = end_parameter(camera, host.focus.framed), NORMAL * host.focus.reach
         self._outside.show(PROBE, self._items(reading, pinned, end, length))
-
-
-def _has(size: Size, pixel: Pixel) -> bool:
-    """Return True if an image of that size has the pixel."""
-    return 0 <= pixel[0] < size[1] and 0 <= pixel[1] < size[0]
 
 
 def _outside_items(
