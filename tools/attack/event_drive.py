@@ -202,7 +202,7 @@ class Attack:
                 {"images": {"magnification": self.rng.choice((None, 0.0, 1e9, 3.3))}},
                 {"images": {"channel": self.rng.choice(("color", "depth", "normal", "id"))}},
                 {"compare": {"gain": self.rng.choice((-1.0, 1e30, float("nan"), 8.0))}},
-                {"compare": {"mode": self.rng.choice(("absolute", "wipe", "flip"))}},
+                {"compare": {"mode": self.rng.choice(("absolute", "wipe"))}},
                 {"outside": {"bundle": (self.rng.randrange(-5, 30), self.rng.randrange(-5, 30))}},
                 {"laboratory": {"progress": self.rng.choice((0.0, 2.5, float("inf")))}},
                 {"stepper": {"canvas": (self.rng.randrange(0, 99), self.rng.randrange(0, 99))}},

@@ -10,6 +10,7 @@ import time
 from array import array
 from collections import defaultdict
 from collections.abc import Callable
+from functools import cached_property
 from types import FrameType
 from typing import Any
 
@@ -75,7 +76,7 @@ class Recording:
         """Return the number of steps."""
         return len(self.lines)
 
-    @property
+    @cached_property
     def farthest(self) -> float:
         """The largest t in the depth buffer."""
         _, (depth, *_) = self.changes["depth"]
