@@ -242,8 +242,7 @@ class Attack:
         arrangement = self.window.shell.stage.arrangement()
         session = from_bytes(to_bytes(session_of(self.window.state, arrangement)))
         self.window.change(session.state(self.window.state.scene))
-        presenting = session.options.preferences.presentation
-        self.window.shell.stage.restore(session.arrangement, presenting)
+        self.window.shell.stage.restore(session.arrangement)
 
     def _resize(self, size: tuple[int, int]) -> None:
         """In the window's own thread."""

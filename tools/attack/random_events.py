@@ -21,7 +21,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-TESTS = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 LAST = 25  # events that are told
 SLACK_S = 300.0  # for the first compiling, and the end
 VARIABLES = ("LUCIDA_ATTACK_SEED", "LUCIDA_ATTACK_MINUTES")  # event_drive.py reads them
@@ -52,13 +52,13 @@ def _drive(folder: Path, seed: int, minutes: float) -> tuple[str, list[str]]:
     variables = {k: v for k, v in os.environ.items() if k not in hidden}
     variables |= {
         "XDG_CONFIG_HOME": str(folder / "config"),
-        "PYTHONPATH": str(TESTS.parent),
+        "PYTHONPATH": os.pathsep.join((str(ROOT), str(ROOT / "tests" / "support"))),
         **dict(zip(VARIABLES, (str(seed), str(minutes)), strict=True)),
     }
-    script = [sys.executable, str(TESTS / "support" / "window_driver.py"), str(report), str(folder)]
+    driver = ROOT / "tests" / "support" / "window_driver.py"
     try:
         done = subprocess.run(
-            [*script, "../attack/event_drive"],
+            [sys.executable, driver, report, folder, Path(__file__).with_name("event_drive")],
             cwd=folder,
             env=variables,
             capture_output=True,
