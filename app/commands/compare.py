@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 
+from lucida.app.cameras.films.frames import stored
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
@@ -50,9 +51,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--channel",
-        choices=("color", "depth", "normal", "id"),
+        choices=("color", "depth", "z", "normal", "id"),
         default="color",
-        help="the channel of absolute and signed (default: color)",
+        help="the channel of absolute and signed; depth (t) and z differ\n"
+        "relative to the ray image's, and therefore equally (default: color)",
     )
     parser.add_argument(
         "--gain",
@@ -92,7 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
             comparison.difference_image()
             if arguments.show == "causes"
             else comparison.false_color(
-                arguments.channel, arguments.gain, signed=arguments.show == "signed"
+                stored(arguments.channel), arguments.gain, signed=arguments.show == "signed"
             )
         )
         write_picture(arguments.output, picture)

@@ -28,14 +28,16 @@ class ImageSize:
         self,
         name: str,
         pane_px: tuple[int, int],
-        options: ImageOptions,
+        state: AppState,
         rulers_px: tuple[int, int] = (0, 0),
     ) -> None:
         """Report the size of an image's window, (width, height) in framebuffer pixels.
 
-        Both images get the size of the largest of them, or the selected resolution. rulers_px: of
-        the rulers next to magnified pixels, see Placement.
+        Both images get the size of the largest of them, or the selected resolution. A camera of a
+        set is seen through at its own shape. rulers_px: of the rulers next to magnified pixels, see
+        Placement.
         """
+        options, given = state.images, state.view.given
         self.panes_px[name], self._rulers_px = pane_px, rulers_px
         if options.resolution is not None:
             self.size = options.resolution
@@ -43,6 +45,9 @@ class ImageSize:
         pane = common_pane(list(self.panes_px.values()))
         width, height = own_size(options, pane, rulers_px if options.grid else (0, 0))
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
+        if state.options.poses.pose >= 0 and given is not None and given[1] is not None:
+            scale = min(width / given[1][0], height / given[1][1])
+            width, height = (max(1, round(scale * side)) for side in given[1])
         self.size = (width, min(height, LARGEST_PIXELS // width))
 
     def common_room(self, pane_px: tuple[int, int]) -> tuple[int, int]:
