@@ -8,7 +8,6 @@ from typing import Any
 from lucida.app.state.app_state import AppState
 
 WORDS = {
-    "pixel_size": "pixel size",
     "samples": "samples per pixel",
     "one_based": "pixels counted from 1",
     "fit": "fit to the aspect ratio",

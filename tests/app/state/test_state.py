@@ -157,7 +157,7 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
         (STATE, STATE.with_fit(False), "fit to the aspect ratio"),
         (STATE, STATE.with_keep_orthonormal(False), "keep orthonormal"),
         (STATE, STATE.with_view(View(SKEWED, fit=True)), "camera: view"),
-        (STATE, with_options(STATE, images={"pixel_size": 4}), "pixel size"),
+        (STATE, with_options(STATE, images={"samples": 4}), "samples per pixel"),
         (STATE, with_options(STATE, outside={"camera": SKEWED}), "camera"),
         (
             with_options(moved(3.0), shadows=True, outside={"ray": False, "grid": False}),
