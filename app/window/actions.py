@@ -42,7 +42,7 @@ def scaled(state: AppState, step: int) -> AppState:
 
 def _layout(number: int, one: layout.Layout) -> Action:
     return Action(
-        "View/Layout",
+        "Layout",
         one.name,
         lambda window: layout.switch(one.name),
         f"Ctrl+F{number + 1}",
@@ -168,7 +168,7 @@ LOOK = (
     _notation("book"),
     _notation("code"),
     *(_layout(number, one) for number, one in enumerate(layout.CHOICES)),
-    Action("View/Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
+    Action("Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
     Action(
         "View",
         "Next view",
@@ -185,8 +185,8 @@ LOOK = (
 )
 
 EFFECTS = (
-    choosing("View", "Shadows (ray image only)", "shadows", True, off=False, separated=True),
-    choosing("View", "Mirrors (ray image only)", "mirrors", True, off=False),
+    choosing("Image", "Shadows (ray image only)", "shadows", True, off=False, separated=True),
+    choosing("Image", "Mirrors (ray image only)", "mirrors", True, off=False),
 )
 
 HELP = (

@@ -54,7 +54,7 @@ def entries(window: Host, stage: Stage) -> list[Entry]:
     state, files = window.state, window.files
     found = [_of_action(action, window) for action in ACTIONS]
     for name, view in stage.views.items():
-        title, menu = " ".join(view.title.split()), "View > Views"
+        title, menu = " ".join(view.title.split()), "Instruments"
         also = SYNONYMS.get(title, "")
         found.append(Entry(f"Go to {title}", menu, partial(stage.show, name), also=also))
         if stage.is_shown(name):
@@ -85,7 +85,7 @@ def pages(window: Host) -> list[Entry]:
     return [
         Entry(
             page,
-            "View > Views",
+            "Instruments",
             partial(_show_page, window, instrument.name, options),
             also=SYNONYMS.get(page, ""),
         )

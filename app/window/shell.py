@@ -333,7 +333,7 @@ class Shell:
         if stage.maximised:
             return stage.maximised
         if not stage.rects:
-            raise LucidaError("picture", "no view is shown", "show one in the menu View")
+            raise LucidaError("picture", "no view is shown", "show one in the menu Instruments")
         return stage.focused if stage.focused in stage.rects else next(iter(stage.rects))
 
     def _rect(self, view: str) -> Rect | None:

@@ -230,7 +230,7 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
         d.resize(SIZE)
     d.window.change(d.start)
     d.settle()
-    d.menu("View/Shadows (ray image only)")
+    d.menu("Image/Shadows (ray image only)")
     assert d.options.shadows
 
 
