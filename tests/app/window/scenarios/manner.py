@@ -111,7 +111,7 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d):
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     d.frames(3)
     assert stage.is_shown(RASTER)
-    d.menu("View/Layout/Reset the layout")
+    d.menu("###Layout/Reset the layout")
     d.settle()
 
 
