@@ -15,6 +15,7 @@ from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.explaining import symbols
 from lucida.app.window import bookmarks
 from lucida.app.window.camera_files import CAMERA_FILES
+from lucida.app.window.documents import ABOUT, FIRST, GETTING_STARTED
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
@@ -190,6 +191,8 @@ EFFECTS = (
 )
 
 HELP = (
+    Action("Help", GETTING_STARTED, lambda w: w.shell.open_document(GETTING_STARTED)),
+    Action("Help", "Documentation", lambda w: w.shell.open_document(FIRST)),
     Action(
         "Help",
         "Find a command",
@@ -210,4 +213,5 @@ HELP = (
         "F4",
         can=lambda w: w.renderers.failure is not None or w.shell.has_failed,
     ),
+    Action("Help", ABOUT, lambda w: w.shell.open_document(ABOUT), separated=True),
 )

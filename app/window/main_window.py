@@ -216,6 +216,7 @@ class MainWindow(Edits):
     def begin(self, context: moderngl.Context) -> None:
         """Begin, once, when the window's context is there, and current."""
         self.renderers.begin(context)
+        self.shell.documents.begin(context)
         for view in self.views.values():
             self.shell.stage.failed.begin(view, self, context)
         on_drop(self._dropped)
@@ -307,6 +308,7 @@ class MainWindow(Edits):
         self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
             view.end()
+        self.shell.documents.end()
         self.renderers.end()
         self.files.close()
         self.saving.close()

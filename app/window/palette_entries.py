@@ -41,7 +41,10 @@ OWN = {
     "Dark theme": "mode colors colours night",
     "Light theme": "mode colors colours bright day",
     "Find a command": "palette search",
-    "Mouse and keys": "help shortcuts keyboard hotkeys bindings about version",
+    "Getting started": "tutorial introduction first steps",
+    "Documentation": "manual docs help read",
+    "Mouse and keys": "help shortcuts keyboard hotkeys bindings",
+    "About Lucida": "version licence license",
     "Shadows (ray image only)": "shadow",
     "Mirrors (ray image only)": "reflection reflections",
 }

@@ -27,6 +27,7 @@ from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
 from lucida.app.web import ENDINGS as PAGES
 from lucida.app.window.capture import Captures, Rect
+from lucida.app.window.documents import Documents
 from lucida.app.window.exporting import Exports
 from lucida.app.window.files import Files
 from lucida.app.window.palette import CommandPalette
@@ -63,6 +64,7 @@ class Shell:
         self.toasts = Toasts()
         self.captures = Captures(wake)
         self.exports = Exports()
+        self.documents = Documents()
         self.files = files
         self.help = False
         self._fonts = fonts
@@ -96,6 +98,9 @@ class Shell:
 
     def toggle_help(self) -> None:
         self.help = not self.help
+
+    def open_document(self, name: str) -> None:
+        self.documents.open(name)
 
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
@@ -150,6 +155,8 @@ class Shell:
             self._answered = describe(failure)
         elif self.exports.listing is not None:
             self.exports.listing = None
+        elif self.documents.shown:
+            self.documents.shown = ""
         elif self.help:
             self.help = False
         elif window.box is not None:
@@ -214,6 +221,7 @@ class Shell:
             self.escape(window)
         if self.help:
             self.help = help_sheet(self._fonts, __version__)
+        self.documents.draw()
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)

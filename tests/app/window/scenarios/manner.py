@@ -217,7 +217,7 @@ def drive_pictures_show_what_the_window_shows(d):
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
     d.change(preferences={"font_scale": 3.0})
     try:
-        for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
+        for width, names in ((900, ("File", "Help")), (300, ("Menu",))):
             d.resize((width, 480))
             for name in names:
                 assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
@@ -247,6 +247,23 @@ def drive_a_framebuffer_out_of_scale_makes_no_letters(d):
     d.resize((1, 1))
     d.resize(SIZE)
     d.agreeing_images()
+
+
+def drive_documents_are_read_in_the_window(d):
+    documents = d.window.shell.documents
+    d.menu("Help/Getting started")
+    d.settle()
+    plain = d.picture()
+    documents.end()  # without its pictures
+    assert np.abs(d.picture().astype(int) - plain).max() == 0, "they are loaded again"
+    d.menu("Help/Documentation")
+    assert documents.shown == "window.md"
+    d.picture()
+    documents.follow("cameras.md#lenses")
+    d.picture()
+    assert documents.shown == "cameras.md"
+    d.press(Key.escape)
+    assert not documents.shown
 
 
 def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
