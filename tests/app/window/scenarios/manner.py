@@ -2,12 +2,14 @@
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
+from imgui_bundle.imgui.test_engine import TestAction
 from PIL import Image
 from window_driver import SIZE, Key
 
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.ui import layout, theme
+from lucida.app.window.hints import Hints
 from lucida.app.window.platform import begin_letters, lock_letters
 
 SIDE = layout.LAYOUTS[0].name
@@ -264,6 +266,34 @@ def drive_documents_are_read_in_the_window(d):
     assert documents.shown == "cameras.md"
     d.press(Key.escape)
     assert not documents.shown
+
+
+def drive_hints_are_shown_until_one_is_followed_and_never_again(d):
+    shell, folder = d.window.shell, d.folder / "settings"
+    d.settle()
+    plain = d.picture()
+    shell.hints = Hints(folder)
+    d.frames(3)
+    lower = d.picture()[SIZE[1] // 2 :].astype(int) - plain[SIZE[1] // 2 :]
+    assert (np.abs(lower).max(axis=2) > 20).sum() > 1000, "they are over the images"
+    d.press(Key.p)
+    d.settle()
+    assert not shell.hints.shown
+    assert not Hints(folder).shown
+    d.undo()
+    shell.hints = Hints(None)
+    d.settle()
+    assert np.abs(d.picture().astype(int) - plain).mean() < 1
+
+
+def drive_escape_closes_a_menu_whose_submenu_is_under_the_mouse(d):
+    d.ctx.menu_action(TestAction.hover, "//##MainMenuBar/View/Theme")
+    d.frames(20)
+    any_popup = int(imgui.PopupFlags_.any_popup)
+    assert imgui.is_popup_open("", any_popup)
+    d.press(Key.escape)
+    d.frames(20)
+    assert not imgui.is_popup_open("", any_popup)
 
 
 def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
