@@ -14,15 +14,15 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from lucida.app.checking.own_words import returned, signature
 from lucida.app.checking.task_file import builtin_tasks
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.model import CodeReport
+from lucida.app.checking.your_code.model import RAY, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from lucida.app.instruments.stepper.panel import CANVASES
-from lucida.app.state.options.shared import Notation
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
 from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.explaining.symbols import arguments
+from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import button_width, follow, tip
@@ -30,7 +30,7 @@ from lucida.app.ui.theme import Fonts
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import one_line
 
-CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
+CodeWish = Literal["", "open", "starter", "run", "stop", "edit"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
 BESIDE = 2.0  # width / height from which words are next to the pictures
 WORDS_EM = 24.0  # the least width of the words there
@@ -49,11 +49,12 @@ TRUST = (
 )
 
 
-def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
-    """Draw the panel when no file is open. tasks: the name of the file of tasks, or ""."""
-    task = next(task for task in builtin_tasks(notation) if task.kind == "viewing-ray")
+def invitation(host: Host) -> CodeWish:
+    """Draw the panel when no file is open."""
+    notation = host.state.options.notation
+    task = next(task for task in builtin_tasks(notation) if task.kind == RAY)
     wrapped(INVITATION)
-    with lettering(fonts.mono):
+    with lettering(host.fonts.mono):
         code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
         imgui.text_colored(theme.DIM, code)
     wish: CodeWish = ""
@@ -63,7 +64,7 @@ def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
     follow(button_width("Open a Python file..."))
     if imgui.button("Open a Python file..."):
         wish = "open"
-    return _tasks(tasks) or wish
+    return wish
 
 
 def head(
@@ -95,7 +96,6 @@ def head(
         if imgui.button(f"{shown}###{name}"):
             wish = name
         tip(tooltip)
-    wish = _tasks(Path(options.tasks).name) or wish
     canvas = options.canvas if runs is None else _canvas(options.canvas)
     if running_s > RUNNING_S:
         text = f"running for {running_s:.0f} s"
@@ -105,23 +105,6 @@ def head(
     return wish, canvas
 
 
-def _tasks(name: str) -> CodeWish:
-    """Draw the source of the tasks. Return the wish to use others."""
-    wish: CodeWish = ""
-    shown = f"Tasks: {one_line(name)}" if name else "Tasks"
-    follow(button_width(shown))
-    if imgui.button(f"{shown}###tasks"):
-        imgui.open_popup("tasks")
-    tip("what is asked for: the built-in tasks, or those of a course")
-    if imgui.begin_popup("tasks"):
-        if imgui.menu_item("built-in tasks", "", not name)[0] and name:
-            wish = "built-in"
-        if imgui.menu_item("a course's file (TOML)...", "", bool(name))[0]:
-            wish = "tasks"
-        imgui.end_popup()
-    return wish
-
-
 def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
     """Draw a button for each task whose function the file has, with its verdict. Return the clicked
     one.
@@ -129,12 +112,11 @@ def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
     clicked = None
     for number, task in enumerate(report.tasks):
         verdict = verdict_of(report, task)
-        shown = "correct" if verdict == "right" else verdict
-        label = f"{task.name}: {shown or '...'}"
+        label = f"{task.name}: {verdict or '...'}"
         if number:
             follow(button_width(label))
         on = task == chosen
-        color = {"right": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
+        color = {"correct": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
         imgui.push_style_color(imgui.Col_.text, color or theme.DIM)
         imgui.push_style_color(imgui.Col_.border, theme.TEXT if on else theme.LINE)
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, theme.px(2 if on else 1))

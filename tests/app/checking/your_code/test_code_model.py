@@ -17,7 +17,6 @@ from lucida.app.checking.your_code.model import (
     canvas_pixel,
     cases_for,
     for_camera,
-    is_of_camera,
     rays_of,
 )
 from lucida.renderer.camera.camera import Camera
@@ -71,7 +70,6 @@ def test_the_task_follows_the_projection():
     assert perspective != parallel
     assert for_camera(perspective, PARALLEL) == parallel
     assert for_camera(parallel, CAMERA) == perspective
-    assert is_of_camera(perspective) and not is_of_camera(task("hit-sphere"))
 
 
 def test_pixels_pass_from_the_canvas_to_the_image_and_back():

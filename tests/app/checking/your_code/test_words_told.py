@@ -105,4 +105,4 @@ def test_a_function_with_nothing_in_it_is_told_what_it_is_to_do():
     assert texts(other)[0].startswith("viewing_ray returns nothing yet.")
     assert verdict_of(other, TASK) == "empty"
     assert verdict_of(other, PARALLEL) == ""
-    assert verdict_of(report(), TASK) == "right"
+    assert verdict_of(report(), TASK) == "correct"

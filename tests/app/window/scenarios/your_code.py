@@ -8,8 +8,8 @@ from imgui_bundle import hello_imgui, imgui
 from window_driver import Key
 
 from lucida.app.checking.tasks import Limits
-from lucida.app.checking.your_code import model, panel
-from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
+from lucida.app.checking.your_code import panel, runs
+from lucida.app.checking.your_code.view import YOUR_CODE, YourCode
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
 from lucida.app.ui import layout
@@ -27,20 +27,11 @@ def viewing_ray(i, j, width, height, camera):
     return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
 """
 CORNER = RIGHT.replace("(j + 0.5)", "j")
-TASKS = """
-lucida = 1
-[conventions]
-pixels_from = 1
-[[tasks]]
-kind = "viewing-ray"
-name = "counting"
-projection = "both"
-"""
 
 
 def view(d):
     found = d.window.views[YOUR_CODE]
-    assert isinstance(found, YourCodeView) and found.runs is not None
+    assert isinstance(found, YourCode)
     return found
 
 
@@ -142,26 +133,26 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
 
 def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
-    runs = view(d).runs
-    d.until(lambda: runs.running_s > 0.1)
+    its = view(d).runs
+    d.until(lambda: its.running_s > 0.1)
     frames = 0
     while frames < 30:  # the window goes on meanwhile
         d.frames()
         frames += 1
-    assert runs.busy
+    assert its.busy
     d.picture()
     processes = children()
     assert processes
     view(d).ask("stop")
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
-    d.until(lambda: not runs.busy)
+    d.until(lambda: not its.busy)
     d.until(lambda: not (children() & processes))
     d.picture()
     version = view(d).report.question.content.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.frames(10)
-    assert not runs.busy  # not by itself
+    assert not its.busy  # not by itself
     assert view(d).report.question.content.version == version
     d.change(your_code={"canvas": (4, 3)})
     until_told(d, "Every ray is correct.")  # it has no fourth row
@@ -171,16 +162,15 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
 
 
 def drive_nothing_runs_that_nobody_sees(d):
-    usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
+    usual, runs.LIMITS = runs.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
-    runs = view(d).runs
-    d.until(lambda: runs.running_s > 0.1)
+    d.until(lambda: view(d).runs.running_s > 0.1)
     processes = children()
     assert processes
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
     d.until(lambda: YOUR_CODE not in d.stage.rects)
     d.until(lambda: not (children() & processes))
-    model.LIMITS = usual
+    runs.LIMITS = usual
     write(d, RIGHT)
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     until_told(d, "Every ray is correct.")
@@ -200,25 +190,6 @@ def drive_images_are_pictures_and_other_functions_words(d):
     until_told(d, "memory_offset is wrong.", "printed", "asked 0")
     assert view(d).pictures is None
     d.picture()
-
-
-def drive_a_course_s_tasks_are_asked(d):
-    course = d.folder / "hw2.toml"
-    course.write_text(TASKS)
-    opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
-    until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
-    d.drop([str(course)])
-    d.until(lambda: d.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is correct.", "counting: correct in all of")
-    d.picture()
-    course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
-    until_told(d, "768 of 768 rays are wrong.")
-    course.write_text("lucida = 1\n")
-    until_told(d, "hw2.toml", "tasks")
-    d.click(f"{WINDOW}/###tasks")
-    d.click("//$FOCUSED/built-in tasks")
-    d.until(lambda: d.options.your_code.tasks == "")
-    until_told(d, "768 of 768 rays are wrong.")
 
 
 def drive_the_verdict_is_read_from_afar(d):
