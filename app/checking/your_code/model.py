@@ -67,7 +67,7 @@ def for_camera(task: CheckTask, camera: Camera) -> CheckTask:
     return next(
         one
         for one in builtin_tasks(task.notation)
-        if one.kind == RAY and camera.projection in one.projections
+        if one.kind == RAY and camera.projection == one.projection
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds.kind import text_of
-from lucida.app.checking.reports import VERDICTS, told
+from lucida.app.checking.reports import VERDICTS
 from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeRays, CodeReport
@@ -118,7 +118,7 @@ def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
     if _is_empty(result):
         yield ToldLine("text", f"{result.task.function} returns nothing yet. {result.task.text}")
         return
-    for number, line in enumerate(told(result).lines):
+    for number, line in enumerate(result.lines):
         yield ToldLine("code" if number else "bad", line)
 
 
@@ -136,7 +136,7 @@ def _of_result(result: TaskResult) -> Iterator[ToldLine]:
         yield ToldLine("good", f"{result.task.name}: correct in all of {result.cases} cases.")
     else:
         yield ToldLine("bad", f"{result.task.function} is wrong.")
-        yield from (ToldLine("text", line) for line in told(result).lines)
+        yield from (ToldLine("text", line) for line in result.lines)
 
 
 def _of_output(report: CodeReport) -> Iterator[ToldLine]:

@@ -28,7 +28,7 @@ SKEWED = replace(CAMERA, u=(0.8, 0.1, 0.2), viewport=(-0.2, 0.7, -0.4, 0.3))
 
 
 def task(kind: str, projection: str = "perspective"):
-    return next(one for one in BUILTIN if one.kind == kind and projection in one.projections)
+    return next(one for one in BUILTIN if one.kind == kind and projection == one.projection)
 
 
 def answered(camera: Camera, answer) -> CodeRays:

@@ -26,8 +26,8 @@ from lucida.renderer.camera.camera import Camera
 SIZE = (4, 3)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
 TASK = next(task for task in BUILTIN if task.kind == RAY)
-PARALLEL = next(task for task in BUILTIN if task.projections == ("parallel",))
-RIGHT = TaskResult(TASK, "right", 3.0, 379)
+PARALLEL = next(task for task in BUILTIN if task.projection == "parallel")
+RIGHT = TaskResult(TASK, "right", 379)
 QUESTION = CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE)
 
 
