@@ -1,7 +1,7 @@
 """The camera's panel: every number of the camera, to drag and to type.
 
-Lays out the panel and words eye and basis. projection.py has the numbers of the projection,
-sections.py the parts below. Takes a state and a draft and returns new ones.
+Lays out the panel and draws eye and basis. projection.py has the numbers of the projection, the
+other modules have the sections below them. Takes a state and a draft and returns new ones.
 """
 
 from __future__ import annotations
@@ -10,10 +10,9 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.basis import measures
 from lucida.app.cameras.camera_panel.actions import go_home, go_to_canonical, switch_projection
-from lucida.app.cameras.camera_panel.basis_numbers import basis_readout
 from lucida.app.cameras.camera_panel.lens_section import lens_section
+from lucida.app.cameras.camera_panel.more_section import more_section
 from lucida.app.cameras.camera_panel.projection import PanelContext, component, projection_numbers
 from lucida.app.cameras.camera_panel.sections import (
     Sections,
@@ -30,7 +29,7 @@ from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale
 
 ROLES = {
-    "eye": ("e", "", "The eye: where all viewing rays start (perspective)."),
+    "eye": ("e", "eye", "The eye: where all viewing rays start (perspective)."),
     "u": ("u", "right", "u: to the right in the image. A pixel's `x` counts in lengths of u."),
     "v": ("v", "up", "v: up in the image. A pixel's `y` counts in lengths of v."),
     "w": ("w", "back", "w: backwards, against the view direction: the camera looks along -w."),
@@ -41,7 +40,6 @@ All rays start at the eye and go through their pixel on the image plane:
 PARALLEL = """\
 All rays go along -w and start at their pixel, on the plane of the eye:
 `origin = eye + x*u + y*v,  direction = -w`"""
-EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
 ORTHONORMAL = """\
 On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
 Off: any three independent vectors: skewed, scaled or left-handed."""
@@ -76,14 +74,12 @@ def _panel(
     wish = _projection(state)
     rows.line()
     state, draft = _vectors(state, draft, around)
-    found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
-    basis_readout(found, around.fonts.mono)
-    state = _orthonormal(state)
+    if not around.is_brief:
+        state = _orthonormal(state)
     rows.line()
     state, draft = projection_numbers(state, draft, around)
-    state = _exposure(state, around)
-    draft = draft.following(state.camera)
-    wish = _resets() or wish
+    if not around.is_brief:
+        wish = _resets() or wish
     state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
     draft, wish = draft.following(state.camera), wanted or wish
     if draft.error is not None:
@@ -142,15 +138,6 @@ def _orthonormal(state: AppState) -> AppState:
     return state.with_keep_orthonormal(keep) if changed else state
 
 
-def _exposure(state: AppState, around: PanelContext) -> AppState:
-    width = rows.row("exposure", "", EXPOSURE, around.fonts)
-    value, scale = state.images.exposure_ev, Scale(-4.0, 4.0)
-    changed, value = around.field("exposure", value, width, scale, EXPOSURE, reset=0.0, unit=" EV")
-    if changed:
-        state = state.with_options(replace(state.options.images, exposure_ev=value))
-    return state
-
-
 def _resets() -> Wish | None:
     """Draw the buttons of the two cameras to begin with."""
     wish = None
@@ -173,9 +160,15 @@ def _sections(
     wish: Wish | None = None
     opened: list[str] = []
     look = sections.look
-    if header("Lens", sections):
+    if not around.is_brief and header("More", sections):
+        opened.append("More")
+        state, draft = more_section(state, draft, around)
+    has_lens = state.camera.lens is not None
+    if (has_lens or not around.is_brief) and header("Lens", sections):
         opened.append("Lens")
-        state, draft = lens_section(state, draft, around)
+        state, draft = lens_section(state, draft.following(state.camera), around)
+    if around.is_brief:
+        return state, draft, replace(sections, opened=tuple(opened)), None
     if header("K, R and t", sections):
         opened.append("K, R and t")
         state, wish = words_section(state, around.size, around.fonts)
