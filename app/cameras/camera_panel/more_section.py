@@ -14,7 +14,6 @@ from lucida.app.cameras.presets import clip_around
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
-from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale
 from lucida.renderer.camera.navigation import depth_of, dollied, with_shift
 from lucida.renderer.system.errors import LucidaError
@@ -24,13 +23,16 @@ SHIFTS = (
     ("v", "Off-axis: the middle of the viewport along v. Its size stays."),
 )
 DOLLY = """\
-Dolly zoom: the eye goes back and `distance` grows with it, so that the scene's middle keeps its
+Dolly zoom: the eye goes back and d grows with it, so that the scene's middle keeps its
 size; only the perspective changes.
 The number: how far the middle is from the eye, in units of w."""
 PLANES = (
     ("near", "Nothing nearer is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
     ("far", "Nothing farther is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
 )
+ORTHONORMAL = """\
+On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
+Off: any three independent vectors: skewed, scaled or left-handed."""
 EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
 
 
@@ -38,10 +40,17 @@ def more_section(state: AppState, draft: Draft, around: PanelContext) -> tuple[A
     """Draw the section into the current window."""
     found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
     basis_readout(found, around.fonts.mono)
+    state = _orthonormal(state)
     state, draft = _shift(state, draft.following(state.camera), around)
     state, draft = _clip(state, draft, around)
     state = _dolly(state, around)
     return _exposure(state, around), draft
+
+
+def _orthonormal(state: AppState) -> AppState:
+    changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
+    rows.tip(ORTHONORMAL)
+    return state.with_keep_orthonormal(keep) if changed else state
 
 
 def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
@@ -96,15 +105,14 @@ def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState
 
 
 def _dolly(state: AppState, around: PanelContext) -> AppState:
-    tooltip = spoken(DOLLY)
-    width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
+    width = rows.row("dolly zoom", "", DOLLY, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
     depth = depth_of(camera, around.focus.center)
     if camera.is_parallel or not depth > 0:
         rows.instead(NO_EYE if camera.is_parallel else "none, the scene is behind the eye")
         return state
     scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
-    changed, value = around.field("dolly zoom", depth, width, scale, tooltip, unit=" to the focus")
+    changed, value = around.field("dolly zoom", depth, width, scale, DOLLY, unit=" to the focus")
     if not (changed and value > 0):
         return state
     try:

@@ -13,7 +13,6 @@ from lucida.app.cameras.editing import Draft, edit_component, edit_field
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
-from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale, number_field
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -28,10 +27,10 @@ VIEWPORT = (
     ("top", "The viewport's upper edge, in units of v."),
 )
 RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
-DISTANCE = "`distance`: how far the image plane lies from the eye along -w, in units of w."
+DISTANCE = "d: how far the image plane lies from the eye along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
-It and `distance` are one number: the viewport stays, `distance` changes."""
+It and d are one number: the viewport stays, d changes."""
 FIT = """\
 On: the viewport is widened or heightened to the image's shape.
 Off: it is used as it stands, and the picture may look stretched."""
@@ -45,14 +44,12 @@ class PanelContext:
     """The panel's inputs besides the state.
 
     shown, size: the camera that the images are drawn with, and their size.
-    is_brief: leave out what a lecture's step is not about.
     """
 
     fonts: theme.Fonts
     shown: Camera
     size: Size
     focus: Focus
-    is_brief: bool
 
     def field(
         self,
@@ -75,10 +72,9 @@ def projection_numbers(
     state: AppState, draft: Draft, around: PanelContext
 ) -> tuple[AppState, Draft]:
     """Draw all numbers into the current window."""
-    if not (around.is_brief and state.camera.is_parallel):
-        state, draft = _distance(state, draft.following(state.camera), around)
-        state, draft = _field_of_view(state, draft.following(state.camera), around)
-        rows.line()
+    state, draft = _distance(state, draft.following(state.camera), around)
+    state, draft = _field_of_view(state, draft.following(state.camera), around)
+    rows.line()
     return _viewport(state, draft.following(state.camera), around)
 
 
@@ -118,15 +114,14 @@ def component(
 
 
 def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    tooltip = spoken(DISTANCE)
-    width = rows.row("d", "distance", tooltip, around.fonts)
+    width = rows.row("d", "distance", DISTANCE, around.fonts)
     imgui.begin_disabled(state.camera.is_parallel)
     changed, value = around.field(
         "distance",
         draft.value("distance"),
         width,
         Scale(0.1, 10.0, logarithmic=True),
-        tooltip,
+        DISTANCE,
         wrong=draft.is_wrong("distance"),
         reset=state.scene.view.camera.distance,
     )
@@ -138,8 +133,7 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Draw the distance as an angle, of the viewport as drawn."""
-    tooltip = spoken(FIELD_OF_VIEW)
-    width = rows.row("field of view", "", tooltip, around.fonts, derived=True)
+    width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
         return state, draft
@@ -153,7 +147,7 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
         Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG)
         if shown.lens is None
         else Scale(0.0, 180.0, least=LEAST_FOV_DEG, most=359.0),
-        tooltip,
+        FIELD_OF_VIEW,
         wrong=draft.is_wrong("field of view"),
         unit="\N{DEGREE SIGN} vertical",
     )

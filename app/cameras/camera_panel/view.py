@@ -73,7 +73,7 @@ class CameraView(Instrument):
         state = host.state
         shown = host.renderers.camera(state)
         size = image_size(host)
-        around = PanelContext(host.fonts, shown, size, host.focus, not host.has_tools)
+        around = PanelContext(host.fonts, shown, size, host.focus)
         panel = PanelOutcome(self.draft or Draft.of(state.camera), self.entered)
         state, panel = camera_panel(state, panel, around)
         self.draft, self.entered = panel.draft, panel.sections
