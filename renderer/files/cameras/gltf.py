@@ -1,4 +1,4 @@
-"""The cameras of glTF files, .gltf and .glb, each at its node; and writing a .gltf of cameras only.
+"""The cameras of glTF files, .gltf and .glb, each at its node; and writing files with nothing else.
 
 A glTF camera is centred and has no skew; it does not store an image size.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
@@ -15,13 +15,12 @@ from typing import Any
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import listed
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.files.cameras.entries import sized
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, sized
 from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 from lucida.renderer.files.models.gltf import placed_nodes
 from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
-from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
+from lucida.renderer.files.models.gltf_file import Gltf, glb_bytes, parse_gltf
 from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.system.errors import LucidaError
 
@@ -83,6 +82,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "nodes": nodes,
         "cameras": lenses,
     }
+    if options.is_binary:
+        return {"": glb_bytes(tree)}
     return {"": (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()}
 
 

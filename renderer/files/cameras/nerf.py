@@ -27,15 +27,14 @@ from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, le
 from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
-    in_image,
     is_rotation,
+    notes_on,
     number_of,
     size_of,
 )
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image
 from lucida.renderer.files.cameras.rigid import pinhole, pose_of
-from lucida.renderer.files.cameras.unused import notes_on
 from lucida.renderer.system.errors import LucidaError, under
 
 Table = Mapping[str, Any]
@@ -248,7 +247,7 @@ def _model_for(cameras: Sequence[PosedCamera]) -> str:
         return "OPENCV"
     if len(kinds) > 1:
         problem = f"is {' and '.join(sorted(kinds))}, and a transforms.json has one for all frames"
-        raise LucidaError("camera_model", problem, "choose cameras with --frame or --image")
+        raise LucidaError("camera_model", problem, "write them one by one")
     return kinds.pop() if kinds else "PINHOLE"
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lucida.renderer.files.models.gltf_file import glb_bytes
 from lucida.renderer.images.png import png_of
 
 FLOAT, UNSIGNED_INT = 5126, 5125
@@ -62,15 +63,9 @@ class GlbTree:
 
     def glb(self, tree: dict[str, Any]) -> bytes:
         """Return the file. tree: what is not in the lists."""
-        binary = [(b"BIN\0", bytes(self._chunk))] if self._chunk else []
-        lists = self._lists | ({"buffers": [{"byteLength": len(self._chunk)}]} if binary else {})
-        text = json.dumps(tree | lists, ensure_ascii=False, separators=(",", ":")).encode()
-        chunks = [(b"JSON", text + b" " * (-len(text) % 4)), *binary]
-        length = 12 + sum(8 + len(data) for _, data in chunks)
-        parts = [b"glTF", (2).to_bytes(4, "little"), length.to_bytes(4, "little")]
-        for kind, data in chunks:
-            parts += [len(data).to_bytes(4, "little"), kind, data]
-        return b"".join(parts)
+        if self._chunk:
+            tree = tree | {"buffers": [{"byteLength": len(self._chunk)}]}
+        return glb_bytes(tree | self._lists, bytes(self._chunk))
 
     def _view(self, data: bytes) -> int:
         if data not in self._views:

@@ -63,7 +63,7 @@ def test_a_synthetic_scene_sees_what_its_formula_says(tmp_path: Path) -> None:
     path = tmp_path / "transforms_train.json"
     path.write_text(json.dumps(SYNTHETIC))
     found = read_cameras(path)
-    camera = one_of(found, "r_0")
+    camera = one_of(found.cameras, "r_0")
     assert (found.format, camera.size, camera.name) == ("nerf", (800, 600), "train/r_0")
     assert Path(camera.image) == tmp_path / "train" / "r_0.png"
     assert any("the size of" in phrase for phrase in found.taken)
