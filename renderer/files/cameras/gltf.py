@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
@@ -47,13 +46,11 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
         found = gltf_camera(tree, placed)
         shown.add(placed.node.camera)
-        camera, fit = found.camera, not found.has_aspect
-        if fit and options.size is not None:
-            camera = _as_wide(camera, options.size[0] / options.size[1])
-        elif fit:
+        fit = not found.has_aspect
+        if fit:
             name = found.name or len(cameras)
             taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
-        cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
+        cameras.append(PosedCamera(found.camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
 
@@ -130,11 +127,3 @@ def camera_table(camera: Camera, size: Size | None) -> dict[str, Any]:
     if made:
         table["extras"] = {UNCLIPPED: made}
     return table
-
-
-def _as_wide(camera: Camera, aspect: float) -> Camera:
-    """Return a camera with a square viewport, fitted to an image of this aspect ratio. yfov
-    stays.
-    """
-    _, _, bottom, top = camera.viewport
-    return replace(camera, viewport=(bottom * aspect, top * aspect, bottom, top))

@@ -48,8 +48,6 @@ from lucida.renderer.system.errors import LucidaError
 
 LENSES = ("brown", "fisheye", "equidistant")
 _FOCAL = ("fx", "fy", "cx", "cy")
-_STRAIGHT = 1e-4  # tolerance of a rotation that is none
-_NO_POSE = 1e-9  # a smaller pose is rounding
 
 _Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
 _Entry = tuple[str, Any] | None  # a key of the file, and its value
@@ -83,10 +81,15 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
     pose = np.eye(4)
     found, unused = cameras_in(table)
     for name, keys in found.items():
+        rectified: tuple[str, ...] = ()
+        if "P" in keys and not {"K", "fx"}.isdisjoint(keys):
+            # In ROS, P is of the rectified image, into which R rotates.
+            rectified = ("P",) if "t" in keys else ("P", "R")
+        others = [keys.pop(role)[0] for role in rectified if role in keys]
         lens, ignored = lens_in(keys, options)
         intrinsics = _intrinsics(keys)
         size, sizing = _size(keys, intrinsics[1], options, origin)
-        poses, told, others = _poses(keys, pose)
+        poses, told, more = _poses(keys, pose)
         pose = poses[0][1]
         name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
         for called, pose_of_one in poses:
@@ -96,7 +99,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
         taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
         if not all(entries.is_rotation(pose[:3, :3]) for _, pose in poses):
             taken["R is no rotation, and held as it is"] = None
-        notes |= dict.fromkeys([*filter(None, [sizing]), *entries.notes_on(others)])
+        notes |= dict.fromkeys([*filter(None, [sizing]), *entries.notes_on([*others, *more])])
     notes |= dict.fromkeys(unused)
     return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
@@ -227,22 +230,10 @@ def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
     if turned or moved:
         name, pose, told = _parts(turned, moved, "take the camera's points to the world")
         yield name, as_camera_from_world(pose), told
-    turned, moved, rectified = keys.get("R"), keys.get("t"), keys.get("rectification")
-    has_K, in_pair = not {"K", "fx"}.isdisjoint(keys), np.eye(4)
-    if (found := keys.get("P")) and not (has_K and not entries.numbers_in(found[1]).any()):
-        pose = _projected(*found)[1]
-        if has_K and not moved and np.allclose(pose[:3, :3], np.eye(3), rtol=0, atol=_STRAIGHT):
-            # ROS: R rotates into the rectified image, which P is for.
-            in_pair, rectified, turned = pose, rectified or turned, None
-        else:
-            yield found[0], pose, f"K, R and t out of {found[0]}"
-    if rectified:
-        R = flat(*rectified, 9).reshape(3, 3)
-        in_pair = as_camera_from_world(_rigid(R, np.zeros(3))) @ in_pair
-    if not np.allclose(in_pair, np.eye(4), rtol=0, atol=_NO_POSE):
-        names = " and ".join(entry[0] for entry in (rectified, found) if entry)
-        yield names, in_pair, f"{names}: the world is the frame of the rectified images"
-    if (turned := turned or keys.get("rvec")) or moved:
+    turned, moved = keys.get("R") or keys.get("rvec"), keys.get("t")
+    if found := keys.get("P"):
+        yield found[0], _projected(*found)[1], f"K, R and t out of {found[0]}"
+    if turned or moved:
         yield _parts(turned, moved, "take world points to the camera")
 
 

@@ -34,7 +34,6 @@ _NAMES = {
     "width": "imagewidth width w cameracols",
     "height": "imageheight height h camerarows",
     "R": "r rotation rotationmatrix",
-    "rectification": "rectificationmatrix rectification",
     "rvec": "rvec rodrigues rotationvector",
     "t": "t tvec translation translationvector",
     "from world": "extrinsics extrinsic extrinsicmatrix rt camerafromworld worldtocamera world2cam "

@@ -28,7 +28,6 @@ class GlbTree:
         self._known: dict[tuple[str, str], int] = {}
         self._views: dict[bytes, int] = {}
         self._chunk = bytearray()
-        self._pictures: dict[int, int] = {}
 
     def add(self, kind: str, table: dict[str, Any]) -> int:
         """Return the number of an entry of one of the lists."""
@@ -53,12 +52,10 @@ class GlbTree:
 
     def texture(self, texels: NDArray[np.uint8], wrap_s: int, wrap_t: int) -> dict[str, int]:
         """Return a textureInfo of an image."""
-        if id(texels) not in self._pictures:
-            image = {"bufferView": self._view(png_of(texels)), "mimeType": "image/png"}
-            self._pictures[id(texels)] = self.add("images", image)
+        image = {"bufferView": self._view(png_of(texels)), "mimeType": "image/png"}
+        source = self.add("images", image)
         filters = {"magFilter": LINEAR, "minFilter": LINEAR}
         sampler = self.add("samplers", {**filters, "wrapS": wrap_s, "wrapT": wrap_t})
-        source = self._pictures[id(texels)]
         return {"index": self.add("textures", {"source": source, "sampler": sampler})}
 
     def glb(self, tree: dict[str, Any]) -> bytes:

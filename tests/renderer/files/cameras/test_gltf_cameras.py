@@ -102,12 +102,6 @@ def test_without_an_aspect_ratio_the_height_s_angle_stays():
     seen = one(tree(PERSPECTIVE))
     assert seen.fit and seen.size is None
     assert seen.camera.fitted((200, 100)).fov_y_deg == pytest.approx(math.degrees(0.8))
-    for size in ((200, 100), (100, 200)):
-        of_size = one(tree(PERSPECTIVE), size=size)
-        assert of_size.size == size
-        assert of_size.camera.fov_y_deg == pytest.approx(math.degrees(0.8))
-        left, right, bottom, top = of_size.camera.viewport
-        assert (right - left) / (top - bottom) == pytest.approx(size[0] / size[1])
 
 
 def test_clip_planes_are_kept_and_what_was_taken_is_told():
