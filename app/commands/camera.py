@@ -22,7 +22,7 @@ from lucida.app.commands.given_camera import (
     source_of,
     with_remedy,
 )
-from lucida.renderer.system.errors import LucidaError, errors_as, one_line, visible
+from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -115,7 +115,7 @@ def run(arguments: argparse.Namespace) -> int:
         sys.stdout.write(visible(text) if sys.stdout.isatty() else text)
     else:
         save_files(Path(arguments.output), files)
-        told = common.counted((len(own), "camera"))
+        told = counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_notes(found, file)
     say_changes(own, arguments.size)
