@@ -109,7 +109,8 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
     camera, reach = state.camera, around.focus.reach
     depth = depth_of(camera, around.focus.center)
     if camera.is_parallel or not depth > 0:
-        rows.instead(NO_EYE if camera.is_parallel else "none, the scene is behind the eye")
+        why = "behind the eye" if state.scene.visible else "empty"
+        rows.instead(NO_EYE if camera.is_parallel else f"none, the scene is {why}")
         return state
     scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
     changed, value = around.field("dolly zoom", depth, width, scale, DOLLY, unit=" to the focus")
