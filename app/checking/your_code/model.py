@@ -16,9 +16,8 @@ from lucida.app.checking.checked import TaskResult, judged
 from lucida.app.checking.conventions import Shot
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import cases_of
-from lucida.app.checking.task_file import builtin_tasks
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Run
-from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
@@ -62,13 +61,9 @@ def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
     return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
 
 
-def for_camera(task: CheckTask, camera: Camera) -> CheckTask:
+def ray_task_for(camera: Camera) -> CheckTask:
     """Return the task of a viewing ray for this camera's projection."""
-    return next(
-        one
-        for one in builtin_tasks(task.notation)
-        if one.kind == RAY and camera.projection == one.projection
-    )
+    return next(one for one in BUILTIN if one.kind == RAY and camera.projection == one.projection)
 
 
 def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
@@ -106,10 +101,9 @@ def canvas_pixel(
 
 @dataclass(frozen=True)
 class CodeContent:
-    """One version of a file. notation: that of the window."""
+    """One version of a file."""
 
     path: str
-    notation: Notation = "book"
     version: int = 1
 
 

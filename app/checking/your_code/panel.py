@@ -12,7 +12,7 @@ from typing import Literal
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.checking.own_words import returned, signature
-from lucida.app.checking.task_file import builtin_tasks
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import RAY, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
@@ -22,7 +22,6 @@ from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
 from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.explaining.symbols import arguments
-from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import button_width, follow, tip
@@ -49,13 +48,12 @@ TRUST = (
 )
 
 
-def invitation(host: Host) -> CodeWish:
+def invitation(fonts: Fonts) -> CodeWish:
     """Draw the panel when no file is open."""
-    notation = host.state.options.notation
-    task = next(task for task in builtin_tasks(notation) if task.kind == RAY)
+    task = next(task for task in BUILTIN if task.kind == RAY)
     wrapped(INVITATION)
-    with lettering(host.fonts.mono):
-        code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
+    with lettering(fonts.mono):
+        code = SIGNATURE.format(signature(task), arguments(returned(task), task.notation))
         imgui.text_colored(theme.DIM, code)
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):

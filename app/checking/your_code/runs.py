@@ -15,7 +15,7 @@ from pathlib import Path
 from lucida.app.checking.checked import checked, failed
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.running.file import FileStudent, NotRunnableError
-from lucida.app.checking.task_file import builtin_tasks
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask, Failure, Limits
 from lucida.app.checking.your_code.model import (
     RAY,
@@ -24,7 +24,7 @@ from lucida.app.checking.your_code.model import (
     CodeReport,
     cases_for,
     chosen_of,
-    for_camera,
+    ray_task_for,
     rays_of,
 )
 from lucida.app.ui.background import Background, Outcome
@@ -178,15 +178,14 @@ def _answered(
 ) -> CodeReport:
     """Return the file's answer for the camera. Runs on a thread. Raises LucidaError."""
     functions = student.functions()
-    asked = builtin_tasks(question.content.notation)
-    tasks = tuple(task for task in asked if task.function in functions)
+    tasks = tuple(task for task in BUILTIN if task.function in functions)
     chosen = chosen_of(tasks, question.task)
     is_known = before is not None and before.question.content == question.content
     results = before.results if before is not None and is_known else {}
     report = CodeReport(question, tasks, chosen, results=results)
     if chosen is None or chosen.kind != RAY:
         return report
-    task = for_camera(chosen, question.camera)
+    task = ray_task_for(question.camera)
     cases = cases_for(task, question.camera, question.size)
     run = student.call(KINDS[RAY].calls(task, cases))
     return replace(report, rays=rays_of(task, question.size, cases, run), output=run.output)

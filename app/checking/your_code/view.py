@@ -16,7 +16,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from lucida.app.checking.own_words import starter
-from lucida.app.checking.task_file import builtin_tasks
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.your_code import panel
 from lucida.app.checking.your_code.code_pictures import CodePictures, PicturesShown, marked_pixel
 from lucida.app.checking.your_code.editor import open_in_editor
@@ -31,11 +31,11 @@ from lucida.app.checking.your_code.panel import CodeWish
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, told_of
 from lucida.app.instruments.outside import answers
-from lucida.app.instruments.outside.diagram import Item, in_notation
+from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.second_camera import GivenRay, corner_rays, second_camera
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
 from lucida.app.ui.action import Action
@@ -158,7 +158,7 @@ class YourCode(Instrument):
             wish = self._of_file(host, path)
         else:
             self._rest()
-            wish = self._untrusted(host, path) if path else panel.invitation(host)
+            wish = self._untrusted(host, path) if path else panel.invitation(host.fonts)
         self._grant(host, self._asked or wish, path)
         self._asked = ""
 
@@ -197,7 +197,7 @@ class YourCode(Instrument):
         assert self._pictures is not None
         runs, options = self.runs, host.state.options.your_code
         version = self._saved_version(host, path)
-        content = CodeContent(path, host.state.options.notation, version)
+        content = CodeContent(path, version)
         camera = host.state.view.for_size(options.canvas)
         runs.follow(CodeQuestion(content, options.task, camera, options.canvas))
         if runs.busy:
@@ -236,7 +236,7 @@ class YourCode(Instrument):
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        items = self._items(rays, marked, end, first, host.state.options.notation)
+        items = self._items(rays, marked, end, first)
         self._outside.show(YOUR_CODE, items)
         place = report.question.content.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
@@ -263,12 +263,11 @@ class YourCode(Instrument):
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
-            notation = host.state.options.notation
             host.files.save_as_dialog(
                 "Write a file to begin with",
                 STARTER,
                 ("Python files", ".py"),
-                lambda path: self.write_starter(path, notation),
+                self.write_starter,
             )
         elif wish == "edit" and path and not open_in_editor(path):
             host.files.message = f"No editor was found. The file is {one_line(path)}."
@@ -278,10 +277,10 @@ class YourCode(Instrument):
         elif wish == "stop":
             self.runs.stop()
 
-    def write_starter(self, path: str, notation: Notation = "book") -> str:
+    def write_starter(self, path: str) -> str:
         """Write a starter file, on a thread. Raises LucidaError."""
         with atomic_write(Path(path)) as file:
-            tasks = [task for task in builtin_tasks(notation) if task.kind == RAY]
+            tasks = [task for task in BUILTIN if task.kind == RAY]
             file.write(starter(tasks).encode())
         self._written.append(path)
         return one_line(f"Wrote {path}.")
@@ -292,9 +291,7 @@ class YourCode(Instrument):
         host.edit(replace(host.options.your_code, file=stored(path), task=""))
 
 
-def _outside_items(
-    rays: CodeRays, marked: Pixel | None, end: float, first: str, notation: Notation
-) -> list[Item]:
+def _outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
     """Return a wrong answer's drawing for the outside view: the student's camera, and the rays of
     the marked pixel, or else of the first wrong one.
 
@@ -308,4 +305,4 @@ def _outside_items(
     pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
     if rays.came[pixel]:
         items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)
-    return in_notation(items, notation)
+    return items

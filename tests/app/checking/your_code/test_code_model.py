@@ -16,7 +16,7 @@ from lucida.app.checking.your_code.model import (
     CodeRays,
     canvas_pixel,
     cases_for,
-    for_camera,
+    ray_task_for,
     rays_of,
 )
 from lucida.renderer.camera.camera import Camera
@@ -68,8 +68,8 @@ def test_wrong_rays_are_marked_where_they_are():
 def test_the_task_follows_the_projection():
     perspective, parallel = task(RAY), task(RAY, "parallel")
     assert perspective != parallel
-    assert for_camera(perspective, PARALLEL) == parallel
-    assert for_camera(parallel, CAMERA) == perspective
+    assert ray_task_for(PARALLEL) == parallel
+    assert ray_task_for(CAMERA) == perspective
 
 
 def test_pixels_pass_from_the_canvas_to_the_image_and_back():
