@@ -11,7 +11,7 @@ def lecture():
     return both_lectures()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser():
     with chromium() as found:
         yield found
