@@ -17,6 +17,8 @@ from lucida.renderer.raster import Rasterizer
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import Tracer
+from lucida.renderer.trace.precompile import precompile
+from lucida.renderer.trace.tiles.variants import Variant
 from tests.support.browser import chromium
 
 # make test repeats itself; `make attack ARGS=properties` takes other examples each time.
@@ -26,9 +28,13 @@ settings.load_profile("lucida")
 
 
 def pytest_sessionstart(session):
-    """Into the cache, at once: or the first test that traces would wait for it, and hear of it. Not
+    """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
+    of it. Before several processes begin, all of it: or each of them would compile the same. Not
     where a few tests run on their own, for another processor."""
     if not hasattr(session.config, "workerinput") and "NUMBA_CPU_NAME" not in os.environ:
+        if session.config.getoption("numprocesses", None):
+            of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
+            precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
         scene = load_scene(BUILTIN_SCENES[0])
         for shadows in (False, True):
             with Tracer(scene, shadows=shadows) as tracer:
@@ -40,7 +46,7 @@ def pytest_xdist_auto_num_workers():
     return (os.cpu_count() or 1) + 2
 
 
-LONGEST = ("test_window", "test_desk", "test_isolation", "test_trace_cache", "test_scene_page")
+LONGEST = ("test_window", "test_desk", "test_scene_page")
 PAGES = ("/app/web/", "/test_widget_page.py")
 
 
