@@ -12,6 +12,7 @@ Needs fork.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import math
 import os
 import random
@@ -63,6 +64,9 @@ def attack(folder: Path, times: int, chance: random.Random, minutes: float = mat
     known: dict[str, int] = {}
     saved = 0
     round_s = _round_s(folder / "elsewhere")
+    if missed := _missed(folder / "elsewhere"):
+        print(f"a torn {missed} is not noticed: the attack sees nothing")
+        return 1
     for kill in range(times):
         if time.monotonic() > end_s:
             times = kill
@@ -151,6 +155,21 @@ def _round_s(folder: Path) -> float:
     start_s = time.monotonic()
     save_all(folder, 2, recent)
     return time.monotonic() - start_s
+
+
+def _missed(folder: Path) -> str:
+    """Plant faults that must be noticed: each file in turn is cut in its middle.
+
+    Return the name of one that is taken for whole.
+    """
+    for path in sorted(path for path in folder.iterdir() if path.suffix != ".lock"):
+        data = path.read_bytes()
+        path.write_bytes(data[: len(data) // 2])
+        with contextlib.suppress(Exception):
+            read_all(folder)
+            return path.name
+        path.write_bytes(data)
+    return ""
 
 
 def _start(folder: Path, first: int) -> int:
