@@ -109,8 +109,8 @@ def save_all(folder: Path, number: int, recent: RecentFiles) -> None:
     place = take_place(folder)
     assert place is not None
     assert place.path.name == "session-1.json", "the place of a dead process is not free"
-    windows = f"{number} " + "x" * PADDING + f" {number}"
-    place.save(to_bytes(session_of(AppState.for_scene(scene), Arrangement("", (), windows))))
+    arrangement = Arrangement(focused=f"{number} " + "x" * PADDING + f" {number}")
+    place.save(to_bytes(session_of(AppState.for_scene(scene), arrangement)))
     place.release()
 
 
@@ -135,7 +135,7 @@ def read_all(folder: Path) -> dict[str, int]:
             numbers[name] = int(eye[0])
     if (folder / "session-1.json").exists():
         session = from_bytes((folder / "session-1.json").read_bytes())
-        first, padding, last = session.arrangement.windows.split()
+        first, padding, last = session.arrangement.focused.split()
         assert padding == "x" * PADDING
         assert first == last
         numbers["session-1.json"] = int(first)
