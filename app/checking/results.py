@@ -139,7 +139,7 @@ def _lecture_text(text: str) -> str:
     """Return a lecture's text as HTML; as it is if it cannot be typeset."""
     text = shortened(text, LONGEST)
     try:
-        return written(text, "book")
+        return written(text)
     except LucidaError:
         return plain(text)
 

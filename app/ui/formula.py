@@ -127,10 +127,9 @@ def lit(latex: str, part: str) -> str:
 
 
 def vector_colors() -> dict[str, ImVec4]:
-    """Return the colours of vectors by their names in both notations."""
+    """Return the colours of vectors by their names."""
     ray = dict.fromkeys(("p", "d", "r", "origin", "direction"), theme.RAY)
-    plain = dict.fromkeys(("e", "eye"), theme.TEXT)
-    return theme.BASIS | ray | dict.fromkeys(("x", "point"), theme.MARK) | plain
+    return theme.BASIS | ray | {"x": theme.MARK, "e": theme.TEXT}
 
 
 def tinted(latex: str) -> str:

@@ -9,10 +9,9 @@ from dataclasses import replace
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import range_of
-from lucida.app.state.options.shared import Notation, Preferences, Theme
+from lucida.app.state.options.shared import Preferences, Theme
 from lucida.app.ui import layout
 from lucida.app.ui.action import Action, changing, choosing
-from lucida.app.ui.explaining import symbols
 from lucida.app.window import bookmarks
 from lucida.app.window.camera_files import CAMERA_FILES
 
@@ -22,10 +21,6 @@ FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCAL
 
 def _theme(name: Theme, title: str) -> Action:
     return choosing("View/Theme", title, "preferences.theme", name)
-
-
-def _notation(name: Notation) -> Action:
-    return choosing("View/Notation", f"Notation of {symbols.NAMES[name]}", "notation", name)
 
 
 def scaled(state: AppState, step: int) -> AppState:
@@ -165,8 +160,6 @@ LOOK = (
         changing(lambda state: scaled(state, 0)),
         "Ctrl+0",
     ),
-    _notation("book"),
-    _notation("code"),
     *(_layout(number, one) for number, one in enumerate(layout.CHOICES)),
     Action("View/Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
     Action(

@@ -14,6 +14,7 @@ import moderngl
 from imgui_bundle import hello_imgui
 
 from lucida.app.checking.your_code.view import YourCodeView
+from lucida.app.images.compare.actions import show_differing
 from lucida.app.images.pair.view import RASTER
 from lucida.app.images.renderers import Renderers
 from lucida.app.lecture.view import LECTURE, LectureView
@@ -280,7 +281,7 @@ class MainWindow(Edits):
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked
-        status_line(
+        pressed = status_line(
             Status(
                 raster_s=both.raster_s,
                 raster_factor=both.raster_factor,
@@ -288,7 +289,7 @@ class MainWindow(Edits):
                 size=both.size,
                 factor=image.factor if image else 0,
                 agreement=told(verdict, failure) or both.preparing(),
-                agrees=is_good_news(verdict, failure, state.has_effects),
+                agrees=is_good_news(verdict, failure),
                 scene=state.scene.name,
                 pixel=pixel,
                 indexing=state.options.indexing,
@@ -296,10 +297,15 @@ class MainWindow(Edits):
                 loading=self.files.loading,
                 brief=state.preferences.presentation,
                 awaited=both.is_tracing,
+                differing=bool(
+                    verdict and verdict.agrees is not None and verdict.comparison.differing
+                ),
             ),
             self.fonts,
             room,
         )
+        if pressed:
+            show_differing(self)
 
     def end(self) -> None:
         """End, once, before the context is destroyed."""

@@ -44,7 +44,7 @@ def _numbers(
     kind, size_px = KINDS[lens.model], imgui.get_font_size()
     formula(kind.latex.split(r",\quad "), size_px, f"lens {lens.model}")
     is_panorama = lens.model in ("equirectangular", "cylindrical")
-    rows.tip(spoken(PANORAMA if is_panorama else RADIUS, state.options.notation))
+    rows.tip(spoken(PANORAMA if is_panorama else RADIUS))
     # Only files hold the prism's terms (s1, sx1, ...).
     names = [name for name in MODELS[lens.model] if not name.startswith("s")]
     return _coefficients(state, draft, around, names)

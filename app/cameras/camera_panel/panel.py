@@ -26,7 +26,7 @@ from lucida.app.cameras.editing import BASIS, Draft
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import pending, rows, theme
 from lucida.app.ui.checks import checkbox, radio_button
-from lucida.app.ui.explaining.symbols import spoken, vector
+from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale
 
 ROLES = {
@@ -95,18 +95,18 @@ def _panel(
 
 def _projection(state: AppState) -> Wish | None:
     """Draw the two buttons."""
-    parallel, notation = state.camera.is_parallel, state.options.notation
+    parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
     wanted = parallel
     if radio_button("perspective", not parallel):
         wanted = False
-    rows.tip(spoken(PERSPECTIVE, notation))
+    rows.tip(spoken(PERSPECTIVE))
     style = imgui.get_style()
     if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else below: very large type
         imgui.same_line(style.window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
-    rows.tip(spoken(PARALLEL, notation))
+    rows.tip(spoken(PARALLEL))
     return None if wanted == parallel else Wish(switch_projection)
 
 
@@ -118,11 +118,10 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
         middle = (thirds.field_px - imgui.calc_text_size(letter).x) / 2
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + middle)
         imgui.text_colored(theme.DIM, letter)
-    notation = state.options.notation
     for name, (letter, role, tip) in ROLES.items():
-        label, tooltip = vector(letter, notation), spoken(tip, notation)
+        tooltip = spoken(tip)
         color = theme.BASIS.get(name, theme.PLAIN)
-        rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
+        rows.label(letter, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
         reach = around.focus.reach if name == "eye" else 1.0
         for axis, letter in enumerate("xyz"):
             thirds.go(axis)

@@ -14,7 +14,7 @@ from lucida.app.cameras.presets import clip_around
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
-from lucida.app.ui.explaining.symbols import program, spoken
+from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale, number_field
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -30,8 +30,8 @@ VIEWPORT = (
 )
 RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
 SHIFTS = (
-    ("x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
-    ("y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
+    ("u", "Off-axis: the middle of the viewport along u. Its size stays."),
+    ("v", "Off-axis: the middle of the viewport along v. Its size stays."),
 )
 DISTANCE = "`distance`: how far the image plane lies from the eye along -w, in units of w."
 FIELD_OF_VIEW = """\
@@ -131,10 +131,8 @@ def component(
 
 
 def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    notation = state.options.notation
-    symbol, role = ("d", "distance") if notation == "book" else ("distance", "")
-    tooltip = spoken(DISTANCE, notation)
-    width = rows.row(symbol, role, tooltip, around.fonts)
+    tooltip = spoken(DISTANCE)
+    width = rows.row("d", "distance", tooltip, around.fonts)
     imgui.begin_disabled(state.camera.is_parallel)
     changed, value = around.field(
         "distance",
@@ -153,7 +151,7 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Draw the distance as an angle, of the viewport as drawn."""
-    tooltip = spoken(FIELD_OF_VIEW, state.options.notation)
+    tooltip = spoken(FIELD_OF_VIEW)
     width = rows.row("field of view", "", tooltip, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
@@ -182,7 +180,7 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
 
 
 def _dolly(state: AppState, around: PanelContext) -> AppState:
-    tooltip = spoken(DOLLY, state.options.notation)
+    tooltip = spoken(DOLLY)
     width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
     camera, reach = state.camera, around.focus.reach
     depth = depth_of(camera, around.focus.center)
@@ -219,8 +217,8 @@ def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     halves = rows.Halves()
-    for axis, (place, vector, tooltip) in enumerate(SHIFTS):
-        name = f"shift {program(place, state.options.notation)}"
+    for axis, (vector, tooltip) in enumerate(SHIFTS):
+        name = f"shift {vector}"
         width = halves.label(axis, name, tooltip)
         low, high = state.camera.viewport[2 * axis : 2 * axis + 2]
         scale, color = _scale(state, around), theme.BASIS[vector]

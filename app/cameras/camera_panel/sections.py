@@ -19,7 +19,6 @@ from lucida.app.cameras.presets import look_at
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import pending, rows, theme
 from lucida.app.ui.checks import radio_button
-from lucida.app.ui.explaining.symbols import vector
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.checks import Vector
@@ -83,7 +82,7 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
     }
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
-        shown = vector("e", state.options.notation) if name == "eye" else name
+        shown = "e" if name == "eye" else name
         imgui.text_colored(theme.TEXT, shown)
         rows.tip(note)
         reach = 1.0 if name == "up" else around.focus.reach

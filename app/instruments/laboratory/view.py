@@ -98,8 +98,7 @@ class LaboratoryView(Instrument):
         reads = options.page == "function"
         place = self._read(host, size, color, corner, scale) if reads else options.point
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
-        notation = host.state.options.notation
-        self.page = self._page(size, look, options, color, exposure_ev, place, notation)
+        self.page = self._page(size, look, options, color, exposure_ev, place)
         self.figure = self._figure(self.page)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)

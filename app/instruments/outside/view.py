@@ -330,7 +330,6 @@ class OutsideView(Instrument):
             tuple(hits),
             marked,
             grid_parts=int(side_px / (GRID_PX * screen.unit_px)),
-            notation=state.options.notation,
             base=state.options.indexing.value,
             number_step=None if host.has_tools or not options.grid else step,
             meetings=found,

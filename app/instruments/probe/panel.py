@@ -20,7 +20,7 @@ from lucida.app.instruments.probe.copying import (
 )
 from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.explaining.notation import Line, number
 from lucida.app.ui.formula import formula, lit
@@ -70,7 +70,7 @@ def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> Ap
     imgui.end_disabled()
     if imgui.begin_popup("copy"):
         if imgui.menu_item_simple("LaTeX") and reading is not None:
-            imgui.set_clipboard_text(as_latex(reading, indexing, state.options.notation))
+            imgui.set_clipboard_text(as_latex(reading, indexing))
         if imgui.menu_item_simple("Python") and reading is not None:
             imgui.set_clipboard_text(as_python(reading, indexing))
         imgui.end_popup()
@@ -109,16 +109,13 @@ _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compare
 def reading_panel(
     reading: Reading,
     indexing: Indexing,
-    notation: Notation,
     fonts: Fonts,
     stage: str = "",
 ) -> None:
     """Draw the reading. stage: of the growing formula, whose term is pointed out."""
-    ray, hit, color = _written(reading, indexing, notation)
+    ray, hit, color = _written(reading, indexing)
     if _section("Ray", fonts):
-        _lines(
-            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
-        )
+        _lines(replace(one, latex=lit(one.latex, lit_in(one.latex, stage))) for one in ray)
     if reading.is_outside:
         wrapped(OUTSIDE, theme.legible(theme.MARK))
         return

@@ -107,7 +107,7 @@ class ProbeView(Instrument):
         else:
             options, position = host.state.options, host.state.options.outside.formula
             stage = stage_at(position, host.renderers.camera(host.state))
-            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
+            panel.reading_panel(reading, options.indexing, host.fonts, stage)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

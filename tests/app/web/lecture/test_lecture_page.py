@@ -254,7 +254,7 @@ def test_a_view_in_the_themes_colours_has_a_picture_of_each(opened):
 
 
 def test_a_formula_keeps_only_the_stop_after_it():
-    html = blocks_html(parse("An image of $8$ pixels, from $0$."), "book")
+    html = blocks_html(parse("An image of $8$ pixels, from $0$."))
     assert [re.sub("<.*?>", "", part) for part in re.findall(r'kept">(.*?)</span>', html)] == ["0."]
 
 

@@ -57,10 +57,10 @@ def trace_again(d):
 
 
 def show(d, **options):
-    """The layout with the view in its middle, in some state of its options; absolute, if they do
-    not say."""
+    """The layout with the view in its middle, in some state of its options; a difference without
+    marks, if they do not say."""
     d.layout(NAME)
-    d.change(compare={"mode": "absolute"} | options)
+    d.change(compare={"mode": "absolute", "causes": False} | options)
     d.settle()
 
 
@@ -209,6 +209,20 @@ def check_wipe(d, raster, ray):
         show(d, mode="wipe", divider=divider)
         seen = below_labels(shown(d))
         assert close(seen[:, handle:-handle], expected[:, handle:-handle])
+
+
+def drive_the_status_line_shows_the_pixels_that_differ(d):
+    d.change(compare={"mode": "wipe", "causes": False})
+    d.layout("Side by side")
+    d.settle()
+    assert comparison(d).differing and not d.window.is_visible(NAME)
+    d.click("//StatusBar/###differing")
+    d.settle()
+    assert d.window.is_visible(NAME)
+    assert d.options.compare.mode == "absolute"
+    found = np.argwhere((shown(d) == LABEL_COLORS[1]).all(axis=2))
+    assert len(found) >= comparison(d).explained["edge"] > 0
+    assert not d.ctx.item_exists("//###Compare/###clip"), "no cause that does not occur"
 
 
 def drive_modes_have_keys_and_can_be_undone(d):
