@@ -47,7 +47,7 @@ class MainWindow(Edits):
     its context.
 
     smooth: keep the display's rate while tracing; not needed for a picture. keeper: saves the
-    session. folder: of the list of recent files. None keeps neither.
+    session. folder: of the user's settings. None keeps neither.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class MainWindow(Edits):
         self.renderers = Renderers(self._wake, smooth)
         self.views = {view.name: view for view in make_views()}
         views = list(self.views.values())
-        self.shell = Shell(views, self.files, self.fonts, self._wake, keeper)
+        self.shell = Shell(views, self.files, self.fonts, self._wake, keeper, folder)
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
@@ -217,6 +217,7 @@ class MainWindow(Edits):
     def begin(self, context: moderngl.Context) -> None:
         """Begin, once, when the window's context is there, and current."""
         self.renderers.begin(context)
+        self.shell.documents.begin(context)
         for view in self.views.values():
             self.shell.stage.failed.begin(view, self, context)
         on_drop(self._dropped)
@@ -313,6 +314,7 @@ class MainWindow(Edits):
         self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
             view.end()
+        self.shell.documents.end()
         self.renderers.end()
         self.files.close()
         self.saving.close()

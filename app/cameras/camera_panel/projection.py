@@ -185,7 +185,9 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
     camera, reach = state.camera, around.focus.reach
     depth = depth_of(camera, around.focus.center)
     if camera.is_parallel or not depth > 0:
-        rows.instead(NO_EYE if camera.is_parallel else "none, the scene is behind the eye")
+        is_empty = not state.scene.visible
+        why = "the scene is empty" if is_empty else "the scene is behind the eye"
+        rows.instead(NO_EYE if camera.is_parallel else f"none, {why}")
         return state
     scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
     changed, value = around.field("dolly zoom", depth, width, scale, tooltip, unit=" to the focus")

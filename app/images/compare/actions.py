@@ -10,7 +10,7 @@ from lucida.app.state.options.compare import CompareMode
 from lucida.app.ui.action import Action, choosing
 from lucida.app.ui.host import Host
 
-MENU = "View/Compare"
+MENU = "Image/Compare"
 
 
 def _step(forward: bool) -> Callable[[Host], None]:

@@ -27,7 +27,7 @@ from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
-MENU = "View/Outside view"
+MENU = "Instruments/In the outside view"
 PAD = 6  # around the menu's button
 GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
 

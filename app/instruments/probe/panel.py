@@ -6,7 +6,7 @@ Takes a state and a reading, and returns a new state.
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,8 +50,13 @@ class Pin:
 # The tools above.
 
 
-def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> AppState:
-    """Draw the pixel, and the buttons. pixel: the marked one, or the one under the mouse."""
+def toolbar(
+    state: AppState, pixel: Pixel | None, reading: Reading | None, say: Callable[[str], None]
+) -> AppState:
+    """Draw the pixel, and the buttons.
+
+    pixel: the marked one, or the one under the mouse. say: reports what was copied.
+    """
     indexing = state.options.indexing
     imgui.align_text_to_frame_padding()
     words = indexing.words(pixel) if pixel is not None else "no pixel"
@@ -69,10 +74,10 @@ def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> Ap
         imgui.open_popup("copy")
     imgui.end_disabled()
     if imgui.begin_popup("copy"):
-        if imgui.menu_item_simple("LaTeX") and reading is not None:
-            imgui.set_clipboard_text(as_latex(reading, indexing))
-        if imgui.menu_item_simple("Python") and reading is not None:
-            imgui.set_clipboard_text(as_python(reading, indexing))
+        for form, written in (("LaTeX", as_latex), ("Python", as_python)):
+            if imgui.menu_item_simple(form) and reading is not None:
+                imgui.set_clipboard_text(written(reading, indexing))
+                say(f"The pixel's ray is in the clipboard: {form}.")
         imgui.end_popup()
     return state
 

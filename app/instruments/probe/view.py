@@ -85,7 +85,7 @@ class ProbeView(Instrument):
         pixel = self._pixel(host, size)
         reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
         self.reading = reading
-        host.apply(panel.toolbar(host.state, pixel, reading))
+        host.apply(panel.toolbar(host.state, pixel, reading, host.files.say))
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
