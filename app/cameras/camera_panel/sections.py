@@ -127,6 +127,7 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
         imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
         imgui.pop_text_wrap_pos()
         return state, None
+    imgui.text_colored(theme.DIM, "K intrinsics, R rotation, t translation")
     imgui.push_font(fonts.mono, 0.0)
     imgui.text("\n".join(words.read))
     imgui.pop_font()
