@@ -80,7 +80,6 @@ SCENE = (
 
 CHOOSING = (
     _toggle(MENU, "Select on click", "selects", True, False, "V"),
-    _toggle(MENU, "Add dropped models to the scene", "dropped", "add", "open"),
     _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G"),
     _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T"),
     _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L"),
