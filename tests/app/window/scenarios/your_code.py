@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
-from window_driver import Key
 
 from lucida.app.checking.tasks import Limits
 from lucida.app.checking.your_code import panel, runs
@@ -167,20 +166,6 @@ def drive_nothing_runs_that_nobody_sees(d):
     until_told(d, "Every ray is correct.")
 
 
-def drive_images_are_pictures_and_other_functions_words(d):
-    opened(
-        d,
-        "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
-        "def memory_offset(i, j, width):\n    print('asked', i)\n    return i + j * width\n",
-        "images.py",
-    )
-    until_told(d, "to_gray is wrong.")
-    d.until(lambda: view(d).pictures is not None)
-    d.change(your_code={"task": "memory-offset"})
-    until_told(d, "memory_offset is wrong.", "printed", "asked 0")
-    assert view(d).pictures is None
-
-
 def drive_the_verdict_is_read_from_afar(d):
     """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
     window's height at least, and larger than the other words."""
@@ -256,15 +241,3 @@ def children():
         ):
             found.add(int(entry.parent.name))
     return found
-
-
-def drive_presentation_leaves_the_code_in_sight(d):
-    opened(d, RIGHT)
-    layout.switch(layout.LOOPS)
-    d.until(lambda: layout.current().name == layout.LOOPS)
-    for key, presented in ((Key.f9, True), (Key.escape, False)):
-        d.press(key)
-        assert d.state.preferences.presentation is presented
-        d.frames(4)
-        assert layout.current().name == layout.LOOPS
-        assert YOUR_CODE in d.stage.rects
