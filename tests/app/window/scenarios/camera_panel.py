@@ -1,6 +1,5 @@
 """The camera panel beyond its plain numbers: what is coupled, presets, lenses, passages."""
 
-import numpy as np
 from imgui_bundle import imgui
 from window_driver import Key, changed
 
@@ -136,27 +135,6 @@ def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d):
     d.frames(2)
     d.press(Key.mod_alt | Key._2)
     d.agreeing_images()
-
-
-def drive_look_at_is_typed(d):
-    close_sections(d)
-    open_section(d, "Look at")
-    for axis, value in zip("xyz", ("0", "6", "9"), strict=True):
-        d.type(f"look.eye.{axis}", value)
-    d.click("//Camera/Look there")
-    camera = d.state.camera
-    assert camera.eye == (0, 6, 9)
-    toward = np.subtract(d.window.focus.center, camera.eye)
-    assert np.allclose(np.cross(toward, camera.w), 0)
-    assert d.steps == 1
-    for axis, value in zip("xyz", toward, strict=True):
-        d.type(f"look.up.{axis}", f"{value:.6f}")
-    d.click("//Camera/Look there")
-    assert d.state.camera == camera
-    assert "along the view direction" in str(d.window.views["Camera"].entered.look.error)
-    d.click("//###pending look/Back to the camera's own")
-    assert d.window.views["Camera"].entered.look.error is None
-    close_sections(d)
 
 
 def drive_sections_stay_as_the_user_leaves_them(d):

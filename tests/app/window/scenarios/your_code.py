@@ -4,10 +4,10 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import hello_imgui
 
 from lucida.app.checking.tasks import Limits
-from lucida.app.checking.your_code import panel, runs
+from lucida.app.checking.your_code import model
 from lucida.app.checking.your_code.view import YOUR_CODE, YourCode
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
@@ -164,41 +164,6 @@ def drive_nothing_runs_that_nobody_sees(d):
     write(d, RIGHT)
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     until_told(d, "Every ray is correct.")
-
-
-def drive_the_verdict_is_read_from_afar(d):
-    """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
-    window's height at least, and larger than the other words."""
-    sizes = {}
-    coded_text = panel.coded_text
-
-    def drawn(text, *arguments):
-        sizes[text] = imgui.get_font_size()
-        coded_text(text, *arguments)
-
-    opened(d, CORNER)
-    until_told(d, "768 of 768 rays are wrong.", "half a pixel")
-    d.until(lambda: view(d).pictures is not None)
-    stage = d.stage
-    stage.show(YOUR_CODE)
-    d.until(lambda: stage.focused == YOUR_CODE)
-    stage.maximise()
-    panel.coded_text = drawn
-    try:
-        for scale in (1.0, 1.5, 2.0, 3.0):
-            wished = {"font_scale": scale, "presentation": True}
-            d.change(preferences=wished)
-            d.settle()
-            sizes.clear()
-            d.until(lambda: "768 of 768 rays are wrong." in sizes)
-            verdict = sizes.pop("768 of 768 rays are wrong.")
-            assert verdict >= imgui.get_main_viewport().size.y / 36, scale
-            assert sizes and verdict > 1.2 * max(sizes.values()), scale
-    finally:
-        panel.coded_text = coded_text
-        stage.maximise()
-        wished = {"font_scale": 1.0, "presentation": False}
-        d.change(preferences=wished)
 
 
 def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
