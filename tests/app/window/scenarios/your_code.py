@@ -7,7 +7,7 @@ from pathlib import Path
 from imgui_bundle import hello_imgui
 
 from lucida.app.checking.tasks import Limits
-from lucida.app.checking.your_code import model
+from lucida.app.checking.your_code import runs
 from lucida.app.checking.your_code.view import YOUR_CODE, YourCode
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
