@@ -85,8 +85,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.renderer.files.cameras import Options, read_chosen, without_choice
-    from lucida.renderer.files.cameras.saving import save_files
+    from lucida.renderer.files.cameras import Options, read_chosen, save_files, without_choice
 
     # Check for quick mistakes first.
     target = _target(arguments)
@@ -100,6 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.pixel_origin,
         arguments.size,
         arguments.ignore_distortion,
+        is_binary=(arguments.output or "").lower().endswith(".glb"),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)

@@ -122,7 +122,7 @@ def formula(parts: Iterable[str], size_px: float, key: str) -> None:
 
 def lit(latex: str, part: str) -> str:
     """Return a formula with one of its parts on a ground of its own; unchanged without a part."""
-    ground = _hex(theme.FRAME_ACTIVE)
+    ground = _hex(theme.LIT)
     return latex.replace(part, rf"\bgcolor{{{ground}}}{{{part}}}", 1) if part else latex
 
 

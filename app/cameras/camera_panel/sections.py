@@ -127,6 +127,7 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
         imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
         imgui.pop_text_wrap_pos()
         return state, None
+    imgui.text_colored(theme.DIM, "K intrinsics, R rotation, t translation")
     imgui.push_font(fonts.mono, 0.0)
     imgui.text("\n".join(words.read))
     imgui.pop_font()
@@ -136,7 +137,7 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
     if state.camera.lens is not None:
         imgui.text_colored(theme.DIM, "of the pinhole, without the lens")
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.DIM, "whole numbers at pixels'")
+    imgui.text_colored(theme.DIM, "integer coordinates at pixels'")
     for name, wanted in ORIGINS:
         if radio_button(name, origin == wanted):
             state = state.with_options(replace(state.options, pixel_origin=wanted))

@@ -218,7 +218,7 @@ class OutsideView(Instrument):
             if axis is not None:
                 self.look_along(host, axis)
         labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
-        draw_labels(labels, area.origin, ground)
+        draw_labels(labels, area.origin)
         taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)

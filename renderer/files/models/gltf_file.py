@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import binascii
 import codecs
+import json
 import re
 import urllib.parse
 from pathlib import Path
@@ -256,6 +257,14 @@ def _chunks(data: bytes) -> tuple[memoryview, bytes]:
         problem = f"is no whole glTF 2.0: version {version}, {length} bytes of which {len(data)}"
         raise damaged(f"{problem} are there")
     return chunks[b"JSON"], bytes(chunks.get(b"BIN\0", b""))
+
+
+def glb_bytes(tree: dict[str, Any], binary: bytes = b"") -> bytes:
+    """Return a .glb file of a tree and its binary chunk, padded to whole words."""
+    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    chunks = [(b"JSON", text + b" " * (-len(text) % 4)), *[(b"BIN\0", binary)] * bool(binary)]
+    content = b"".join(len(data).to_bytes(4, "little") + kind + data for kind, data in chunks)
+    return b"glTF" + (2).to_bytes(4, "little") + (12 + len(content)).to_bytes(4, "little") + content
 
 
 class OpenGltf:

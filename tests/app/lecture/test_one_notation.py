@@ -4,7 +4,6 @@ import re
 
 import pytest
 
-from lucida.app.cameras.camera_panel import panel, projection
 from lucida.app.checking.mistakes.rays import RayTask, ray_program
 from lucida.app.checking.own_words import starter
 from lucida.app.checking.task_file import builtin_tasks
@@ -32,12 +31,6 @@ def stepper():
             yield from shown_lines(source_of(program).lines, indexing)
 
 
-def camera_panel():
-    tips = [*(tip for *_, tip in panel.ROLES.values()), panel.PERSPECTIVE, panel.PARALLEL]
-    for tip in (*tips, projection.DISTANCE, projection.DOLLY, projection.FIELD_OF_VIEW):
-        yield from symbols.words(tip).split("`")[1::2]
-
-
 def starters():
     """Yield the functions' arguments; tasks have no letters for a point's x and y."""
     for task in builtin_tasks("book"):
@@ -45,7 +38,7 @@ def starters():
         yield re.sub(r"\b(x|y|point)\b", "", head)
 
 
-@pytest.mark.parametrize("shown", [mistakes, stepper, camera_panel, starters])
+@pytest.mark.parametrize("shown", [mistakes, stepper, starters])
 def test_no_symbol_is_spelled_as_a_word(shown):
     found = list(shown())
     assert found and not any(words_in(text) for text in found)
@@ -57,11 +50,3 @@ def words_in(code):
 
 def test_the_same_texts_are_written_with_words():
     assert any(any(map(words_in, source_of(one).lines)) for one in PROGRAMS)
-    assert words_in(panel.PERSPECTIVE.split("`")[1]) == {
-        "eye",
-        "x",
-        "y",
-        "distance",
-        "direction",
-        "origin",
-    }
