@@ -44,6 +44,7 @@ REMOVED: dict[str, Removed] = {
     "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
     "presets_in_perspective": Removed("presets are parallel; P switches the projection", False),
     "objects.along": Removed("handles are along the world's axes", "world"),
+    "objects.dropped": Removed("a dropped model is asked about", "ask"),
     "objects.snaps": Removed("the inspector's fields take exact numbers", False),
     "stepper.order": Removed("both algorithms are always side by side", "both"),
     "costs.triangles": Removed("the cost plot shows recorded images", 10_000),

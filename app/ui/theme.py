@@ -114,7 +114,7 @@ def follow(preferences: Preferences, in_lecture: bool = False) -> None:
     scale = style.font_scale_dpi * look.scale
     # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
     if height_px <= 0 or (
-        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)
+        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)  # noqa: SLF001, no public way
     ):
         return
     _used[0] = look

@@ -140,8 +140,8 @@ def on_drop(dropped: Callable[[list[str]], None]) -> None:
 
         # glfw.set_drop_callback() takes all names for UTF-8, and fails at others.
         binding: Any = glfw
-        _on_drop[:] = [binding._GLFWdropfun(call)]
-        binding._glfw.glfwSetDropCallback(window, _on_drop[0])
+        _on_drop[:] = [binding._GLFWdropfun(call)]  # noqa: SLF001, no public way
+        binding._glfw.glfwSetDropCallback(window, _on_drop[0])  # noqa: SLF001
 
 
 _on_drop: list[Any] = []  # what is called lives as long as the window

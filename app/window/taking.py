@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Literal, Protocol
+from typing import Protocol
 
 from lucida.app.checking.your_code.view import YourCodeView
 from lucida.app.images.photograph.model import with_photograph
@@ -135,28 +135,13 @@ def _is_for_the_scene(state: AppState, opened: OpenedScene) -> bool:
 
 
 def _add_or_open(window: Taker, opened: OpenedScene, open_: Callable[[], None]) -> None:
-    """Add such a model, or open it. Ask which the first time; the answer is an option, which the
-    menu Scene changes.
-    """
-    model, objects = opened.scene, window.options.objects
-    wanted = "add" if opened.use == "add" else objects.dropped
-
-    def answered(answer: Literal["add", "open"], do: Callable[[], None]) -> None:
-        window.amend(window.state.with_options(replace(objects, dropped=answer)))
-        do()
-
-    if wanted == "open":
-        open_()
-    elif wanted == "add":
+    """Add such a model, or ask whether to open it instead."""
+    model = opened.scene
+    if opened.use == "add":
         _add(window, model)
-    else:
-        window.files.ask(
-            one_line(f"{model.name}: add the model to the scene? Later ones go the same way."),
-            {
-                ADD: lambda: answered("add", lambda: _add(window, model)),
-                OPEN: lambda: answered("open", open_),
-            },
-        )
+        return
+    answers = {ADD: lambda: _add(window, model), OPEN: open_}
+    window.files.ask(one_line(f"{model.name}: add the model to the scene?"), answers)
 
 
 def _add(window: Taker, model: Scene) -> None:

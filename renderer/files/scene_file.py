@@ -64,30 +64,29 @@ def new_keys(count: int) -> tuple[int, ...]:
 def read_scene_file(path: Path) -> Scene:
     """Return the scene in a file. Raises LucidaError naming the file, the field and the remedy."""
     data = read_file(path, TOML_BYTES)
-    scene = scene_from_toml(decode_text(data, str(path)), path.parent, str(path), path.stem)
-    assert scene.origin is not None
-    scene.origin.saved.text = data.decode()  # with its byte order mark
-    return scene
+    decode_text(data, str(path))
+    return scene_from_toml(data.decode(), path.parent, str(path), path.stem)
 
 
 def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
-    """Return the scene in a text.
+    """Return the scene in a text, which may begin with a byte order mark.
 
     folder: the start of its paths.
     source: the file, for errors.
     name: the scene's, if the file has none.
     """
     with naming(source):
-        scene = scene_from_tables(parse_toml(text), folder, name)
-    assert scene.origin is not None
-    scene.origin.saved.text = text
-    return scene
+        return scene_from_tables(parse_toml(text), folder, name, text)
 
 
-def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> Scene:
-    """Return the scene of a scene file's tables, for scenes inside other files."""
+def scene_from_tables(
+    tables: dict[str, Any], folder: Path, name: str = "", text: str = ""
+) -> Scene:
+    """Return the scene of a scene file's tables. text: the file's own; "" for tables inside
+    another file.
+    """
     keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
-    return _scene(Origin("", tables, folder), keys, name, SavedFile(None, "", tables, keys))
+    return _scene(Origin("", tables, folder), keys, name, SavedFile(None, text, tables, keys))
 
 
 def _keys_of(tables: dict[str, Any], kind: str, default: Sequence[Any]) -> tuple[int, ...]:

@@ -15,6 +15,7 @@ from lucida.renderer.files.reading import suggestion
 from lucida.renderer.scene.limits import KEY_PARTS
 from lucida.renderer.system.errors import LucidaError
 
+MARK = "\ufeff"  # of the byte order, as Windows writes it
 VERSION = 1  # of the formats of scene and view files: their key `lucida`
 
 _KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
@@ -35,6 +36,7 @@ def parse_toml(text: str) -> dict[str, Any]:
 
     A key `lucida` above VERSION is refused here, before fields that this program cannot know.
     """
+    text = text.removeprefix(MARK)
     # The parser takes quadratic time for keys of many parts.
     if long_key := _LONG_KEY.search(text):
         line = text.count("\n", 0, long_key.start()) + 1

@@ -233,7 +233,7 @@ CAMERA = (
         is_on=lambda state: state.camera.lens is None,
         separated=True,
     ),
-    choosing("Camera", "Jump without transition", "preferences.reduced_motion", True, off=False),
+    choosing("Camera", "Animate camera changes", "preferences.reduced_motion", False, off=True),
 )
 
 EDIT = (

@@ -130,7 +130,7 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
     if state.camera.lens is not None:
         imgui.text_colored(theme.DIM, "of the pinhole, without the lens")
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(theme.DIM, "whole numbers at pixels'")
+    imgui.text_colored(theme.DIM, "integer coordinates at pixels'")
     for name, wanted in ORIGINS:
         if radio_button(name, origin == wanted):
             state = state.with_options(replace(state.options, pixel_origin=wanted))

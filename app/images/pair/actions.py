@@ -158,7 +158,7 @@ PIXELS = (
 )
 LINEAR = choosing(
     "Image",
-    "Linear light without sRGB's curve",
+    "Linear light (no sRGB curve)",
     "images.transfer",
     "linear",
     "Alt+L",

@@ -94,7 +94,7 @@ class RasterView(PairView):
         "Brighter": "exposure ev",
         "Darker": "exposure ev",
         "Exposure 0": "reset ev brightness",
-        "Linear light without sRGB's curve": "gamma transfer",
+        "Linear light (no sRGB curve)": "gamma transfer",
         "Straight lines": "lens distortion grid bend curve",
         "Clear mark": "deselect unmark pixel",
         "Custom size...": "resolution width height",

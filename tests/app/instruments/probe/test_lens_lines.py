@@ -52,3 +52,8 @@ def test_outside_of_the_lens_no_ray_is_written():
     shown = as_latex(reading, Indexing.LECTURE)
     assert "none" in shown and "nan" not in shown.lower()
     assert "no direction" in OUTSIDE
+
+
+def test_below_the_middle_the_negative_v_has_brackets():
+    lines = all_lines(Probe(BALL).at((40, 37), replace(CAMERA, lens=Lens("brown")), SIZE))
+    assert r"-\frac{(-" in line(lines, "distorted").latex_numbers

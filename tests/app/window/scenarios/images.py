@@ -2,12 +2,11 @@
 
 import numpy as np
 from imgui_bundle import imgui
-from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
+from shown_pixels import ALT, choose, counting, pixels, without_overlays
 from window_driver import SIZE, Key
 
 from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
-from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.raster import Display
 
 
@@ -97,38 +96,6 @@ def drive_channels_follow_a_drag(d):
     hits = frame.depth[np.isfinite(frame.depth)]
     assert abs(near - hits.min()) < 1e-4
     assert abs(far - hits.max()) < 1e-3
-
-
-def drive_resolutions_are_fixed_and_fitted(d):
-    window, both = d.window, d.renderers
-    for text, size in (("16 x 9", (16, 9)), ("4 x 3", (4, 3)), ("1280 x 720", (1280, 720))):
-        choose(d, f"Resolution/{text}")
-        assert both.size == size
-        for name in (RASTER, RAY):
-            at = placement(d, name)
-            assert at.visible_parts == (0, 0, 1, 1)
-            left, top, right, bottom = d.rect(name)
-            scale = framebuffer_scale()
-            assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
-        assert at.whole == (size[0] < 1000)
-    # A size of one's own.
-    d.press(ALT | Key.s)
-    d.ctx.key_chars_replace_enter("nonsense")
-    d.frames(3)
-    assert both.size == (1280, 720)
-    assert "nonsense" in window.box.problem
-    d.ctx.key_chars_replace_enter("37x23")
-    d.frames(3)
-    d.settle()
-    assert both.size == (37, 23)
-    assert window.box is None
-    d.press(ALT | Key.w)
-    d.settle()
-    assert window.state.images.resolution is None
-    while window.can_undo():
-        window.undo()
-    d.settle()
-    assert window.state == d.start
 
 
 def drive_the_strip_does_the_same(d):

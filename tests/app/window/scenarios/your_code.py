@@ -4,11 +4,10 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from imgui_bundle import hello_imgui, imgui
-from window_driver import Key
+from imgui_bundle import hello_imgui
 
 from lucida.app.checking.tasks import Limits
-from lucida.app.checking.your_code import model, panel
+from lucida.app.checking.your_code import model
 from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
@@ -27,15 +26,6 @@ def viewing_ray(i, j, width, height, camera):
     return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
 """
 CORNER = RIGHT.replace("(j + 0.5)", "j")
-TASKS = """
-lucida = 1
-[conventions]
-pixels_from = 1
-[[tasks]]
-kind = "viewing-ray"
-name = "counting"
-projection = "both"
-"""
 
 
 def view(d):
@@ -73,7 +63,6 @@ def drive_without_a_file_it_helps_to_begin(d):
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
     d.frames(8)
-    d.picture()
     d.click(f"{WINDOW}/Write a file to begin with...")
     dialog = d.files.dialog
     if dialog.is_open:  # the window's own: there is no system's here
@@ -81,14 +70,12 @@ def drive_without_a_file_it_helps_to_begin(d):
     view(d).write_starter(str(d.folder / "begun.py"))
     d.until(lambda: d.options.your_code.file == stored(str(d.folder / "begun.py")))
     until_told(d, "viewing_ray returns nothing yet")
-    d.picture()
 
 
 def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     opened(d, RIGHT)
     until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
-    d.picture()
     pictures = view(d).pictures
     assert pictures.size == (32, 24)
     assert (pictures.given == pictures.right).all()
@@ -107,7 +94,6 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     d.window.open("spheres")
     d.until(lambda: d.state.scene.name == "spheres")
     d.settle()
-    d.picture()
 
 
 def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
@@ -118,7 +104,6 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     assert any(item.name == "second edges" for item in outside.extensions.lines)
     pictures = view(d).pictures
     assert (pictures.given != pictures.right).any()
-    d.picture()
     info = d.box(f"{WINDOW}/right")
     d.click_at((info.min.x + 1.0, info.min.y + 1.0))
     assert d.state.marked is not None
@@ -128,10 +113,8 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     d.until(lambda: not any(item.name == "second edges" for item in outside.extensions.lines))
     write(d, RIGHT + "\ndef broken(:\n")
     until_told(d, "SyntaxError", "line 10")
-    d.picture()
     write(d, RIGHT.replace("x = camera.left", "x = camera.lft"))
     until_told(d, "rays.py, line 2", "lft")
-    d.picture()
     (d.folder / "rays.py").unlink()
     view(d).ask("run")
     until_told(d, "does not exist")
@@ -149,14 +132,12 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
         d.frames()
         frames += 1
     assert runs.busy
-    d.picture()
     processes = children()
     assert processes
     view(d).ask("stop")
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
     d.until(lambda: not runs.busy)
     d.until(lambda: not (children() & processes))
-    d.picture()
     version = view(d).report.question.content.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
@@ -186,77 +167,6 @@ def drive_nothing_runs_that_nobody_sees(d):
     until_told(d, "Every ray is correct.")
 
 
-def drive_images_are_pictures_and_other_functions_words(d):
-    opened(
-        d,
-        "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
-        "def memory_offset(i, j, width):\n    print('asked', i)\n    return i + j * width\n",
-        "images.py",
-    )
-    until_told(d, "to_gray is wrong.")
-    d.until(lambda: view(d).pictures is not None)
-    d.picture()
-    d.change(your_code={"task": "memory-offset"})
-    until_told(d, "memory_offset is wrong.", "printed", "asked 0")
-    assert view(d).pictures is None
-    d.picture()
-
-
-def drive_a_course_s_tasks_are_asked(d):
-    course = d.folder / "hw2.toml"
-    course.write_text(TASKS)
-    opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
-    until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
-    d.drop([str(course)])
-    d.until(lambda: d.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is correct.", "counting: correct in all of")
-    d.picture()
-    course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
-    until_told(d, "768 of 768 rays are wrong.")
-    course.write_text("lucida = 1\n")
-    until_told(d, "hw2.toml", "tasks")
-    d.click(f"{WINDOW}/###tasks")
-    d.click("//$FOCUSED/built-in tasks")
-    d.until(lambda: d.options.your_code.tasks == "")
-    until_told(d, "768 of 768 rays are wrong.")
-
-
-def drive_the_verdict_is_read_from_afar(d):
-    """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
-    window's height at least, and larger than the other words."""
-    sizes = {}
-    coded_text = panel.coded_text
-
-    def drawn(text, *arguments):
-        sizes[text] = imgui.get_font_size()
-        coded_text(text, *arguments)
-
-    opened(d, CORNER)
-    until_told(d, "768 of 768 rays are wrong.", "half a pixel")
-    d.until(lambda: view(d).pictures is not None)
-    stage = d.stage
-    stage.show(YOUR_CODE)
-    d.until(lambda: stage.focused == YOUR_CODE)
-    stage.maximise()
-    panel.coded_text = drawn
-    try:
-        for scale in (1.0, 1.5, 2.0, 3.0):
-            wished = {"font_scale": scale, "presentation": True}
-            d.change(preferences=wished)
-            d.settle()
-            sizes.clear()
-            d.until(lambda: "768 of 768 rays are wrong." in sizes)
-            d.picture()
-            verdict = sizes.pop("768 of 768 rays are wrong.")
-            assert verdict >= imgui.get_main_viewport().size.y / 36, scale
-            assert sizes and verdict > 1.2 * max(sizes.values()), scale
-    finally:
-        panel.coded_text = coded_text
-        stage.maximise()
-        wished = {"font_scale": 1.0, "presentation": False}
-        d.change(preferences=wished)
-
-
 def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     ran = d.folder / "ran"
     ran.unlink(missing_ok=True)
@@ -272,12 +182,10 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     d.until(lambda: YOUR_CODE in d.stage.rects)
     d.settle()
     assert not view(d).runs.busy and view(d).report is None and not ran.exists()
-    d.picture()
     d.click(f"{WINDOW}/Run it")
     until_told(d, "Every ray is correct.")
     assert ran.exists()
     d.settle()
-    d.picture()
     d.window.lecture.leave(d.window)
     d.frames(5)
     d.settle()
@@ -299,15 +207,3 @@ def children():
         ):
             found.add(int(entry.parent.name))
     return found
-
-
-def drive_presentation_leaves_the_code_in_sight(d):
-    opened(d, RIGHT)
-    layout.switch(layout.LOOPS)
-    d.until(lambda: layout.current().name == layout.LOOPS)
-    for key, presented in ((Key.f9, True), (Key.escape, False)):
-        d.press(key)
-        assert d.state.preferences.presentation is presented
-        d.frames(4)
-        assert layout.current().name == layout.LOOPS
-        assert YOUR_CODE in d.stage.rects
